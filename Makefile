@@ -14,6 +14,9 @@ BIN := $(abspath $(VENV))/bin
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 NPM := npm --loglevel=error --no-fund --no-audit --no-update-notifier
 
+# One worker more than there are cores: a test that waits for a server leaves its core to another one.
+PYTEST = -m pytest --quiet --numprocesses $$(($$(nproc) + 1)) --maxprocesses 5 --dist loadfile --no-loadscope-reorder
+
 # Arguments for the server: make run ARGS="--port 9000"
 ARGS ?=
 
@@ -31,7 +34,7 @@ help:
 	@echo "make check   lint, types and layers only"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
-	@echo "make features  write docs/features.md: the features of the standard and the cases that show them"
+	@echo "make features  write the pages of docs/ that are generated: features, standard library, REST API"
 	@echo "make shots   take the README's screenshots again"
 	@echo "make wire    generate the browser's types from the backend's messages"
 	@echo "make lock    resolve the dependencies again and write the lock files"
@@ -64,7 +67,7 @@ fuzz: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.programs $(N) $(SEED)
 
 features: $(VENV)/.stamp-dev
-	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page
+	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page && $(BIN)/python -m tests.api_page
 
 shots: setup-test
 	@cd e2e && $(NPM) run shots
@@ -80,7 +83,7 @@ layers:
 	@cd backend && $(BIN)/lint-imports --no-logo
 
 unit:
-	@cd backend && $(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4 --dist loadfile
+	@cd backend && $(BIN)/python $(PYTEST)
 
 # The debug adapter, with a client that is not ours.
 adapter:

@@ -1,6 +1,8 @@
 """What the package is built with: its dependencies are those of requirements.in, models and the built page go into it."""
 
 import re
+import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,14 @@ SHARE = "scanbench/share"
 """Where the package looks for what stands beside `backend` in a checkout."""
 BUILDS = "hatchling"
 """Needed to build, and not to run."""
+BROUGHT = (
+    ("models", "models", "model.xsd"),
+    ("frontend/dist", "frontend", "index.html"),
+    ("frontend/dist/.vite/license.md", "NOTICES.md", ""),
+    ("LICENSE", "LICENSE", ""),
+    ("CHANGELOG.md", "CHANGELOG.md", ""),
+)
+"""Place in the checkout, name in the package, and a file in it without which it is not there."""
 
 
 class Dependencies(MetadataHookInterface):
@@ -35,8 +45,13 @@ class Share(BuildHookInterface[BuilderConfig]):
         if version == "editable":
             return
         checkout = Path(self.root).parent
-        for path, name, mark in (
-            ("models", "models", "model.xsd"), ("frontend/dist", "frontend", "index.html"), ("LICENSE", "LICENSE", ""),
-        ):  # fmt: skip
+        for path, name, mark in BROUGHT:
             if (checkout / path / mark).exists():  # a source distribution has them in their place already
                 build_data["force_include"][str(checkout / path)] = f"{SHARE}/{name}"
+        if (checkout / "vscode" / "package.json").exists():
+            sys.path.insert(0, self.root)
+            from scanbench.cli.vsix import NAME, pack
+
+            path = Path(tempfile.mkdtemp(), NAME)
+            path.write_bytes(pack(checkout / "vscode"))
+            build_data["force_include"][str(path)] = f"{SHARE}/{NAME}"

@@ -24,6 +24,8 @@ export default defineConfig({
   // The page also stands at `/i/3/scan/4711`: what it needs is at the root.
   base: "/",
   build: {
+    // The licences of what is bundled go into the wheel (`.vite/license.md`).
+    license: true,
     // Monaco is one chunk of 4 MB by nature; it is loaded after the shell has painted, and stays the same when the page changes.
     chunkSizeWarningLimit: 5000,
     rolldownOptions: {

@@ -92,13 +92,13 @@ class _Plc:
         self.instance.start()
         async with asyncio.timeout(_START_S):
             await self._until(lambda state: state.state == "paused")
-            await self.instance.drive(protocol.Drive(0, "scan", None, "bench"))
+            await self.instance.ask(lambda ref: protocol.Drive(ref, "scan", None, "bench"), protocol.Ack)
             await self._until(lambda state: state.scan > 0)
         return (perf_counter() - start) * 1000
 
     async def run(self) -> None:
         """Goes on at its pace, measured from now on."""
-        await self.instance.drive(protocol.Drive(0, "continue", None, "bench"))
+        await self.instance.ask(lambda ref: protocol.Drive(ref, "continue", None, "bench"), protocol.Ack)
 
     def _on_state(self, _: PlcState) -> None:
         self._heard = perf_counter()

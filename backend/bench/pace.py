@@ -1,4 +1,4 @@
-"""What the scan loop can do: scans a second, lateness at a pace, what a condition and a knock cost.
+"""What the scan loop can do: scans a second, lateness at a pace, what a condition and an interrupt cost.
 
 `python -m bench.pace [--seconds N]`. The sample conveyor on the native engine, in this process, with a journal:
 without the process of a host around it, which comes back twenty times a second to take values and checkpoints.
@@ -32,7 +32,7 @@ CONDITION = "Main.belt.position < -1.0 AND motor"
 """Never holds, and is looked at after every scan."""
 SAMPLES = 5
 SCANS = 1_000_000
-KNOCKS = 100_000
+INTERRUPTS = 100_000
 WAKES = 50
 
 
@@ -59,10 +59,10 @@ class PaceFigures:
     scan_ns: float
     condition_ns: float
     """A scan that a condition is looked at after."""
-    knock_ns: float
+    interrupt_ns: float
     """The call."""
     wake_us: float
-    """From a knock until the loop, which slept, has come back."""
+    """From an interrupt until the loop, which slept, has come back."""
     paces: tuple[Kept, ...]
 
     @property
@@ -88,7 +88,7 @@ def run_pace_bench(seconds: float = 5) -> PaceFigures:
         with_condition.append(_scan_ns(engine))
     engine.stop_when(None)
     paces = tuple(_pace(engine, each, seconds) for each in PERIODS_MS)
-    return PaceFigures(speed, median(plain), median(with_condition), _knock_ns(engine), _wake_us(engine), paces)
+    return PaceFigures(speed, median(plain), median(with_condition), _interrupt_ns(engine), _wake_us(engine), paces)
 
 
 def _program() -> Program:
@@ -132,29 +132,29 @@ def _pace(engine: Engine, period_ms: int, seconds: float) -> Kept:
     )
 
 
-def _knock_ns(engine: Engine) -> float:
+def _interrupt_ns(engine: Engine) -> float:
     start = perf_counter_ns()
-    for _ in range(KNOCKS):
-        engine.knock()
+    for _ in range(INTERRUPTS):
+        engine.interrupt()
     spent = perf_counter_ns() - start
-    engine.run(1)  # takes the knock
-    return round(spent / KNOCKS, 1)
+    engine.run(1)  # takes the interrupt
+    return round(spent / INTERRUPTS, 1)
 
 
 def _wake_us(engine: Engine) -> float:
-    """The median, with another thread that knocks at a loop that would sleep for long."""
+    """The median, with another thread that interrupts a loop that would sleep for long."""
     taken = []
     for _ in range(WAKES):
-        knocked = [0]
+        interrupted = [0]
 
-        def knock(at: list[int] = knocked) -> None:
+        def interrupt(at: list[int] = interrupted) -> None:
             at[0] = perf_counter_ns()
-            engine.knock()
+            engine.interrupt()
 
-        timer = threading.Timer(0.005, knock)
+        timer = threading.Timer(0.005, interrupt)
         timer.start()
         engine.run(1, Pace(60_000_000_000, monotonic_ns() + 60_000_000_000))
-        taken.append(perf_counter_ns() - knocked[0])
+        taken.append(perf_counter_ns() - interrupted[0])
         timer.join()
     return round(median(taken) / 1000, 1)
 
@@ -164,7 +164,7 @@ def report(figures: PaceFigures) -> str:
     lines = [
         f"as fast as possible   {figures.scans_per_second:,.0f} scans a second, {figures.scan_ns:.1f} ns each",
         f"with a condition      {figures.condition_ratio:.2f} of a scan without",
-        f"a knock               {figures.knock_ns:.0f} ns; {figures.wake_us:.0f} us until a sleeping loop is back",
+        f"an interrupt          {figures.interrupt_ns:.0f} ns; {figures.wake_us:.0f} us until a sleeping loop is back",
     ]
     lines += [
         f"every {each.period_ms:2} ms           {each.mean_late_us:.0f} us late in the mean, {each.worst_late_us:.0f} us at worst, "

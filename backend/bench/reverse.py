@@ -99,7 +99,7 @@ def run_reverse(scans: int = SCANS) -> Result:
     with tempfile.TemporaryDirectory() as folder:
         timeline = Timeline.begin(Path(folder, "run"), _One(checked.program), 1, SOURCE.encode(), ENTRIES, "bench")
         debugger = Debugger(timeline, _Nobody())
-        debugger.prober = ProbedBuilds().engine
+        debugger.search_with(ProbedBuilds().engine)
         begin = perf_counter_ns()
         while timeline.live_scan < scans:
             debugger.run(scans - timeline.live_scan)

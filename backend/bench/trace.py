@@ -87,7 +87,7 @@ def _timed(resource: Resource, scans: int, trace: Trace | None = None) -> float:
     resource.run(1)  # what is compiled is compiled then
     begin = time.perf_counter_ns()
     while (left := scans - resource.header.scan) > 0:
-        if resource.run(left).reason not in (Reason.DONE, Reason.KNOCKED):
+        if resource.run(left).reason not in (Reason.DONE, Reason.INTERRUPTED):
             raise RuntimeError("the program stopped")
         if trace is not None:
             trace.drain(resource.header.scan)

@@ -29,7 +29,7 @@ class Span:
         return Span(self.file, self.line, self.column, last.end_line, last.end_column)
 
     def plain(self) -> "Span":
-        """The same, with nothing behind it that could change or take room."""
+        """The same, as plain data: no source text is kept alive by it."""
         return self
 
     def __str__(self) -> str:
@@ -54,7 +54,7 @@ class Problem:
 
 
 def perhaps(near: Iterable[str]) -> str:
-    """A sentence that follows another one: ` Did you mean `x` or `y`?`; nothing where no name is near."""
+    """A sentence that follows a message: ` Did you mean `x` or `y`?`; nothing where no name is near."""
     names = " or ".join(f"`{each}`" for each in near)
     return f" Did you mean {names}?" if names else ""
 
@@ -77,7 +77,7 @@ TABLE: dict[str, str] = {
     "D004": "initial value that is not constant or does not fit",
     "D005": "address that the model does not have, or that does not fit the type",
     "D006": "array bounds or string length that make no sense",
-    "D007": "VAR_EXTERNAL without its VAR_GLOBAL, or of another type",
+    "D007": "VAR_EXTERNAL without its VAR_GLOBAL, or of a different type",
     "D008": "section that is not allowed here",
     "D009": "recursion",
     "D010": "configuration that names something unknown",
@@ -92,7 +92,7 @@ TABLE: dict[str, str] = {
     "T004": "call with wrong arguments",
     "T005": "in-out that is not connected, or cannot be",
     "T006": "condition that is not BOOL",
-    "T007": "CASE label that is not constant or stands twice",
+    "T007": "CASE label that is not constant or occurs twice",
     "T008": "FOR loop that cannot be counted",
     "T009": "EXIT or CONTINUE outside of a loop",
     "T010": "something that can be called, read or indexed only elsewhere",

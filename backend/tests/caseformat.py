@@ -12,7 +12,8 @@ from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.symbols.symbols import Symbol, UnknownPath, at_offset, resolve
+from scanbench.symbols.names import names_of
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.values import format_value, parse_value
 from scanbench.symbols.violations import read_violations
 from scanbench.syntax.literals import date_and_time, duration
@@ -170,7 +171,7 @@ def first_difference(program: Program, a: bytearray, b: bytearray) -> str:
     if a[:size] == b[:size]:
         return ""
     at = next(index for index in range(size) if a[index] != b[index])
-    return f"{at_offset(program, at)} (byte {at}): {a[at : at + 8].hex()} and {b[at : at + 8].hex()}"
+    return f"{names_of(program).path(at)} (byte {at}): {a[at : at + 8].hex()} and {b[at : at + 8].hex()}"
 
 
 def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) -> None:

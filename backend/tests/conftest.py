@@ -1,8 +1,9 @@
-"""What every test shares: how hypothesis searches, and that Ctrl-C reaches it."""
+"""What every test shares: how hypothesis searches, that Ctrl-C reaches it, and that what takes long begins first."""
 
 import os
 import signal
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # The same examples on every run: a red test stays red until it is mended. SCANBENCH_EXPLORE=1 goes looking for new ones.
@@ -15,3 +16,11 @@ settings.load_profile("explore" if os.environ.get("SCANBENCH_EXPLORE") else "ste
 # A shell starts what it runs in the background with Ctrl-C ignored, and the tests of Ctrl-C would wait for ever.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+LONG = ("tests/web/", "tests/test_", "tests/engines/")
+"""Files of minutes: begun last, they would keep one worker at work alone."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The workers take whole files in this order, and end together."""
+    items.sort(key=lambda item: not item.nodeid.startswith(LONG))

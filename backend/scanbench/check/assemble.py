@@ -14,7 +14,8 @@ from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
 from scanbench.program.copies import copies_of
 from scanbench.program.layout import Layout
-from scanbench.program.program import Base, Place, Pou, Program, ProgramInstance, Task
+from scanbench.program.program import Base, Place, Pou, Program
+from scanbench.program.tasks import ProgramInstance, Task
 from scanbench.program.types import BOOL, Kind, Member, Record, Section
 from scanbench.syntax import tree
 

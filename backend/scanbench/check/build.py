@@ -36,7 +36,8 @@ from scanbench.plcmodel.model import Model, Who
 from scanbench.plcmodel.user_errors import extended, is_user_errors
 from scanbench.problems import Problem, Severity, Span
 from scanbench.program.origin import in_library, is_system
-from scanbench.program.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
+from scanbench.program.program import Assign, Base, Const, Expr, Place, Pou, Program
+from scanbench.program.sites import CheckSite
 from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
 from scanbench.public import Public
 from scanbench.syntax import tree

@@ -9,7 +9,8 @@ from heapq import nlargest
 from itertools import pairwise
 
 from scanbench.problems import Problem, Severity, Span, perhaps
-from scanbench.program.program import CheckSite, Pou, TrapKind, TrapSite
+from scanbench.program.program import Pou
+from scanbench.program.sites import CheckSite, TrapKind, TrapSite
 
 
 class Rejected(Exception):

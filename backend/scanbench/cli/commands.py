@@ -12,10 +12,10 @@ from scanbench.cli.replay import replay
 from scanbench.cli.run import run
 from scanbench.cli.serve import serve
 from scanbench.cli.verify import verify
+from scanbench.cli.vscode import vscode
 
 app = typer.Typer(
     no_args_is_help=True,
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -25,6 +25,7 @@ for command in (serve, check, run, verify, replay, diff, dap):
     app.command()(command)
 app.add_typer(model, name="model")
 app.add_typer(errors, name="errors")
+app.add_typer(vscode, name="vscode")
 
 
 @app.callback(invoke_without_command=True)

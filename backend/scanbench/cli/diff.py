@@ -1,4 +1,4 @@
-"""`scanbench diff`: two recorded runs beside each other: where they part first, and why."""
+"""`scanbench diff`: two recorded runs, compared: where they differ first, and why."""
 
 import json
 from collections.abc import Mapping
@@ -8,6 +8,7 @@ from pathlib import Path
 import typer
 
 from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
+from scanbench.cli.interrupt import leaving
 from scanbench.history.contract import Change, Divergence
 from scanbench.history.divergence import find_divergence
 from scanbench.history.engines import past_engines, programs_of
@@ -29,13 +30,13 @@ def diff(
     run2: Path = typer.Argument(metavar="RUN2", help="The run that it is compared with: B."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:  # fmt: skip
-    """Compare two runs scan by scan: the first scan behind which anything differs, and what.
+    """Compare two runs scan by scan: the first scan after which anything differs, and what.
 
     Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here; 4: the same, but
     a file is damaged, and a part of its run is lost.
     """
     make, _ = past_engines()
-    of = programs_of(_Checked().program, make)
+    of = programs_of(_Checked().program, leaving(make))
     try:
         with Reading(run1, of, ENTRIES, _texts) as one, Reading(run2, of, ENTRIES, _texts) as other:
             lost = [tell_damage(path, reading.follow().recording) for path, reading in ((run1, one), (run2, other))]
@@ -104,7 +105,7 @@ def _text(found: Divergence) -> list[str]:
     if changes is not None and changes.changes:
         lines += [
             "",
-            f"{changes.count:,} variable{'s' * (changes.count != 1)} differ{'s' * (changes.count == 1)} behind it:",
+            f"{changes.count:,} variable{'s' * (changes.count != 1)} differ{'s' * (changes.count == 1)} after it:",
         ]
         lines += _table(
             [
@@ -121,7 +122,7 @@ def _text(found: Divergence) -> list[str]:
     if found.marks:
         stretches = ", ".join(str(first) if first == last else f"{first} to {last}" for first, last in found.marks[:10])
         more = f" and {len(found.marks) - 10} more stretches" if len(found.marks) > 10 else ""
-        lines += ["", f"They differ behind scans {stretches}{more}"]
+        lines += ["", f"They differ after scans {stretches}{more}"]
     return lines
 
 

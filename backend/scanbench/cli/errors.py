@@ -9,6 +9,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
+from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import (
     below,
     find_model,
@@ -19,8 +20,9 @@ from scanbench.cli.inputs import (
     unreadable,
     usage,
 )
-from scanbench.cli.interrupt import INTERRUPTED
+from scanbench.cli.interrupt import leaving
 from scanbench.cli.outputs import must_be_writable, write_text
+from scanbench.cli.progress import progress
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved
@@ -134,9 +136,9 @@ def sweep_errors(
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
     states: Path | None = typer.Option(None, metavar="FILE", help="States to begin from (JSON, docs/error-sweep.md); else 100 scans from a cold start."),
     window: int = typer.Option(WINDOW, min=1, max=100_000, metavar="N", help="Scans that the program gets to react."),
-    severity: list[Severities] = typer.Option([Severities.ALL], help="Which errors count for exit code 1; may stand several times."),
-    only: list[str] = typer.Option([], metavar="ID", help="Only this error; may stand several times."),
-    interval: str = typer.Option("10ms", help="Task interval where no CONFIGURATION says another."),
+    severity: list[Severities] = typer.Option([Severities.ALL], help="Which errors count for exit code 1; may be given several times."),
+    only: list[str] = typer.Option([], metavar="ID", help="Only this error; may be given several times."),
+    interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),
     engine: SweepEngine = typer.Option(SweepEngine.NATIVE, help="native is fast; reference is the interpreter."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object, for `errors compare` too."),
     junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: a test case for each error and state."),
@@ -182,7 +184,9 @@ def _swept(
     """The cells, and whether they are all; after Ctrl-C those of the errors that were raised in every state."""
     cells: list[Cell] = []
     try:
-        cells.extend(sweep(points, [each.id for each in chosen], window, programs))
+        of = len(points) * len(chosen)
+        with progress(of, lambda: len(cells), lambda: f"{len(cells):,} of {of:,} cases"):
+            cells.extend(sweep(points, [each.id for each in chosen], window, programs))
     except KeyboardInterrupt:
         return tuple(cells[: len(cells) - len(cells) % len(points)]), False
     return tuple(cells), True
@@ -209,7 +213,7 @@ def _engine(choice: SweepEngine) -> MakeObserved:
     if choice is SweepEngine.NATIVE:
         from scanbench.engines.native.observed import ObservedBuilds
 
-        return ObservedBuilds(None).engine
+        return leaving(ObservedBuilds(None).engine)
     from scanbench.engines.interpreter.observed import observed_engine
 
     return observed_engine
@@ -279,7 +283,7 @@ def _severities(asked: list[Severities]) -> tuple[Severity, ...]:
 @errors.command("compare")
 def compare_sweeps(
     before: Path = typer.Argument(metavar="BEFORE", help="What `errors sweep --json` printed."),
-    after: Path = typer.Argument(metavar="AFTER", help="And a later one: of another version, or on another model."),
+    after: Path = typer.Argument(metavar="AFTER", help="A later one: of a different version, or on a different model."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
     """Compare two sweeps, by error and state. Exit 0; 1: something is worse or gone; 2: wrong usage."""

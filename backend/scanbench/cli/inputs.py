@@ -53,7 +53,7 @@ def tell_damage(path: Path, recording: Recording) -> bool:
 
 
 def with_near(message: str, near: Sequence[str]) -> str:
-    """A sentence with one full stop, and behind it what was perhaps meant, unless it says so itself."""
+    """A sentence with one full stop, followed by what was perhaps meant, unless it says so itself."""
     ended = message if message.endswith((".", "?", "!")) else f"{message}."
     return ended if not near or "id you mean" in message else f"{ended} Near: {', '.join(near)}."
 

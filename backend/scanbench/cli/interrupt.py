@@ -1,22 +1,36 @@
 """Ctrl-C: what has run so far is printed, and the exit code says that it is not all."""
 
+import queue
 import signal
-from collections.abc import Iterator
+import threading
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import ParamSpec, TypeVar
 
 from scanbench.runtime.interrupt import Interrupt
 
-INTERRUPTED = 128 + signal.SIGINT
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+class _Interrupt(Interrupt):
+    """Knows whether there is an engine that can be asked."""
+
+    running = False
+
+    def reaches(self, knock: Callable[[], None]) -> None:
+        super().reaches(knock)
+        self.running = True
 
 
 @contextmanager
 def interruptible() -> Iterator[Interrupt]:
-    """While the block runs, Ctrl-C asks for the end of the run; pressed again, it ends the command at once."""
-    interrupt = Interrupt()
+    """While the block runs, Ctrl-C asks for the end of the run; pressed again, or before the run has begun, it ends the command at once."""
+    interrupt = _Interrupt()
 
     def on_signal(number: int, frame: FrameType | None) -> None:
-        if interrupt.asked:
+        if interrupt.asked or not interrupt.running:
             signal.default_int_handler(number, frame)
         interrupt.ask()
 
@@ -29,3 +43,27 @@ def interruptible() -> Iterator[Interrupt]:
         yield interrupt
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def leaving(make: Callable[P, T]) -> Callable[P, T]:
+    """The same function, in which Ctrl-C is seen at once: LLVM compiles for seconds without looking at signals.
+
+    It works in a thread of its own, which is left alone when the wait for it is interrupted.
+    """
+
+    def waited(*args: P.args, **kwargs: P.kwargs) -> T:
+        answers: queue.SimpleQueue[tuple[T] | BaseException] = queue.SimpleQueue()
+
+        def work() -> None:
+            try:
+                answers.put((make(*args, **kwargs),))
+            except BaseException as error:  # raised where it was asked for
+                answers.put(error)
+
+        threading.Thread(target=work, daemon=True).start()
+        answer = answers.get()
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer[0]
+
+    return waited

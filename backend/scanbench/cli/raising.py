@@ -1,12 +1,12 @@
 """`--raise` of `scanbench run`: an error at a scan, or a fault with a shape in time.
 
-battery-error@100                                   raised in front of scan 100
+battery-error@100                                   raised before scan 100
 battery-error for 5@100                             and recovered 5 scans later
 battery-error every 100 on 10 times 3 seed 7@20     present for 10 of every 100 scans, three times, varied by chance 7
 battery-error chatter times 4                       on and off in turn
 battery-error for 9 unless Main.ack                 recovered after 9 scans, or when it is acknowledged before
 battery-error when Main.n > 3                       begins when this holds; `when main.st:12`: when that line is reached
-battery-error + io-bus-error:rack=1 gap 3@10        one 3 scans behind the other; without a gap in one seam
+battery-error + io-bus-error:rack=1 gap 3@10        one 3 scans after the other; without a gap in one seam
 """
 
 import re
@@ -29,7 +29,7 @@ _HOW = "write e.g. `battery-error for 5@100`, `battery-error every 100 on 10 tim
 
 
 def read_raise(program: Program, author: str, text: str) -> tuple[int, Command]:
-    """The scan in front of which it is entered, and the command."""
+    """The scan before which it is entered, and the command."""
     body, scan = _at(text)
     body, when = _cut(body, "when")
     body, unless = _cut(body, "unless")
@@ -62,13 +62,13 @@ def _at(text: str) -> tuple[str, int]:
 
 
 def _cut(text: str, word: str) -> tuple[str, str | None]:
-    """What stands in front of a word, and behind it; None where it does not stand."""
+    """What comes before a word, and after it; None where the word is missing."""
     parts = re.split(rf"\s{word}\s", f" {text} ", maxsplit=1)
     return parts[0].strip(), parts[1].strip() if len(parts) > 1 else None
 
 
 def _shape_words(body: str) -> tuple[str, list[str]]:
-    """The references, and the words behind them."""
+    """The references, and the words after them."""
     found = re.search(rf"\s({'|'.join((*_WORDS, 'chatter'))})(\s|$)", body)
     return (body, []) if found is None else (body[: found.start()], body[found.start() :].split())
 
@@ -81,7 +81,7 @@ def _error(program: Program, text: str, reference: str) -> ErrorRef:
 
 
 def _numbers(text: str, words: list[str]) -> tuple[dict[str, int], bool]:
-    """The number behind each word; whether it chatters."""
+    """The number after each word; whether it chatters."""
     left = [word for word in words if word != "chatter"]
     numbers: dict[str, int] = {}
     for word, number in zip(left[::2], [*left[1::2], ""][: len(left[::2])], strict=True):

@@ -8,8 +8,9 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
+from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import DAMAGED, find_model_named, unreadable, unusable, usage
-from scanbench.cli.interrupt import INTERRUPTED
+from scanbench.cli.progress import progress
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
 from scanbench.host.run_files import sources_in
@@ -39,7 +40,8 @@ def replay(
 
     agreed: list[int] = []
     try:
-        result = replay_file(path, programs_of, ENTRIES, scans, agreed.append)
+        with progress(0, lambda: 0, lambda: _so_far(agreed)):
+            result = replay_file(path, programs_of, ENTRIES, scans, agreed.append)
     except KeyboardInterrupt:
         typer.echo(f"scanbench: {path}: interrupted: {_so_far(agreed)}", err=True)
         raise typer.Exit(INTERRUPTED) from None

@@ -7,11 +7,13 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
+from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import Sources, below, find_model, problem_json, read_sources, usage, with_near
-from scanbench.cli.interrupt import INTERRUPTED, interruptible
+from scanbench.cli.interrupt import interruptible, leaving
+from scanbench.cli.progress import progress
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, find_symbol, read_commands, read_condition, read_interval
-from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, values
+from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, texts, values
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.observed import observed_engine
@@ -29,6 +31,7 @@ from scanbench.program.program import Program
 from scanbench.recording.headless import run_headless
 from scanbench.runtime.command import Command
 from scanbench.runtime.joined import Joined
+from scanbench.runtime.resource import Resource
 
 
 class EngineChoice(StrEnum):
@@ -40,14 +43,14 @@ class EngineChoice(StrEnum):
 
 
 ENGINES: dict[EngineChoice, Callable[[Program, bytearray], Engine]] = {
-    EngineChoice.NATIVE: NativeEngine,
+    EngineChoice.NATIVE: leaving(NativeEngine),
     EngineChoice.REFERENCE: ReferenceEngine,
-    EngineChoice.BOTH: PairEngine,
+    EngineChoice.BOTH: leaving(PairEngine),
 }
 
 
 OBSERVED: dict[EngineChoice, MakeObserved] = {
-    EngineChoice.NATIVE: ObservedBuilds().engine,
+    EngineChoice.NATIVE: leaving(ObservedBuilds().engine),
     EngineChoice.REFERENCE: observed_engine,
     EngineChoice.BOTH: observed_engine,
 }
@@ -57,7 +60,7 @@ def run(
     path: Path = typer.Argument(metavar="FILE|DIR", help="A program file (.st, .TcPOU, ...), or a folder with some."),
     scans: int = typer.Option(..., min=0, help="How many scans to run."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
-    interval: str = typer.Option("10ms", help="Task interval where no CONFIGURATION says another."),
+    interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Write before a scan (0 if none is named). Text with an @ in it: PATH='a@1'."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Force from a scan on."),
     generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Raise an error of the model, e.g. io-bus-error:rack=1,slot=3@5; 'E for 5@100', 'E every 100 on 10 times 3 seed 7', 'E chatter times 4', 'E for 9 unless CONDITION', 'E when CONDITION', 'E when FILE:LINE', 'E + F gap 3'."),
@@ -81,16 +84,19 @@ def run(
     program, problems = _compiled(sources, find_model(model, sources), read_interval(interval), as_json)
     commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine)
     shown = [(each, find_symbol(program, each)) for each in show]
+    begun: list[Resource] = []
+    sample = values if as_json else texts
     condition = None if until is None else read_condition(program, until)
     try:
         with (
             recorded(record, program, below(path, sources.texts), read_interval(interval)) as recording,
             interruptible() as interrupt,
+            progress(scans, lambda: _scans(begun), lambda: f"{_scans(begun):,} of {scans:,} scans"),
         ):
             result = run_headless(
-                program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown),
+                program, scans, ENGINES[engine], commands, every, lambda plc: sample(plc, shown),
                 detect=Detection(), agenda=Joined(Schedule(OBSERVED[engine]), DisturbanceSchedule()), recording=recording, until=condition,
-                interrupt=interrupt,
+                interrupt=interrupt, on_begin=begun.append,
             )  # fmt: skip
             if recording is not None:
                 check_whole(recording)
@@ -103,6 +109,11 @@ def run(
         raise typer.Exit(3) from None
     report_json(result, shown, problems, hash) if as_json else report_text(result, shown, hash)
     _end(result, commands, until, interrupt.asked)
+
+
+def _scans(begun: Sequence[Resource]) -> int:
+    """That have run so far, asked while they run."""
+    return begun[0].header.scan if begun else 0
 
 
 def _compiled(

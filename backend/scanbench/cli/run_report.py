@@ -5,7 +5,7 @@ import json
 
 import typer
 
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import ArrayType, Record
 from scanbench.recording.headless import HeadlessRun
 from scanbench.runtime.resource import Resource
@@ -65,12 +65,18 @@ def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
         if violations.dropped:
             note += f" (the list is full: {violations.dropped} violations are not in it)"
         typer.echo(note, err=True)
-    typer.echo(f"{result.scans} scans, {result.scans * resource.program.interval_ns / 1e9:g} s of PLC time", err=True)
+    seconds = f"{result.scans * resource.program.interval_ns / 1e9:,.6f}".rstrip("0").rstrip(".")
+    typer.echo(f"{result.scans:,} scans, {seconds} s of PLC time", err=True)
 
 
 def values(resource: Resource, shown: Shown) -> dict[str, Json]:
     """The values now."""
     return {path: _json(resource, symbol) for path, symbol in shown}
+
+
+def texts(resource: Resource, shown: Shown) -> dict[str, Json]:
+    """The same as people read them."""
+    return {path: _text(resource, symbol) for path, symbol in shown}
 
 
 def _hash(resource: Resource) -> str:
@@ -126,7 +132,11 @@ def _json(resource: Resource, symbol: Symbol) -> Json:
 
 
 def _text(resource: Resource, symbol: Symbol) -> str:
-    if symbol.expandable:
-        return json.dumps(_json(resource, symbol), ensure_ascii=False)
+    """As it is written in a program: `16#FF`, `[1, 2]`, `(a := 1, b := TRUE)`."""
+    if isinstance(symbol.type, ArrayType):
+        return f"[{', '.join(_text(resource, each) for each in members(resource.program, symbol.path))}]"
+    if isinstance(symbol.type, Record):
+        inside = (f"{each.name} := {_text(resource, each)}" for each in members(resource.program, symbol.path))
+        return f"({', '.join(inside)})"
     data = _bytes(resource, symbol)
     return "not bound yet" if data is None else format_value(symbol.type, data)

@@ -120,7 +120,7 @@ def run_state(state: FromStart, program: Program, make: MakeObserved, version: i
     commands = [_command(where, program, text) for text in state.do]
     for (scan, _), text in zip(commands, state.do, strict=True):
         if scan > state.scans:
-            raise BadStates(f"{where}: `{text}` comes behind its {state.scans} scans: give it more scans")
+            raise BadStates(f"{where}: `{text}` comes after its {state.scans} scans: give it more scans")
     result: HeadlessRun[None] = run_headless(
         program, state.scans, lambda each, memory: make(each, memory)[0], commands, detect=Detection()
     )

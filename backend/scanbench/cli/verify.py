@@ -1,7 +1,6 @@
 """`scanbench verify`: the scans of a run, or of a real controller's trace, compared with a second execution."""
 
 import re
-import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import NoReturn
@@ -9,9 +8,11 @@ from typing import NoReturn
 import typer
 
 from scanbench import __version__
+from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import DAMAGED, usage, with_near
-from scanbench.cli.interrupt import INTERRUPTED
+from scanbench.cli.interrupt import leaving
 from scanbench.cli.outputs import must_be_writable, write_text
+from scanbench.cli.progress import progress
 from scanbench.cli.run_options import AUTHOR, Options
 from scanbench.cli.verify_subject import Given, Subject, opened
 from scanbench.cli.verify_text import verify_text
@@ -19,7 +20,7 @@ from scanbench.public import iso
 from scanbench.reports.report import Collected, Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
-from scanbench.runtime.clock import monotonic_ns, wall_time
+from scanbench.runtime.clock import wall_time
 from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
 from scanbench.verify.engines import Make, native, reference
 from scanbench.verify.ranges import parse_range
@@ -29,8 +30,6 @@ SCANS = 1000
 """That a project runs when nobody says how many."""
 STRETCHES = 100
 """Of scans that were not compared; a report has the last ones."""
-_EVERY_NS = 200_000_000
-"""From one line of progress to the next."""
 _STRETCH = re.compile(r"(\d*)\.\.(\d*)")
 
 
@@ -46,9 +45,9 @@ def verify(
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model of a project; else its own, else GENERIC-IEC."),
     range_: str = typer.Option("", "--range", metavar="POU:10-20", help="POU, POU:10-20, FILE:10-20, with @INSTANCE for one instance; else the whole scan."),
     scans: str = typer.Option("", metavar="A..B", help="Only these scans, both included; also A.. and ..B. A project runs up to B, else 1000 scans."),
-    trace: Path | None = typer.Option(None, metavar="FILE", help="Trace of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
-    map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the trace are (JSON); else they are taken by their names."),
-    interval: str = typer.Option("10ms", help="Of a project: task interval where no CONFIGURATION says another."),
+    trace: Path | None = typer.Option(None, metavar="FILE", help="Log of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
+    map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the log are (JSON); else they are taken by their names."),
+    interval: str = typer.Option("10ms", help="Of a project: task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Of a project: write before a scan, as with `run`."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Of a project: force from a scan on."),
     generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Of a project: raise an error, as with `run`."),
@@ -60,7 +59,7 @@ def verify(
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
     html: Path | None = typer.Option(None, metavar="FILE", help="Write a page to read, print or keep too."),
 ) -> None:  # fmt: skip
-    """Run a program twice and compare: what ran (native code, or a real controller of which there is a trace) and the
+    """Run a program twice and compare: what ran (native code, or a real controller of which there is a log) and the
     reference interpreter, on the same inputs.
 
     Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing could be compared; 4: no difference, but the run
@@ -77,7 +76,7 @@ def verify(
         usage(f"--range {range_}: {with_near(str(error), error.near)}")
     first, last = _stretch(scans)
     given = Given(path, model, interval, options, SCANS if last is None else last + 1, trace, map)
-    make: Make = native() if engine is ControlEngine.NATIVE else reference
+    make: Make = leaving(native()) if engine is ControlEngine.NATIVE else reference
     try:
         with opened(given, make) as subject:
             report, stopped = _verified(subject, wanted, limit, first, last)
@@ -151,38 +150,20 @@ def _verified(
 
 
 def _run(subject: Subject, collected: Collected, first: int, last: int) -> _Stopped | None:
-    progress = _Progress(last - first + 1)
+    of = last - first + 1
+
+    def told() -> str:
+        return f"{collected.compared:,} of {of:,} scans, {collected.differing:,} rows differ"
+
     try:
-        for scan in range(first, last + 1):
-            collected.add(subject.verifier.verify(scan))
-            progress.show(collected)
+        with progress(of, lambda: collected.compared, told):
+            for scan in range(first, last + 1):
+                collected.add(subject.verifier.verify(scan))
     except Unverifiable as error:
         return _Stopped(f"verified up to the scan before that only: {error}", 2)
     except KeyboardInterrupt:
         return _Stopped(f"interrupted after {collected.compared:,} scans", INTERRUPTED)
-    finally:
-        progress.over()
     return None
-
-
-class _Progress:
-    """A line on a terminal that says how far it is; nothing elsewhere."""
-
-    def __init__(self, of: int) -> None:
-        self._of, self._shown, self._next = of, False, monotonic_ns() + _EVERY_NS
-        self._on = sys.stderr.isatty()
-
-    def show(self, collected: Collected) -> None:
-        if not self._on or monotonic_ns() < self._next:
-            return
-        self._next, self._shown = monotonic_ns() + _EVERY_NS, True
-        typer.echo(
-            f"\r{collected.compared:,} of {self._of:,} scans, {collected.differing:,} rows differ", err=True, nl=False
-        )
-
-    def over(self) -> None:
-        if self._shown:
-            typer.echo("\r\x1b[K", err=True, nl=False)
 
 
 def _head(

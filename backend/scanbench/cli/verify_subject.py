@@ -11,6 +11,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, unreadable, unusable, usage, with_near
+from scanbench.cli.interrupt import leaving
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, read_commands, read_interval
 from scanbench.engines.native.engine import NativeEngine
@@ -50,7 +51,7 @@ class Verifies(Protocol):
 
     @property
     def end(self) -> int:
-        """... and the one in front of which it ends."""
+        """... and the one before which it ends."""
 
     def begin(self, range: Range, limit: int, scan: int | None = None) -> Begun:
         """Says which range is meant; `BadRange`."""
@@ -174,7 +175,7 @@ def _ran(given: Given, path: Path) -> tuple[Program, str]:
     commands = read_commands(program, given.options)
     with recorded(path, program, files, read_interval(given.interval)) as recording:
         result: HeadlessRun[None] = run_headless(
-            program, given.scans, NativeEngine, commands, detect=Detection(),
+            program, given.scans, leaving(NativeEngine), commands, detect=Detection(),
             agenda=Schedule(ObservedBuilds().engine), recording=recording,
         )  # fmt: skip
         if recording is not None:

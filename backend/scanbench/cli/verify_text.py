@@ -12,12 +12,12 @@ STRETCHES = 5
 SHOWN = 10
 """Differences that are printed; `--json` and `--html` have more."""
 CAUSES = {
-    "logic": "the same inputs gave another result",
+    "logic": "the same inputs gave a different result",
     "input": "what was read is not what should have been there",
-    "order": "another statement ran, or another variable was used",
+    "order": "a different statement ran, or a different variable was used",
     "trap": "a run-time error in one of them",
     "outside": "a variable that the range does not use",
-    "recorded": "the run file has another value than the same code gives again",
+    "recorded": "re-running the recorded scan gave a different value",
 }
 
 

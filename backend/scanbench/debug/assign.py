@@ -4,15 +4,15 @@ from dataclasses import dataclass
 
 from scanbench.check.typed.condition import BadCondition
 from scanbench.check.typed.local import LocalAssignments, locals_of
-from scanbench.debug.called import called
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.program.copies import Spot
 from scanbench.program.program import Pou, Program
-from scanbench.program.types import ArrayType, OpenArray, Record, Type
+from scanbench.program.types import Type
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.target import everywhere
+from scanbench.symbols.names import names_of
 from scanbench.symbols.values import format_value
 
 _NAMES = 10_000
@@ -69,15 +69,8 @@ class Assigning:
         if spot not in self._names:
             if len(self._names) >= _NAMES:
                 self._names.clear()
-            self._names[spot] = called(self._program, *spot, type)
-        whole = isinstance(type, ArrayType | OpenArray | Record)
-        value = (
-            f"({type.name})"
-            if whole
-            else ("TRUE" if data[0] else "FALSE")
-            if spot[1] is not None
-            else format_value(type, data)
-        )
+            self._names[spot] = names_of(self._program).text(*spot, type)
+        value = format_value(type, data) or f"({type.name})"
         return f"{self._names[spot]} := {value}"
 
 
@@ -100,7 +93,7 @@ def refused(view: View, spot: Spot, type: Type, shown: str) -> Refusal | None:
     offset, bit = spot
     found = view.program.layout.area_at(offset)
     if found is not None and found[0].access(found[1] // 2, "tool") != "write":
-        where = called(view.program, offset, bit, type)
+        where = names_of(view.program).text(offset, bit, type)
         return Refusal(f"{shown}: {where} is read-only for tools on {view.model.name}, as on the device")
     table = forced_table(view)
     one = 1 << bit if bit is not None else 0xFF

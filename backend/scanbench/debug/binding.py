@@ -2,7 +2,8 @@
 
 from scanbench.debug.bound_to import Bound, BoundTo, Convention
 from scanbench.program.copies import Spot, referred
-from scanbench.program.program import Program, Task
+from scanbench.program.program import Program
+from scanbench.program.tasks import Task
 from scanbench.program.types import Elementary, StringType
 from scanbench.runtime.command import View
 from scanbench.runtime.target import not_called, passed_by, read_only_reason
@@ -16,7 +17,7 @@ from scanbench.symbols.call_sites import (
     in_every_run,
     slot_value,
 )
-from scanbench.symbols.named import same_place, temporary_at, variable_at
+from scanbench.symbols.names import names_of, same_place
 from scanbench.symbols.symbols import Symbol, resolve
 
 UNKNOWN_INDEX = "what it passes cannot be told now: it is computed from values that are not there yet"
@@ -61,12 +62,12 @@ class Bindings:
         actual, address, message = "", "", ""
         if place is None:
             message = UNKNOWN_INDEX
-        elif (temporary := temporary_at(self._program, place[0])) is not None:
+        elif (temporary := names_of(self._program).temporary(place[0])) is not None:
             pou, name = temporary
             actual = f"{pou.name}.{name}" if name else ""
             message = "a temporary, which is gone when the call is over" if name else "a value that was computed"
         else:
-            named = variable_at(self._program, place, symbol.type)
+            named = names_of(self._program).variable(place, symbol.type)
             if named is not None:
                 actual, address = named.path, named.address or ""
             if isinstance(symbol.type, Elementary | StringType):

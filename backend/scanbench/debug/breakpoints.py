@@ -56,3 +56,9 @@ class Breakpoints:
         """Where they would stand in a program of the past."""
         placing = self.placing(loaded)
         return tuple(placing.place(each.breakpoint, scan) for each in self.placed)
+
+    def scans_left(self, scan: int, least: int = 1) -> int:
+        """Scans that may run, from this one on, until the debug flavour is needed for a breakpoint at a scan."""
+        each = [one.breakpoint.scan - scan for one in self.placed if one.breakpoint.kind == "scan" and one.active]
+        ahead = [one for one in each if one >= 0]
+        return max(least, min(ahead)) if ahead else 1 << 40

@@ -7,19 +7,19 @@ from scanbench.debug.assign import Assign, Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.goals import Goal
-from scanbench.debug.halt import Halt
-from scanbench.debug.listener import Actions, Found, Listener, Position
+from scanbench.debug.halt import Found, Halt, halt_of
+from scanbench.debug.listener import Actions, Listener, Position
 from scanbench.debug.past import Past
-from scanbench.debug.placed import Placing, error_names
+from scanbench.debug.placed import Placing
 from scanbench.debug.probing import Probes
-from scanbench.debug.standing import halt_of
-from scanbench.engines.debug import NOTHING, Frame, Listen
+from scanbench.debug.raised import RaisedErrors
+from scanbench.debug.trapping import Trapping
+from scanbench.engines.debug import Frame
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.probe import MakeProbed, Probe, ProbedEngine
 from scanbench.problems import Span
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Plan, Refusal
-from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 
@@ -55,10 +55,8 @@ class Debugger:
         self._goal: Goal | None = None
         self._pending: Found | None = None
         self._listener: Listener | None = None
-        self._trap_found: Found | None = None
-        self._trap_seen: Position | None = None
-        """The statement in front of which it halted before it traps."""
-        self._last_entry: Entry | None = None
+        self._trapping = Trapping(timeline, self.breakpoints)
+        self._raised = RaisedErrors(timeline, self.breakpoints, told.raised)
         self._stood: Position = (-1, 0)
         """Where it was halted in the scan that is next: up to there nothing halts it."""
         self._past = Past(timeline, self.breakpoints)
@@ -69,7 +67,6 @@ class Debugger:
         self._exact: int | None = None
         """The scan in which a probe was reached: it is run statement by statement."""
         timeline.resource.listening.call(self._on_trap, self._on_probe)
-        self._note_entries()
 
     # ---- what there is --------------------------------------------------------------------------------------------
 
@@ -112,13 +109,8 @@ class Debugger:
             return "debug"
         return "probed" if self.busy and listening.probed is not None else ""
 
-    @property
-    def prober(self) -> MakeProbed | None:
-        """Makes code with probes; without it long searches back take longer."""
-        return self._past.prober
-
-    @prober.setter
-    def prober(self, prober: MakeProbed | None) -> None:
+    def search_with(self, prober: MakeProbed | None) -> None:
+        """Who makes code with probes for searches back; without it long ones take longer."""
         self._past.prober = prober
 
     @property
@@ -132,10 +124,6 @@ class Debugger:
     @property
     def placing(self) -> Placing:
         """Of the program that is shown."""
-        return self._placing
-
-    @property
-    def _placing(self) -> Placing:
         return self.breakpoints.placing(self.resource.loaded)
 
     # ---- breakpoints ----------------------------------------------------------------------------------------------
@@ -180,7 +168,7 @@ class Debugger:
         if self._live_halt is not None:
             raise RuntimeError("the PLC is halted: it must not be run")
         resource = self.resource
-        scans = min(scans, self._until_scan_breakpoint())
+        scans = min(scans, self.breakpoints.scans_left(resource.header.scan))
         listener = self._arm()
         if listener is not None:
             listener.begin()
@@ -189,10 +177,10 @@ class Debugger:
         stop = self._timeline.run(scans, pace)
         self._look_for_errors()
         if stop.reason is Reason.HALTED:
-            found = self._trap_found or (listener.found if listener is not None else None)
-            if self._trap_found is not None and listener is not None:
+            trapping = self._trapping.take()
+            found = trapping or (listener.found if listener is not None else None)
+            if trapping is not None and listener is not None:
                 listener.pending = None  # of the statement that is in front of it again
-            self._trap_found = None
             assert found is not None
             self._halted(found)
         elif listener is not None and stop.reason is Reason.TRAP:
@@ -223,7 +211,7 @@ class Debugger:
 
     def _finished(self, halt: Halt, scan: int) -> None:
         """The scan ran to its end in which it was halted, as something was to be entered behind it."""
-        self._trap_seen = None
+        self._trapping.forget()
         if self._listener is not None:
             self._listener.pending = None
         if self.resource.header.scan == scan:  # it trapped
@@ -237,7 +225,7 @@ class Debugger:
             return self._back(action, author, path)
         if action not in STEPS:
             return Refusal(f"there is no step `{action}`: there are {', '.join(STEPS)}, back, reverse")
-        goal = self._goal_of(action, author, file, line)
+        goal = _goal_of(self.resource, self.placing, action, author, file, line)
         if isinstance(goal, Refusal):
             return goal
         if self._timeline.past:
@@ -264,7 +252,7 @@ class Debugger:
             self._return()
         else:
             self._number += 1
-            self._past_halt = halt_of(self.resource, self._placing, found, self._number, True)
+            self._past_halt = halt_of(self.resource, self.placing, found, self._number, True)
 
     def travelled(self) -> None:
         """Somebody went to the past, or returned."""
@@ -276,15 +264,15 @@ class Debugger:
     def _halted(self, found: Found) -> None:
         self._number += 1
         self._goal = self._pending = None
-        self._live_halt = halt_of(self.resource, self._placing, found, self._number, False)
+        self._live_halt = halt_of(self.resource, self.placing, found, self._number, False)
 
     def _arm(self) -> Listener | None:
         """Who listens from now on; nobody where there is nothing to listen for."""
         resource, placed = self.resource, self.breakpoints.placed
         listener = self._listener
         if listener is None:
-            listener = self._listener = Listener(resource, self._placing, placed, _Acting(self, resource))
-        due = self._until_scan_breakpoint(0) == 0
+            listener = self._listener = Listener(resource, self.placing, placed, _Acting(self, resource))
+        due = self.breakpoints.scans_left(resource.header.scan, 0) == 0
         wanted = self._goal is not None or self._pending is not None or self.covering or due
         probed = self._probes.engine
         if not wanted and listener.needed:
@@ -299,86 +287,26 @@ class Debugger:
         inside, scan = resource.listening.inside, resource.header.scan
         if inside is not None:
             self._stood = scan, inside.count
-        elif self._stood[0] != scan:  # else a knock came before the scan had run up to there again
+        elif self._stood[0] != scan:  # else an interrupt came before the scan had run up to there again
             self._stood = -1, 0
         listener.passed.begin = self._stood
         resource.listening.attach(listener)
         return listener
 
-    def _until_scan_breakpoint(self, least: int = 1) -> int:
-        """Scans that may run until the debug flavour is needed for a breakpoint at a scan."""
-        scan = self.resource.header.scan
-        each = [
-            one.breakpoint.scan - scan
-            for one in self.breakpoints.placed
-            if one.breakpoint.kind == "scan" and one.active
-        ]
-        ahead = [one for one in each if one >= 0]
-        return max(least, min(ahead)) if ahead else 1 << 40
-
     def _look_for_errors(self) -> None:
         """Errors that were raised since: the next statement is the first one behind them."""
-        new = self._note_entries()
-        kinds = [each for each in self.breakpoints.placed if each.active and each.breakpoint.kind == "error"]
-        if not kinds or not new:
-            return
-        for entry in new:
-            for error in self._told.raised(entry):
-                for placed in kinds:
-                    names = error_names(placed.breakpoint)
-                    if not names or error in names:
-                        placed.hits += 1
-                        self.changed = True
-                        if placed.rule is None or placed.rule.holds(placed.hits):
-                            by = placed.breakpoint.author
-                            self._pending = Found("error", f"{error} was raised", by, (placed.breakpoint.id,))
+        self._pending = self._raised.look() or self._pending
+        self.changed = self.changed or self._raised.counted
 
-    def _note_entries(self) -> list[Entry]:
-        """Entries of the journal since the last time."""
-        journal, last = self._timeline.live_journal, self._last_entry
-        index = len(journal)
-        while index and journal[index - 1] is not last:
-            index -= 1
-        self._last_entry = journal[-1] if journal else None
-        return journal[index:] if index or last is None else []
+    def _on_trap(self) -> bool:
+        halts = self._trapping.halts()
+        self.changed = self.changed or halts
+        return halts
 
     def _on_probe(self) -> None:
         """The scan in which a probe was reached is run again, statement by statement."""
         self._timeline.rewind()
         self._exact = self.resource.header.scan
-
-    # ---- traps ----------------------------------------------------------------------------------------------------
-
-    def _on_trap(self) -> bool:
-        """In front of the statement that traps, if somebody wants that; it is run again up to there."""
-        breakpoints = [each for each in self.breakpoints.placed if each.active and each.breakpoint.kind == "trap"]
-        resource = self.resource
-        scan = resource.header.scan
-        if not breakpoints or (self._trap_seen is not None and self._trap_seen[0] == scan):
-            self._trap_seen = None
-            return False
-        self._timeline.rewind()
-        engine = resource.loaded.debugged()
-        with resource.listening.instead(HaltAt(0), NOTHING):
-            self._rerun()
-            count = engine.count
-            resource.memory[:] = engine.begin
-            if count:
-                resource.listening.attach(HaltAt(count), Listen(count=count))
-                self._rerun()
-        if resource.listening.inside is None:
-            return False
-        self._trap_seen = scan, count
-        placed = breakpoints[0]
-        placed.hits += 1
-        self.changed = True
-        text = "the statement ends in a run-time error"
-        self._trap_found = Found("trap", text, placed.breakpoint.author, (placed.breakpoint.id,))
-        return True
-
-    def _rerun(self) -> None:
-        while self.resource.rerun(1).reason is Reason.KNOCKED:
-            pass
 
     # ---- the past -------------------------------------------------------------------------------------------------
 
@@ -389,7 +317,7 @@ class Debugger:
         if isinstance(found, Refusal):
             return found
         self._number += 1
-        self._past_halt = halt_of(self.resource, self._placing, found, self._number, True)
+        self._past_halt = halt_of(self.resource, self.placing, found, self._number, True)
         return None
 
     def _return(self) -> None:
@@ -398,17 +326,6 @@ class Debugger:
         self._past_halt = None
         if self._live_halt is None:
             self._halted(Found("step", "this is where the PLC stands", ""))
-
-    def _goal_of(self, action: str, author: str, file: str, line: int) -> Goal | Refusal:
-        inside = self.resource.listening.inside
-        frames = inside.frames if inside is not None else ()
-        sites: frozenset[int] = frozenset()
-        if action == "to":
-            placed = self._placing.place(Breakpoint(0, "line", author, file=file, line=line), self.resource.header.scan)
-            if placed.flaw:
-                return Refusal(placed.flaw)
-            sites = placed.sites
-        return Goal(action, author, self.resource.header.scan, frames, sites)
 
 
 class _Acting(Actions):
@@ -441,8 +358,23 @@ class _Acting(Actions):
             self.say(
                 breakpoint,
                 f"nothing was assigned: {outcome.message}",
-                self._debugger._placing.sites.statements[frame.site].span,
+                self._debugger.placing.sites.statements[frame.site].span,
             )
 
     def counted(self) -> None:
         self._debugger.changed = True
+
+
+def _goal_of(
+    resource: Resource, placing: Placing, action: str, author: str, file: str, line: int
+) -> Goal | Refusal:  # fmt: skip
+    """Where a step ends that begins here."""
+    inside = resource.listening.inside
+    frames = inside.frames if inside is not None else ()
+    sites: frozenset[int] = frozenset()
+    if action == "to":
+        placed = placing.place(Breakpoint(0, "line", author, file=file, line=line), resource.header.scan)
+        if placed.flaw:
+            return Refusal(placed.flaw)
+        sites = placed.sites
+    return Goal(action, author, resource.header.scan, frames, sites)

@@ -1,12 +1,12 @@
 """The call stack: open calls as people name them."""
 
-from scanbench.check.typed.local import this_of
 from scanbench.debug.scene import Scene
 from scanbench.debug.shown import FrameInfo
 from scanbench.engines.debug import Frame
 from scanbench.program.program import Program
 from scanbench.program.types import Record
-from scanbench.symbols.symbols import instance_at
+from scanbench.symbols.instances import owner_of
+from scanbench.symbols.names import names_of
 
 
 def stack(scene: Scene) -> tuple[FrameInfo, ...]:
@@ -34,16 +34,13 @@ def stack(scene: Scene) -> tuple[FrameInfo, ...]:
 
 def frame_record(frame: Frame) -> Record | None:
     """The variables of the instance that runs; None in a FUNCTION."""
-    if frame.pou.kind != "function":
-        return frame.pou.instance
-    this = this_of(frame.pou)
-    return this.type if this is not None and isinstance(this.type, Record) else None
+    return owner_of(frame.pou)
 
 
 def instance_path(program: Program, frame: Frame) -> str:
     """`Main.line.station`; empty in a FUNCTION."""
     record = frame_record(frame)
-    return "" if record is None else instance_at(program, frame.instance, record.name)
+    return "" if record is None else names_of(program).instance(frame.instance, record.name)
 
 
 def frame_name(program: Program, frame: Frame) -> str:

@@ -3,11 +3,24 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from scanbench.debug.placed import Placing
 from scanbench.problems import Span
+from scanbench.runtime.resource import Resource
+from scanbench.symbols.names import names_of
 
 HaltReason = Literal[
     "breakpoint", "data breakpoint", "step", "pause", "entry", "goto", "error", "violation", "trap", "scan"
 ]
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """Why to halt."""
+
+    reason: HaltReason
+    text: str
+    by: str
+    breakpoints: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,3 +46,20 @@ class Halt:
     task: str
     past: bool
     """What is shown is behind where the PLC stands: nothing can be written; going on leads up to that place."""
+
+
+def halt_of(resource: Resource, placing: Placing, found: Found, number: int, past: bool) -> Halt:
+    """The halt of a resource as it stands now."""
+    scan, inside = resource.header.scan, resource.listening.inside
+    if inside is None or not inside.frames:
+        return Halt(
+            number, found.reason, found.text, found.by, found.breakpoints, scan, 0, None, "", "", "", past
+        )  # fmt: skip
+    frame, root = inside.frames[0], inside.frames[-1]
+    span = placing.sites.statements[frame.site].span
+    instance = names_of(resource.program).instance(frame.instance, frame.pou.name) if frame.instance else ""
+    task = placing.task_of.get(root.instance, "")
+    return Halt(
+        number, found.reason, found.text, found.by, found.breakpoints, scan, inside.count, span, frame.pou.name, instance,
+        task, past,
+    )  # fmt: skip

@@ -7,7 +7,7 @@ from typing import TypeVar
 from scanbench.debug.assign import Assigning
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.goals import Goal
-from scanbench.debug.halt import HaltReason
+from scanbench.debug.halt import Found, HaltReason
 from scanbench.debug.placed import Placed, Placing
 from scanbench.debug.watching import Watching
 from scanbench.engines.debug import Frame, Listen
@@ -19,16 +19,6 @@ from scanbench.runtime.resource import Resource
 T = TypeVar("T")
 Position = tuple[int, int]
 """Scan and count, see `engines.debug`."""
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """Why to halt."""
-
-    reason: HaltReason
-    text: str
-    by: str
-    breakpoints: tuple[int, ...] = ()
 
 
 class Actions:
@@ -157,7 +147,7 @@ class Listener:
         """Halts behind the statement. It may be the last one of the scan."""
         if self.pending is None:
             self.pending = found
-            self._resource.loaded.debugged().knock()
+            self._resource.loaded.debugged().interrupt()
             self._tell(in_scan=True)
 
     def behind_scan(self) -> Found | None:

@@ -4,7 +4,8 @@ from typing import Literal
 
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.goals import Goal
-from scanbench.debug.listener import Found, Listener, Position
+from scanbench.debug.halt import Found
+from scanbench.debug.listener import Listener, Position
 from scanbench.debug.reverse import Raised, search
 from scanbench.engines.engine import Reason
 from scanbench.engines.probe import MakeProbed
@@ -53,7 +54,7 @@ class Past:
         with resource.listening.instead(listener):
             listener.begin()
             stop = timeline.go_on(timeline.live_scan + 1)
-        if stop.reason is Reason.KNOCKED:
+        if stop.reason is Reason.INTERRUPTED:
             found = listener.behind_scan()
             if found is not None:
                 self.stop()

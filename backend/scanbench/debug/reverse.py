@@ -7,7 +7,8 @@ from operator import attrgetter
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.breakpoints import Breakpoints
-from scanbench.debug.listener import Found, Listener, Position
+from scanbench.debug.halt import Found
+from scanbench.debug.listener import Listener, Position
 from scanbench.debug.placed import error_names
 from scanbench.debug.probing import notes_of
 from scanbench.engines.debug import Listen
@@ -209,7 +210,7 @@ class Search:
                 finally:
                     loaded.engine = usual
                 found += [each for each in engine.reached if each is not None] if engine is not None else []
-                if stop.reason is not Reason.KNOCKED:
+                if stop.reason is not Reason.INTERRUPTED:
                     return max(found, default=None)
 
     def _engine(self, loaded: Loaded) -> ProbedEngine | None:
@@ -248,7 +249,7 @@ class Search:
                 noting.begin()
                 stop = timeline.go_on(scans.stop)
                 noted = noting.noted or noted
-                if stop.reason is not Reason.KNOCKED:
+                if stop.reason is not Reason.INTERRUPTED:
                     return noted
 
 
@@ -277,7 +278,7 @@ def in_front(timeline: Timeline, noted: Noted) -> Position:
     begins = _Begins(count, live.count if live is not None and timeline.live_scan == scan else None)
     listen = Listen(frozenset((noted.writer,)), count=live.count if live is not None else 0)
     with resource.listening.instead(begins, listen):
-        while timeline.go_on(scan + 1).reason is Reason.KNOCKED:
+        while timeline.go_on(scan + 1).reason is Reason.INTERRUPTED:
             pass
     return scan, begins.count
 

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 
-from scanbench.debug.called import address_at, called
 from scanbench.debug.scene import Scene
 from scanbench.debug.shown import VariableInfo
 from scanbench.program.types import (
@@ -16,7 +15,7 @@ from scanbench.program.types import (
     StringType,
     Type,
 )
-from scanbench.symbols.named import variable_at
+from scanbench.symbols.names import names_of
 from scanbench.symbols.symbols import Symbol, behind
 from scanbench.symbols.values import format_value
 
@@ -46,7 +45,7 @@ def info(scene: Scene, shown: Shown, name: str = "") -> VariableInfo:
     type = symbol.type
     spot = symbol.locate(scene.memory)
     value, children = (UNBOUND, 0) if spot is None else _value(scene, symbol, *spot)
-    address = symbol.address or ("" if spot is None else address_at(scene.program, *spot, type))
+    address = symbol.address or ("" if spot is None else names_of(scene.program).address(*spot, type))
     return VariableInfo(
         name=name or shown.symbol.name,
         expression=shown.expression,
@@ -126,7 +125,7 @@ def _alias(scene: Scene, shown: Shown) -> str:
     if spot is None:
         return ""
     real = scene.program.layout.copies.actual(scene.memory, *spot) or spot
-    return f"-> {called(scene.program, *real, symbol.type)}"
+    return f"-> {names_of(scene.program).text(*real, symbol.type)}"
 
 
 def _target(scene: Scene, symbol: Symbol) -> str | None:
@@ -137,7 +136,7 @@ def _target(scene: Scene, symbol: Symbol) -> str | None:
         return None
     target = behind(symbol)
     spot = target.locate(scene.memory)
-    return None if spot is None else called(scene.program, *spot, target.type)
+    return None if spot is None else names_of(scene.program).text(*spot, target.type)
 
 
 def _writable(scene: Scene, symbol: Symbol, offset: int) -> bool:
@@ -154,5 +153,5 @@ def tool_path(scene: Scene, symbol: Symbol, given: str) -> str:
     spot = symbol.locate(scene.memory)
     if spot is None:
         return ""
-    found = variable_at(scene.program, spot, symbol.type)
+    found = names_of(scene.program).variable(spot, symbol.type)
     return "" if found is None else found.path

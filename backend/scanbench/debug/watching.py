@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from scanbench.debug.placed import Placed, bytes_of
-from scanbench.debug.values import value_text
 from scanbench.engines.debug import READ, WRITE
+from scanbench.symbols.values import format_value
 
 _WANTED = {"read": READ, "write": WRITE, "change": WRITE, "access": READ | WRITE}
 
@@ -88,9 +88,9 @@ class Watching:
     def _text(self, placed: Placed, place: _Place, before: bytes, written: bool) -> str:
         symbol = placed.symbol
         assert symbol is not None
-        now = value_text(symbol.type, place.last)
+        now = format_value(symbol.type, place.last)
         if not written:
             return f"{symbol.path} was read" + (f": {now}" if now else "")
         if before != place.last and now:
-            return f"{symbol.path} changed from {value_text(symbol.type, before)} to {now}"
+            return f"{symbol.path} changed from {format_value(symbol.type, before)} to {now}"
         return f"{symbol.path} was written" + (f": {now}" if now else "")

@@ -28,8 +28,9 @@ from scanbench.program.program import (
     Violates,
 )
 from scanbench.program.types import BOOL, LWORD, ULINT, Elementary, Kind, Record, Reference, Section, Type, base_of
+from scanbench.symbols.names import names_of
 from scanbench.symbols.sites import Sites
-from scanbench.symbols.symbols import Symbol, holding
+from scanbench.symbols.symbols import Symbol
 
 _ANYTHING = Reference("REF_TO", Kind.REF, 8)
 
@@ -49,7 +50,7 @@ class _Search:
     def __init__(self, program: Program, sites: Sites, symbol: Symbol) -> None:
         self._program, self._sites, self._symbol = program, sites, symbol
         self._begin, self._end = symbol.offset, symbol.offset + symbol.type.size
-        enclosing = list(holding(program, symbol.offset))
+        enclosing = list(names_of(program).holding(symbol.offset))
         self._instances = [each for each in enclosing if isinstance(each.type, Record)]
         mixed = any(isinstance(each.type, Record) and each.type.overlaps for each in self._instances)
         self._typed = symbol.address is None and symbol.bit is None and not mixed

@@ -68,14 +68,14 @@ NOTHING = Listen()
 
 class Hook(Protocol):
     """Decides where to halt. Called in the thread that runs, in the middle of a scan: it may read and write the image, and
-    call `DebugEngine.listen`, `frames`, `knock`, nothing else. What it raises ends the scan and comes out of `run`."""
+    call `DebugEngine.listen`, `frames`, `interrupt`, nothing else. What it raises ends the scan and comes out of `run`."""
 
     def statement(self, site: int, count: int, depth: int) -> bool:
         """The statement is to begin, `depth` frames deep (1: a program's body). True halts in front of it."""
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """The statement has read, or written, these bytes, of which at least one is listened for. Told after a write,
-        and after or before a read. To halt behind the statement's access: listen to `every` statement, and `knock`."""
+        and after or before a read. To halt behind the statement's access: listen to `every` statement, and `interrupt`."""
 
 
 class DebugEngine(Engine):

@@ -27,8 +27,8 @@ from scanbench.program.program import Program
 class Reason(StrEnum):
     DONE = "done"
     """The scans asked for are run."""
-    KNOCKED = "knocked"
-    """Somebody called `knock`: the engine stands between two scans."""
+    INTERRUPTED = "interrupted"
+    """Somebody called `interrupt`: the engine stands between two scans."""
     ASKED = "asked"
     """The program asked for something (`Layout.ASKED_COUNT` is not 0) in the scan that just ended."""
     CONDITION = "condition"
@@ -69,7 +69,7 @@ class Pace:
 
 
 class Engine(ABC):
-    """Runs one program on one image. Not thread-safe, except for `knock`."""
+    """Runs one program on one image. Not thread-safe, except for `interrupt`."""
 
     name: str
 
@@ -80,11 +80,11 @@ class Engine(ABC):
     @abstractmethod
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """Runs up to `scans` scans, as fast as possible (no pace, or period 0) or at a pace; returns after a scan in
-        which the program asked for something, or after which the condition holds, and at once after a knock or a trap.
-        A knock that is pending when the last scan is done is reported as KNOCKED.
+        which the program asked for something, or after which the condition holds, and at once after an interrupt or a trap.
+        An interrupt that is pending when the last scan is done is reported as INTERRUPTED.
 
-        A knock that came before the call makes it return without running a scan. Returning for any reason clears the
-        knock: whoever knocks puts what he wants where the caller looks after every return. A knock ends a wait for a
+        An interrupt that came before the call makes it return without running a scan. Returning for any reason clears the
+        interrupt: whoever interrupts puts what he wants where the caller looks after every return. An interrupt ends a wait for a
         deadline at once.
         """
 
@@ -103,11 +103,11 @@ class Engine(ABC):
     @abstractmethod
     def sample(self, *samplings: Sampling) -> None:
         """From now on these samplings, made for this engine's program, get a row for each scan that ends (`engines.sample`);
-        none of them: nothing is sampled. Not while `run` is running. A full ring makes `run` come back as for a knock.
+        none of them: nothing is sampled. Not while `run` is running. A full ring makes `run` come back as for an interrupt.
 
         The samplings are the engine's: whoever swaps the engine gives them to the next one.
         """
 
     @abstractmethod
-    def knock(self) -> None:
+    def interrupt(self) -> None:
         """Asks `run`, from any thread, to come back after the current scan."""

@@ -7,7 +7,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.sample import Sampling
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.symbols.symbols import at_offset
+from scanbench.symbols.names import names_of
 
 
 class Differs(Exception):
@@ -31,8 +31,8 @@ class PairEngine(Engine):
         self.native = NativeEngine(program, memory)
         self.reference = ReferenceEngine(program, self.shadow)
 
-    def knock(self) -> None:
-        self.native.knock()
+    def interrupt(self) -> None:
+        self.native.interrupt()
 
     def stop_when(self, condition: Condition | None, *others: Condition) -> None:
         self.native.stop_when(condition, *others)
@@ -49,10 +49,10 @@ class PairEngine(Engine):
             scan = self._scan
             self.shadow[:] = self.memory
             stop = self.native.run(1, pace)
-            if stop.reason is Reason.KNOCKED and self._scan == scan:
+            if stop.reason is Reason.INTERRUPTED and self._scan == scan:
                 return stop
             other = self.reference.run(1)
-            self._compare(scan, Stop(Reason.DONE) if stop.reason is Reason.KNOCKED else stop, other)
+            self._compare(scan, Stop(Reason.DONE) if stop.reason is Reason.INTERRUPTED else stop, other)
             if stop.reason is not Reason.DONE:
                 return stop
         return Stop(Reason.DONE)
@@ -68,7 +68,7 @@ class PairEngine(Engine):
         if self.memory[:size] != self.shadow[:size]:
             at = next(index for index in range(size) if self.memory[index] != self.shadow[index])
             values = (memory[at : at + 8].hex(" ") for memory in (self.memory, self.shadow))
-            raise Differs(scan, f"{at_offset(self.program, at)} (byte {at} of the image)", *values)
+            raise Differs(scan, f"{names_of(self.program).path(at)} (byte {at} of the image)", *values)
 
     def _say(self, stop: Stop) -> str:
         match stop.reason:

@@ -2,7 +2,7 @@
 
 After a scan that has ended (phase 4 is done, `Layout.SCAN` counts it) an engine with samplings evaluates the signals of
 each and writes a row into the sampling's ring, which lies in memory of Python's own. When a ring has no room left the engine comes
-back as for a knock: whoever runs it takes the rows after every return, and none is lost. Sampling never changes the image.
+back as for an interrupt: whoever runs it takes the rows after every return, and none is lost. Sampling never changes the image.
 
 A row: u64 number of the scan | u64 bit i: signal i has a value | u64 value[signals], the bytes of the variable (BOOL is 0
 or 1), zero above them. A signal has no value where an in-out or a reference leads nowhere, an index is outside, and so on.

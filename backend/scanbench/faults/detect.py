@@ -8,7 +8,8 @@ from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.trap_errors import error_of
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Model
-from scanbench.program.program import Pou, Program, TrapKind
+from scanbench.program.program import Pou, Program
+from scanbench.program.sites import TrapKind
 from scanbench.runtime.command import Command, View
 from scanbench.runtime.detect import Asked
 from scanbench.runtime.trap import TrapInfo

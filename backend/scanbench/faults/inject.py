@@ -15,7 +15,7 @@ from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.switch import switch
 from scanbench.faults.trap_errors import error_of
 from scanbench.program.layout import Layout
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold

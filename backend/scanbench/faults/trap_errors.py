@@ -1,7 +1,7 @@
 """Which error of the catalogue a trap is."""
 
 from scanbench.plcmodel.model import ErrorEntry, Model
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from scanbench.runtime.trap import TrapInfo
 
 CYCLE_TIME_OVER, PROGRAM_ERROR = "cycle-time-over", "program-error"

@@ -10,12 +10,12 @@ from scanbench.faults.reaction.error_memory import code_bits, kept_bits, log_bit
 from scanbench.history.contract import MAX_CHANGES, BetweenEntry, Change, Changes
 from scanbench.history.reading import NoReading, Reading
 from scanbench.program.program import Program
-from scanbench.program.types import Elementary, Enumeration, StringType, Type
+from scanbench.program.types import Enumeration, StringType
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
-from scanbench.runtime.migrate_image import carry_over
-from scanbench.symbols.holding import Holders
-from scanbench.symbols.symbols import Symbol
+from scanbench.runtime.migrate_image import migrate
+from scanbench.symbols.kept import KeptNames
+from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.values import format_value, python_value
 
 MAX_ENTRIES = 1_000
@@ -98,7 +98,7 @@ class Comparer:
         self._one, self.same = one, same
         """`same`: it is one program, so that equal states stay equal."""
         self._mask = _counted(one)
-        self._holders: Holders | None = None
+        self._names: KeptNames | None = None
         self._here: NDArray[np.intp] | None = None
         self._there: NDArray[np.intp] | None = None
         if not same:
@@ -119,24 +119,23 @@ class Comparer:
 
     def changes(self, one: bytes | bytearray, other: bytes | bytearray) -> tuple[tuple[Change, ...], int]:
         """The variables that are another, the first of them by their place, and how many there are."""
-        found = list(self.symbols(one, other))
+        found = list(self._changed(one, other))
         there = self._moved(one, other)
         made = [_change(each, one, there) for each in found[:MAX_CHANGES]]
         return tuple(made), len(found)
 
-    def symbols(self, one: bytes | bytearray, other: bytes | bytearray) -> Iterator[Symbol]:
-        """They themselves, as they are in the first program."""
-        if self._holders is None:
-            self._holders = Holders(self._one, inputs=True)
+    def _changed(self, one: bytes | bytearray, other: bytes | bytearray) -> Iterator[Leaf]:
+        """As they are in the first program."""
+        if self._names is None:
+            self._names = KeptNames(self._one, inputs=True)
         differing = self._differing(one, other)
         halves = differing.view(np.uint16)
-        there, known = self._moved(one, other), set()
+        there, known = self._moved(one, other), set[str]()
         for index in np.flatnonzero(halves)[:_MOST].tolist():
-            for held in self._holders.at(2 * index, int(halves[index])):
-                symbol = held.symbol
-                if symbol.path not in known and _is_another(symbol, one, there):
-                    known.add(symbol.path)
-                    yield symbol
+            for leaf in self._names.at(2 * index, int(halves[index])):
+                if leaf.name not in known and _is_another(leaf, one, there):
+                    known.add(leaf.name)
+                    yield leaf
 
     def _differing(self, one: bytes | bytearray, other: bytes | bytearray) -> Bytes:
         size = len(self._mask)
@@ -184,32 +183,19 @@ def _common(one: Program, other: Program) -> tuple[NDArray[np.intp], NDArray[np.
 
 def _carried(old: Program, image: Bytes, new: Program) -> Bytes:
     into = fresh_image(new, Mode.MONITOR)
-    carry_over(old, image.tobytes(), new, into)
+    migrate(old, image.tobytes(), new, into)
     return np.frombuffer(into, np.uint8)
 
 
-def _is_another(symbol: Symbol, one: bytes | bytearray, other: bytes | bytearray) -> bool:
-    if not isinstance(symbol.type, StringType):
+def _is_another(leaf: Leaf, one: bytes | bytearray, other: bytes | bytearray) -> bool:
+    if not isinstance(leaf.type, StringType):
         return True
-    values = (value_at(symbol, each) for each in (one, other))
-    before, after = (python_value(symbol.type, each) for each in values)
-    return before != after
+    return python_value(leaf.type, leaf.cut(one)) != python_value(leaf.type, leaf.cut(other))
 
 
-def value_at(symbol: Symbol, image: bytes | bytearray) -> bytes:
-    """The value of a variable in an image; of a bit a byte."""
-    data = bytes(image[symbol.offset : symbol.offset + symbol.type.size])
-    return data if symbol.bit is None else bytes((data[0] >> symbol.bit & 1,))
-
-
-def shown(type: Type, value: bytes) -> str:
-    """As the watch table has it."""
-    return format_value(type, value) if isinstance(type, Elementary | StringType) else ""
-
-
-def _change(symbol: Symbol, one: bytes | bytearray, other: bytes | bytearray) -> Change:
-    type, before, after = symbol.type, value_at(symbol, one), value_at(symbol, other)
+def _change(leaf: Leaf, one: bytes | bytearray, other: bytes | bytearray) -> Change:
+    type, before, after = leaf.type, leaf.cut(one), leaf.cut(other)
     return Change(
-        symbol.path, type.name, type.kind.value, type.size, type.values if isinstance(type, Enumeration) else (),
-        before, after, shown(type, before), shown(type, after),
+        leaf.name, type.name, type.kind.value, type.size, type.values if isinstance(type, Enumeration) else (),
+        before, after, format_value(type, before), format_value(type, after),
     )  # fmt: skip

@@ -54,7 +54,7 @@ def first_write(reading: Reading, scan: int, changes: Sequence[Change]) -> tuple
             owners.setdefault(at, []).append((mask, each))
     writes = _Writes(resource, owners)
     with resource.listening.instead(writes, Listen(bytes=dict.fromkeys(owners, WRITE))):
-        while timeline.go_on(scan + 1).reason is Reason.KNOCKED:
+        while timeline.go_on(scan + 1).reason is Reason.INTERRUPTED:
             pass
     if writes.found is None:
         return None

@@ -61,7 +61,7 @@ def _in_stretch(reading: Reading, path: str, first: int, end: int) -> int | None
         signal = compile_signal(resource.program, path)
         if isinstance(signal, BadCondition):
             before = None
-            if timeline.go_on(end).reason is not Reason.KNOCKED:
+            if timeline.go_on(end).reason is not Reason.INTERRUPTED:
                 break
             continue
         upto = min(end, now + _CHUNK)

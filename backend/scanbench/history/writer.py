@@ -14,7 +14,7 @@ from scanbench.history.plc_writes import last_change
 from scanbench.history.reading import NoReading, Reading
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.program.types import BOOL, Elementary, StringType
+from scanbench.program.types import BOOL
 from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Swapped
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.migrate_image import changes
@@ -222,6 +222,4 @@ def _said(symbol: Symbol, value: bytes) -> str:
 
 
 def _shown(symbol: Symbol, value: bytes) -> str:
-    if not isinstance(symbol.type, Elementary | StringType):
-        return ""
     return format_value(BOOL if symbol.bit is not None else symbol.type, value)

@@ -62,7 +62,7 @@ class Builds:
         loop.debugging.build = lambda: self.debug(loop)
         debugger = loop.debugging.debugger
         debugger.want_probes = lambda loaded, probes: self.probe(loop, loaded, probes)
-        debugger.prober = self._builder.flavours.probed(aside=False)
+        debugger.search_with(self._builder.flavours.probed(aside=False))
 
     def debug(self, loop: Loop) -> None:
         """Builds debugged code of what runs; the loop gets it."""

@@ -215,9 +215,9 @@ class Debugging:
     # ---- at each tick ---------------------------------------------------------------------------------------------
 
     def tick(self) -> None:
-        """Tells what was counted, said and reached."""
+        """Tells what was counted, said and reached; when the parent does not keep up, once it does."""
         now = monotonic_ns()
-        if now < self._told_at:
+        if now < self._told_at or self._link.backlogged:
             return
         self._told_at = now + _COUNTED_NS
         self.log_throttle.catch_up()

@@ -10,7 +10,6 @@ never get another: a fork would lose it.
 import gc
 import logging
 import os
-import signal
 import socket
 import sys
 from contextlib import suppress
@@ -20,7 +19,7 @@ from pathlib import Path
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.incremental import Checks
-from scanbench.engines.lifeline import end_with_parent
+from scanbench.engines.lifeline import end_with_parent, ignore_interrupts
 from scanbench.host.build import Builder, all_models
 from scanbench.host.entry import Serve, entry
 from scanbench.host.program_cache import key_of
@@ -34,7 +33,7 @@ log = logging.getLogger("scanbench")
 
 def main() -> int:
     """Forks until the socket is closed."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's business
+    ignore_interrupts()
     server = os.getppid()
     end_with_parent(server)  # also when it is stopped, and so does not see that the socket is closed
     with socket.socket(fileno=int(sys.argv[1])) as channel:

@@ -30,7 +30,7 @@ class LogThrottle:
             self.catch_up()
             self._since, self._said = now, 0
         self._said += 1
-        if self._said <= _AT_ONCE:
+        if self._said <= _AT_ONCE and not self._link.backlogged:
             self._link.post(message)
         else:
             self._left[breakpoint.id] = (self._left.get(breakpoint.id, (0, message))[0] + 1, message)
@@ -42,7 +42,7 @@ class LogThrottle:
 
     def catch_up(self) -> None:
         """Tells how many were left out, now and then."""
-        if monotonic_ns() - self._since <= _STRETCH_NS:
+        if monotonic_ns() - self._since <= _STRETCH_NS or self._link.backlogged:
             return
         left, self._left = self._left, {}
         for count, last in left.values():

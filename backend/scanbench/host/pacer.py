@@ -95,7 +95,7 @@ class Pacer:
 
     @property
     def rest_s(self) -> float:
-        """How long it has to rest yet, whoever knocks meanwhile."""
+        """How long it has to rest yet, whoever interrupts meanwhile."""
         return max(0.0, (self._rest_until - monotonic_ns()) / 1e9)
 
     def look(self) -> None:

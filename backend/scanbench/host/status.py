@@ -4,7 +4,7 @@ from scanbench.debug.debugger import Debugger
 from scanbench.debug.halt import Halt as Stopped
 from scanbench.faults.inject import ACTIVE
 from scanbench.host.pacer import Pacer
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.forces import FORCED

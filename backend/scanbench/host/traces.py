@@ -68,7 +68,7 @@ class Traces:
         """Tells how much there is."""
         self.drain()
         now = monotonic_ns()
-        if now >= self._grown_at and self._traces:
+        if now >= self._grown_at and (self._traces or (self._told is not None and self._told.traces)):
             self._grown_at = now + _GROWN_NS
             self._tell()
 
@@ -140,7 +140,7 @@ class Traces:
 
     def _tell(self) -> None:
         traces = TracesAre(tuple(self._status(trace) for trace in self._traces.values()))
-        if traces != self._told:
+        if traces != self._told and not self._link.backlogged:  # else the next tick finds that they differ
             self._told = traces
             self._link.post(traces)
 

@@ -19,6 +19,8 @@ from pathlib import Path
 
 import msgpack  # type: ignore[import-untyped]
 
+from scanbench.engines.lifeline import interrupts_held
+
 HOST, JOB = "scanbench.host.host:serve", "scanbench.jobs.process:serve"
 """Entries of the processes: of one PLC; of jobs."""
 _PR_SET_CHILD_SUBREAPER = 36
@@ -168,9 +170,10 @@ class Zygote:
             with theirs:
                 command = [sys.executable, "-m", "scanbench.host.forking", str(theirs.fileno()), HOST, JOB]
                 try:
-                    self._process = subprocess.Popen(
-                        command, pass_fds=(theirs.fileno(),), stdin=subprocess.DEVNULL, env=os.environ | _THRIFT
-                    )
+                    with interrupts_held():
+                        self._process = subprocess.Popen(
+                            command, pass_fds=(theirs.fileno(),), stdin=subprocess.DEVNULL, env=os.environ | _THRIFT
+                        )
                 except OSError as error:
                     ours.close()
                     raise NoProcess(f"no process could be started: {error}") from error

@@ -14,6 +14,8 @@ log = logging.getLogger("scanbench")
 DIED = "the process that computes it died: try again"
 ANSWER_S = 120.0
 """So long a question of people is waited for; then the process is ended that computes it."""
+WORK_S = 600.0
+"""So long a process that does one thing, and tells how far it is, may say nothing; then it is ended."""
 SLOW = f"it took longer than {ANSWER_S:g} s, and was given up: ask for fewer scans, or try again"
 _UNREAD_BYTES = 64 << 20
 """More than this not read by a process: it is ended."""
@@ -34,8 +36,13 @@ async def answered(future: asyncio.Future[_T], seconds: float, count: Callable[[
 class Job:
     """One job process. `on_message` gets its answers in order; `on_end` is called once with it, when it is gone."""
 
-    def __init__(self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]") -> None:
-        """`cache` is the directory where programs and their code are kept. To be made in the event loop."""
+    def __init__(
+        self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]",
+        silent_s: float | None = None,
+    ) -> None:  # fmt: skip
+        """`cache` is the directory where programs and their code are kept; a process that says nothing for `silent_s` is
+        ended. To be made in the event loop."""
+        self._silent_s = silent_s
         self._waiting: list[bytes] = []
         self._process: Process | None = None
         self._writer: asyncio.StreamWriter | None = None
@@ -83,10 +90,13 @@ class Job:
         self._waiting.clear()
         try:
             while True:
-                length = body_length(await reader.readexactly(LENGTH.size))
+                async with asyncio.timeout(self._silent_s):
+                    length = body_length(await reader.readexactly(LENGTH.size))
                 on_message(unpack(await reader.readexactly(length)))
         except (asyncio.IncompleteReadError, ConnectionError):
             pass
+        except TimeoutError:
+            log.error("a job process has said nothing for %g s: it is ended", self._silent_s)
         except BadMessage:
             log.exception("a job process does not speak the protocol")
         finally:

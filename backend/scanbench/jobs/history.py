@@ -40,7 +40,7 @@ Request = FindWriter | FindChanges | CompareRuns | RerunRun
 REFUSALS = (NoReading, NoStart, NoProgram, RunFileError, OSError)
 
 
-class PastJob:
+class HistoryJob:
     """Keeps the run files that were asked about."""
 
     def __init__(

@@ -20,7 +20,7 @@ from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.sweep import sweep
 from scanbench.host.program_cache import key_of, recall
-from scanbench.jobs import history as past_job
+from scanbench.jobs import history as history_job
 from scanbench.jobs import verification as verify_job
 from scanbench.jobs.flight import BadSignal, fly
 from scanbench.jobs.starting import NoStart, checked_program, model_of, point_in, reaction_in
@@ -49,7 +49,7 @@ class Job:
         self._cache = BlobCache(cache) if cache is not None else None
         self._asked = asked
         self._verify: verify_job.VerifyJob | None = None
-        self._past: past_job.PastJob | None = None
+        self._past: history_job.HistoryJob | None = None
         self._answers = answers
         self._flavours = flavours(self._cache)
         self._programs: dict[str, Program] = {}
@@ -84,9 +84,9 @@ class Job:
         except Exception as error:  # whatever it is, somebody waits for the answer
             self._say(verify_protocol.VerifyRefused(request.ref, _unexpected(error)))
 
-    def _asked_about_past(self, request: past_job.Request) -> None:
+    def _asked_about_past(self, request: history_job.Request) -> None:
         if self._past is None:
-            self._past = past_job.PastJob(self._program, self._cache, self._flavours.observed, self._say)
+            self._past = history_job.HistoryJob(self._program, self._cache, self._flavours.observed, self._say)
         try:
             self._past.on_request(request)
         except Exception as error:  # as above

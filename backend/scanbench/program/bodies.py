@@ -5,6 +5,7 @@ from typing import assert_never
 
 from scanbench.program.program import (
     Assign,
+    Base,
     Blocks,
     CallBlock,
     Case,
@@ -15,12 +16,14 @@ from scanbench.program.program import (
     Halt,
     If,
     Jump,
+    Load,
     Repeat,
     Return,
     SetBytes,
     Stmt,
     While,
 )
+from scanbench.program.types import Kind
 
 
 def bodies(statement: Stmt) -> tuple[tuple[Stmt, ...], ...]:
@@ -46,3 +49,13 @@ def every(statements: Iterable[Stmt]) -> Iterator[Stmt]:
         yield statement
         for body in bodies(statement):
             yield from every(body)
+
+
+def keeps_bits(assign: Assign) -> bool:
+    """Whether it copies a REAL as it is in memory, a NaN with all its bits. A temporary may be in a register instead."""
+    if not isinstance(assign.value, Load) or assign.value.type.kind is not Kind.REAL:
+        return False
+    place = assign.value.place
+    return place.type == assign.target.type and (
+        place.base is not Base.FRAME or place.slot is not None or place.reference is not None
+    )

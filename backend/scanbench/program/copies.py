@@ -63,6 +63,11 @@ class Copies:
 NO_COPIES = Copies()
 
 
+def makes_copies(block: Record) -> bool:
+    """Whether the body of a block copies in-outs by value, in and back."""
+    return any(each.copied for each in block.members.values())
+
+
 def referred(slot: int) -> tuple[int, int] | None:
     """Byte offset and bit that a slot refers to; None for what refers to nothing."""
     offset = slot & BYTE_OFFSET

@@ -6,7 +6,7 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
   dividend, `a MOD 0` and `smallest MOD -1` are 0. Bit strings are unsigned.
 - REAL is computed in single precision, each operation rounded; LREAL in double; no contraction, no fast-math. `mod` is
   not defined for them; `div` by zero gives an infinity or NaN. A NaN is *stored* as the canonical quiet NaN
-  (16#7FC0_0000, 16#7FF8_0000_0000_0000), unless the assignment copies a variable (`Assign.keeps_bits`). `eq lt le gt ge` with a NaN are FALSE, `ne` is TRUE.
+  (16#7FC0_0000, 16#7FF8_0000_0000_0000), unless the assignment copies a variable (`bodies.keeps_bits`). `eq lt le gt ge` with a NaN are FALSE, `ne` is TRUE.
 - `Convert`: between integers, bit strings, BOOL and TIME: sign or zero extension by the *source*, then truncation; to
   BOOL: value <> 0. Integer to REAL: nearest, ties to even, in one rounding. REAL to integer: ties to even, saturated
   at the target's bounds, NaN is 0. LREAL to REAL: nearest. To or from STRING: only STRING to STRING (cut at capacity).
@@ -39,46 +39,12 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from scanbench.problems import Span
-from scanbench.program.types import Elementary, Kind, Member, Record, Reference, Section, StringType, Type
+from scanbench.program.sites import CheckSite, TrapSite
+from scanbench.program.types import Elementary, Member, Record, Reference, Section, StringType, Type
 
 if TYPE_CHECKING:
     from scanbench.program.layout import Layout
-
-
-class TrapKind(StrEnum):
-    BOUNDS = "bounds"
-    DIVISION = "division"
-    NULL = "null"
-    STRING = "string"
-    LOOP = "loop"
-    ABSTRACT = "abstract"
-    """A call whose instance has no body for it."""
-    FATAL = "fatal"
-    """The program called an instruction that stops the PLC (FALS and the like): see `Layout.ASKED`."""
-
-
-@dataclass(frozen=True, slots=True)
-class TrapSite:
-    """A place that can trap; engines name it by its index in `Program.traps` plus one."""
-
-    kind: TrapKind
-    span: Span
-    pou: str
-    message: str
-
-
-@dataclass(frozen=True, slots=True)
-class CheckSite:
-    """A subrange check that the compiler embedded; engines name it by its index in `Program.checks` plus one."""
-
-    span: Span
-    pou: str
-    variable: str
-    """What is checked, as people write it: `valve.level`, or `EN_CHECK`."""
-    low: int
-    high: int
-    needless: str = ""
-    """Why no check was embedded here, empty when there is one. Shown, never run."""
+    from scanbench.program.tasks import AccessPath, ProgramInstance, Task
 
 
 # ---- places: where a value lives -------------------------------------------------------------------------------
@@ -270,16 +236,6 @@ class Assign:
     value: Expr
     span: Span
 
-    @property
-    def keeps_bits(self) -> bool:
-        """Whether it copies a REAL as it is in memory, a NaN with all its bits. A temporary may be in a register instead."""
-        if not isinstance(self.value, Load) or self.value.type.kind is not Kind.REAL:
-            return False
-        place = self.value.place
-        return place.type == self.target.type and (
-            place.base is not Base.FRAME or place.slot is not None or place.reference is not None
-        )
-
 
 @dataclass(frozen=True, slots=True)
 class SetBytes:
@@ -410,22 +366,8 @@ class Halt:
 
 
 Stmt = (
-    Assign
-    | SetBytes
-    | CallBlock
-    | Evaluate
-    | If
-    | Case
-    | For
-    | While
-    | Repeat
-    | Exit
-    | Continue
-    | Return
-    | Blocks
-    | Jump
-    | Halt
-)
+    Assign | SetBytes | CallBlock | Evaluate | If | Case | For | While | Repeat | Exit | Continue | Return | Blocks | Jump | Halt
+)  # fmt: skip
 
 
 # ---- program organisation units -----------------------------------------------------------------------------------
@@ -457,11 +399,6 @@ class Pou:
     """The same for `Program.checks`."""
 
     @property
-    def copies(self) -> bool:
-        """Whether its body copies in-outs by value, in and back."""
-        return any(each.copied for each in self.instance.members.values())
-
-    @property
     def this(self) -> Member | None:
         """The slot of a method that holds its instance."""
         member = self.frame.members.get("THIS")
@@ -476,80 +413,33 @@ class Pou:
 
 
 @dataclass(frozen=True, slots=True)
-class ProgramInstance:
-    """`before` and `after` are what a CONFIGURATION connects: run around the body, with places of Base.IMAGE only.
-
-    Sites in them count from 0 (as with a POU whose `first_check` is 0), and no instance is running there. `pou` may be a function block that a task
-    runs by itself: `name` is the path of that instance.
-    """
-
-    name: str
-    pou: Pou
-    offset: int
-    before: tuple[Stmt, ...] = ()
-    after: tuple[Stmt, ...] = ()
-    retain: bool = False
-    """Declared as PROGRAM RETAIN: so are its variables, where they say nothing else themselves."""
-
-
-@dataclass(frozen=True, slots=True)
-class Task:
-    """Runs in every scan n for which n * base_interval is a multiple of `interval_ns`, in this order of priority.
-
-    With `single`, a BOOL: also in a scan where it is TRUE and was FALSE when this was last looked at (`previous`, a
-    BOOL of the image that the engine keeps), and its interval counts only while it is FALSE. It is looked at in each
-    scan when the task's turn comes. `every` is 0 for a task without an interval.
-    """
-
-    name: str
-    interval_ns: int
-    priority: int
-    every: int
-    """Due in scans that are multiples of this."""
-    programs: tuple[ProgramInstance, ...]
-    single: Place | None = None
-    previous: Place | None = None
-    single_span: Span | None = None
-    """Where SINGLE stands."""
-
-
-@dataclass(frozen=True, slots=True)
-class AccessPath:
-    """VAR_ACCESS: another name for a variable, for tools."""
-
-    name: str
-    path: str
-    writable: bool
-
-
-@dataclass(frozen=True, slots=True)
 class Program:
     """A whole program on one model: immutable, the same for both engines. Image bytes are described by `layout`."""
 
     pous: tuple[Pou, ...]
     """Callees before callers."""
-    tasks: tuple[Task, ...]
+    tasks: tuple["Task", ...]
     interval_ns: int
     """Length of a scan in virtual time: the greatest common divisor of the tasks' intervals."""
     traps: tuple[TrapSite, ...]
     layout: "Layout"
     initial_image: bytes
     checks: tuple[CheckSite, ...] = ()
-    accesses: tuple[AccessPath, ...] = ()
-    common: tuple[ProgramInstance, ...] = ()
+    accesses: tuple["AccessPath", ...] = ()
+    common: tuple["ProgramInstance", ...] = ()
     """Phase 1: keeps the model's system words alive (first cycle flag, clock pulses, clock). Made from the model."""
-    plant: tuple[ProgramInstance, ...] = ()
+    plant: tuple["ProgramInstance", ...] = ()
     """Phase 2: the project's `plant/`: programs and stimuli that drive the inputs, before the forces."""
     tasked: tuple[Pou, ...] = ()
     """Those of `pous` that the tasks run, themselves or through others; the plant may run them too."""
 
     @property
-    def instances(self) -> tuple[ProgramInstance, ...]:
+    def instances(self) -> tuple["ProgramInstance", ...]:
         """Every instance of a program: of common processing, of the tasks, of the plant. Blocks that a task runs are none."""
         tasks = (each for task in self.tasks for each in task.programs if each.pou.kind == "program")
         return (*self.common, *tasks, *self.plant)
 
     @property
-    def shown(self) -> tuple[ProgramInstance, ...]:
+    def shown(self) -> tuple["ProgramInstance", ...]:
         """The same without what was made from the model."""
         return self.instances[len(self.common) :]

@@ -56,6 +56,7 @@ def run_headless(
     programs: Programs | None = None,
     until: Condition | None = None,
     interrupt: Interrupt | None = None,
+    on_begin: Callable[[Resource], None] | None = None,
 ) -> HeadlessRun[T]:
     """Runs `scans` scans from a cold start in MONITOR mode.
 
@@ -65,14 +66,17 @@ def run_headless(
     holds, a condition for the program that the run begins with.
 
     A `recording` that stands at the cold start gets all of it, with checkpoints on the way, and is left open; `entries`
-    has only what is still in there. Asked by the `interrupt`, the run ends after the scan that is running.
+    has only what is still in there. Asked by the `interrupt`, the run ends after the scan that is running. `on_begin` is told
+    the PLC before its first scan.
     """
     loaded = Loaded.make(program, engine_factory)
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     recorded = _Recorded(recording, resource) if recording is not None else None
     resource.waiting.until = until
     if interrupt is not None:
-        interrupt.reaches(resource.knock)
+        interrupt.reaches(resource.interrupt)
+    if on_begin is not None:
+        on_begin(resource)
     met = False
     refused: list[Refused] = []
     rows: list[tuple[int, T]] = []

@@ -269,7 +269,7 @@ class Timeline:
         def look() -> None:
             nonlocal found
             with resource.listening.instead(HaltAt(0), NOT_LISTENING):
-                while self.go_on(scan + 1).reason is Reason.KNOCKED:
+                while self.go_on(scan + 1).reason is Reason.INTERRUPTED:
                     pass
                 found = resource.loaded.debugged().count
 
@@ -319,7 +319,7 @@ class Timeline:
         """Runs what is shown of the past on, with the resource's hook, to the seam in front of scan `until`, at most to that
         in front of the PLC's next scan. With `until` behind that and the PLC in the middle of it, the hook has to halt there.
 
-        HALTED: the hook halted it; KNOCKED: it stands somewhere on the way, perhaps as another program runs from here on.
+        HALTED: the hook halted it; INTERRUPTED: it stands somewhere on the way, perhaps as another program runs from here on.
         """
         live, resource, loaded = self._live, self.resource, self.resource.loaded
         if live is None or not self._whole:
@@ -331,14 +331,14 @@ class Timeline:
             if now >= until or (now >= live.scan and not unfinished):
                 return Stop(Reason.DONE)
             if resource.loaded is not loaded:
-                return Stop(Reason.KNOCKED)
+                return Stop(Reason.INTERRUPTED)
             stop = self._one_stretch(live.journal, min(until, max(live.scan, now + 1)))
             if stop.reason is Reason.HALTED:
                 assert resource.listening.inside is not None
                 inside = resource.journal[front(resource.journal, resource.header.scan) :]
                 later = sum(each.step > resource.listening.inside.count for each in inside)
                 resource.journal = resource.journal.prefix(len(resource.journal) - later)
-            if stop.reason in (Reason.HALTED, Reason.KNOCKED):
+            if stop.reason in (Reason.HALTED, Reason.INTERRUPTED):
                 return stop
 
     def _following(self, journal: Journal) -> Entry | None:
@@ -440,7 +440,7 @@ class Timeline:
     def _enter(self, scan: int, count: int) -> bool:
         """From the seam in front of a scan to its statement of this count."""
         with self.resource.listening.instead(HaltAt(count), Listen(count=count)):
-            while (stop := self.go_on(scan + 1)).reason is Reason.KNOCKED:
+            while (stop := self.go_on(scan + 1)).reason is Reason.INTERRUPTED:
                 pass
         return stop.reason is Reason.HALTED
 

@@ -1,12 +1,11 @@
 """A test record as one HTML file that needs nothing else: to be read, printed and signed."""
 
-from collections.abc import Iterable, Sequence
-from datetime import UTC, datetime
+from collections.abc import Sequence
 from html import escape
-from importlib.resources import files
 from itertools import groupby
 
 from scanbench.faults.reaction.reaction import FINDINGS, Difference, Reaction, Verdict
+from scanbench.reports.page import Page, moment, table, td, th, tr
 from scanbench.reports.record import (
     WORST_FIRST,
     Missed,
@@ -29,24 +28,15 @@ def to_html(record: TestRecord, language: Language = "en") -> str:
 
 class _Document:
     def __init__(self, record: TestRecord, language: Language) -> None:
-        self._record, self._language = record, language
-        self._words = WORDS[language]
+        self._record, self._page = record, Page(language, WORDS)
+        self._word = self._page.word
 
     def text(self) -> str:
-        style = files("scanbench.faults").joinpath("record.css").read_text("utf-8")
-        title = escape(f"{self._words['title']} – {self._record.title}")
         parts = [
             self._head(), self._summary(), self._findings(), self._untested(), self._table(), *self._sweeps(),
             self._log(), self._sign(),
         ]  # fmt: skip
-        return (
-            f'<!DOCTYPE html>\n<html lang="{self._language}">\n<head>\n<meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n{''.join(parts)}</body>\n</html>\n"
-        )
-
-    def _word(self, name: str) -> str:
-        return escape(self._words[name])
+        return self._page.document(self._record.title, parts)
 
     # ---- head and summary -----------------------------------------------------------------------------------------
 
@@ -54,13 +44,11 @@ class _Document:
         head = self._record.head
         pairs = [
             ("project", head.project), ("instance", head.instance), ("model", head.model),
-            ("version", str(head.program_version)), ("exported", f"{_moment(head.exported_at)} UTC"),
+            ("version", str(head.program_version)), ("written", f"{moment(head.exported_at)} UTC"),
             ("by", head.exported_by), ("tool", head.tool),
         ]  # fmt: skip
-        rows = "".join(f"<dt>{self._word(name)}</dt><dd>{escape(value)}</dd>" for name, value in pairs)
-        rows += "<dt></dt><dd></dd>"
         hash_ = f'<dt>{self._word("hash")}</dt><dd class="wide mono">{escape(head.program_hash) or "–"}</dd>'
-        return f'<h1>{self._word("title")}</h1>\n<dl class="head">{rows}{hash_}</dl>\n'
+        return self._page.head(((name, escape(value)) for name, value in pairs), hash_)
 
     def _summary(self) -> str:
         told = self._record.summary
@@ -90,15 +78,15 @@ class _Document:
             return f"<h2>{self._word('findings')}</h2>\n<p>{self._word('no_findings' if tested else 'nothing_tested')}</p>\n"
         rows = map(self._finding_row, found)
         heads = ("error", "code", "severity", "state", "verdict", "status", "reason")
-        return f"<h2>{self._word('findings')}</h2>\n{self._whole_table(heads, rows)}"
+        return f"<h2>{self._word('findings')}</h2>\n{self._page.table(heads, rows)}"
 
     def _finding_row(self, missed: Missed) -> str:
         error, one = missed.error, missed.accepted
-        accepted = "" if one is None else escape(f"{one.reason} ({one.by}, {_moment(one.at)})")
+        accepted = "" if one is None else escape(f"{one.reason} ({one.by}, {moment(one.at)})")
         word = self._word("finding_open" if one is None else "finding_accepted")
-        return _row(
-            f'<th scope="row">{escape(error.name)}</th>', _mono(error.code), _cell(self._words[error.severity]),
-            _cell(missed.state or self._words["on_plc"]), f"<td>{self._verdict(missed.verdict)}</td>",
+        return tr(
+            f'<th scope="row">{escape(error.name)}</th>', td(error.code, "mono"), td(self._page.plain(error.severity)),
+            td(missed.state or self._page.plain("on_plc")), f"<td>{self._verdict(missed.verdict)}</td>",
             f"<td>{word}</td>", f"<td>{accepted}</td>",
         )  # fmt: skip
 
@@ -115,24 +103,14 @@ class _Document:
 
     def _table(self) -> str:
         heads = (
-            "error",
-            "code",
-            "flag",
-            "severity",
-            "status",
-            "when",
-            "count",
-            "verdict",
-            "scans",
-            "read_by",
-            "outputs",
-        )
+            "error", "code", "flag", "severity", "status", "when", "count", "verdict", "scans", "read_by", "outputs",
+        )  # fmt: skip
         rows = []
         for group, errors in groupby(self._record.errors, key=lambda error: error.group):
             rows.append(f'<tr class="group"><th scope="colgroup" colspan="{len(heads)}">{escape(group)}</th></tr>\n')
             rows += map(self._error_row, errors)
         return (
-            f"<h2>{self._word('table')}</h2>\n{self._whole_table(heads, rows)}"
+            f"<h2>{self._word('table')}</h2>\n{self._page.table(heads, rows)}"
             f'<p class="faint">{self._word("scans_hint")}</p>\n'
         )
 
@@ -147,10 +125,10 @@ class _Document:
         note = error.reaction_note or ("" if reaction is None else reaction.note)
         if note:
             verdict += f'<br><span class="faint">{escape(note)}</span>'
-        return _row(
-            f"{name}</th>", _mono(error.code), _mono(error.flag), _cell(self._words[error.severity]),
-            _cell(self._words[error.status]), f'<td class="when">{self._when(error)}</td>', _number(error.count or None),
-            f"<td>{verdict}</td>", _number(finding.scans), f'<td class="mono places">{self._readers(reaction)}</td>',
+        return tr(
+            f"{name}</th>", td(error.code, "mono"), td(error.flag, "mono"), td(self._page.plain(error.severity)),
+            td(self._page.plain(error.status)), f'<td class="when">{self._when(error)}</td>', td(error.count or None, "num"),
+            f"<td>{verdict}</td>", td(finding.scans, "num"), f'<td class="mono places">{self._readers(reaction)}</td>',
             f'<td class="mono places">{self._outputs(() if reaction is None else reaction.differences)}</td>',
         )  # fmt: skip
 
@@ -159,7 +137,7 @@ class _Document:
         for at, scan in ((error.generated_at, error.generated_scan), (error.recovered_at, error.recovered_scan)):
             if at is not None:
                 before = "" if scan is None else f' <span class="faint">{self._word("scan")} {scan}</span>'
-                lines.append(f"{_moment(at)}{before}")
+                lines.append(f"{moment(at)}{before}")
         if error.by:
             origin = {"plc": "origin_plc", "program": "origin_program"}.get(error.origin or "")
             lines.append(self._word(origin) if origin else escape(error.by))
@@ -174,7 +152,7 @@ class _Document:
     def _shortened(self, items: Sequence[str]) -> str:
         shown = list(items[:SHOWN])
         if len(items) > SHOWN:
-            shown.append(escape(self._words["and_more"].format(count=len(items) - SHOWN)))
+            shown.append(self._word("and_more", count=len(items) - SHOWN))
         return "<br>".join(shown)
 
     # ---- sweeps and log -------------------------------------------------------------------------------------------
@@ -187,19 +165,18 @@ class _Document:
         cells: dict[str, dict[str, RecordCell]] = {}
         for cell in sweep.cells:
             cells.setdefault(cell.error, {})[cell.state] = cell
-        text = self._words["sweep_text"].format(
-            window=sweep.window, status=self._words[sweep.status], by=sweep.by, at=_moment(sweep.at)
+        text = self._word(
+            "sweep_text", window=sweep.window, status=self._page.plain(sweep.status), by=sweep.by, at=moment(sweep.at)
         )
-        head = f'<th scope="col">{self._word("error")}</th>'
-        head += "".join(f'<th scope="col">{escape(state)}</th>' for state in sweep.states)
+        heads = "".join(map(th, (self._word("error"), *map(escape, sweep.states))))
         rows = [
-            _row(
+            tr(
                 f'<th scope="row">{escape(errors[id].name if id in errors else id)}</th>',
                 *(self._found(by.get(state), errors.get(id)) for state in sweep.states),
             )
             for id, by in cells.items()
         ]
-        return f"<h2>{self._word('sweep')}: {escape(sweep.instance)}</h2>\n<p>{escape(text)}</p>\n{_table(head, rows)}"
+        return f"<h2>{self._word('sweep')}: {escape(sweep.instance)}</h2>\n<p>{text}</p>\n{table(heads, rows)}"
 
     def _found(self, cell: RecordCell | None, error: RecordError | None) -> str:
         if cell is None:
@@ -215,16 +192,16 @@ class _Document:
         if not self._record.log:
             return ""
         rows = map(self._line, folded(self._record.log))
-        return f"<h2>{self._word('log')}</h2>\n{self._whole_table(('time', 'scan', 'by', 'text'), rows)}"
+        return f"<h2>{self._word('log')}</h2>\n{self._page.table(('time', 'scan', 'by', 'text'), rows)}"
 
     def _line(self, line: FoldedLine) -> str:
         first, last, text = line.first, line.last, "; ".join(line.texts)
         if line.times == 1:
-            return _row(_mono(_moment(first.at)), _number(first.scan), _cell(first.by), _cell(text))
-        times = escape(self._words["times"].format(count=line.times))
-        return _row(
-            f'<td class="mono">{_moment(first.at)}<br>– {_moment(last.at)}</td>',
-            f'<td class="num">{first.scan}<br>– {last.scan}</td>', _cell(first.by),
+            return tr(td(moment(first.at), "mono"), td(first.scan, "num"), td(first.by), td(text))
+        times = self._word("times", count=line.times)
+        return tr(
+            f'<td class="mono">{moment(first.at)}<br>– {moment(last.at)}</td>',
+            f'<td class="num">{first.scan}<br>– {last.scan}</td>', td(first.by),
             f"<td>{escape(text)} <b>({times})</b></td>",
         )  # fmt: skip
 
@@ -239,30 +216,3 @@ class _Document:
 
     def _verdict(self, verdict: Verdict | None) -> str:
         return f'<span class="verdict {verdict or "unknown"}">{self._word(verdict or "unknown")}</span>'
-
-    def _whole_table(self, heads: Iterable[str], rows: Iterable[str]) -> str:
-        return _table("".join(f'<th scope="col">{self._word(head)}</th>' for head in heads), rows)
-
-
-def _table(head: str, rows: Iterable[str]) -> str:
-    return f'<div class="scroll"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{"".join(rows)}</tbody>\n</table></div>\n'
-
-
-def _row(*cells: str) -> str:
-    return f"<tr>{''.join(cells)}</tr>\n"
-
-
-def _cell(text: str) -> str:
-    return f"<td>{escape(text)}</td>"
-
-
-def _mono(text: str) -> str:
-    return f'<td class="mono">{escape(text)}</td>'
-
-
-def _number(number: int | None) -> str:
-    return f'<td class="num">{"" if number is None else number}</td>'
-
-
-def _moment(at: datetime) -> str:
-    return f"{at.astimezone(UTC):%Y-%m-%d %H:%M:%S}"

@@ -7,8 +7,7 @@ from scanbench.reports.record_text import Language
 WORDS: Mapping[Language, Mapping[str, str]] = {
     "en": {
         "title": "Test record: reaction to PLC errors",
-        "project": "Project", "model": "PLC model", "instance": "Virtual PLC", "version": "Program version",
-        "hash": "Program (SHA-256)", "exported": "Written", "by": "By", "tool": "With",
+        "hash": "Program (SHA-256)",
         "summary": "Summary", "errors": "Errors in the catalogue", "tested": "Tested", "untested": "Not tested",
         "generated_now": "Still generated", "unknown": "Tested, no verdict", "accepted": "Findings accepted", "open": "Findings open",
         "on_plc": "on the PLC itself", "times": "{count} times",
@@ -19,7 +18,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "table": "Every error", "group": "Group", "error": "Error", "code": "Code", "flag": "Flag", "severity": "Severity",
         "status": "Status", "when": "Generated / recovered", "details": "Details", "count": "Times", "verdict": "Verdict",
         "scans": "Scans", "read_by": "Read by", "outputs": "Outputs that differ", "scan": "scan", "state": "State",
-        "reason": "Reason", "note": "Note", "in_sweep": "in a sweep", "origin_plc": "the PLC itself",
+        "reason": "Reason", "in_sweep": "in a sweep", "origin_plc": "the PLC itself",
         "origin_program": "the program", "and_more": "and {count} more",
         "fatal": "fatal", "nonfatal": "nonfatal",
         "never": "never", "generated": "generated", "cleared": "cleared",
@@ -42,8 +41,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
     },
     "ja": {
         "title": "試験成績書：PLC異常に対する動作",
-        "project": "プロジェクト", "model": "PLC機種", "instance": "仮想PLC", "version": "プログラム版数",
-        "hash": "プログラム（SHA-256）", "exported": "作成日時", "by": "作成者", "tool": "作成ソフトウェア",
+        "hash": "プログラム（SHA-256）",
         "summary": "集計", "errors": "カタログの異常数", "tested": "試験済み", "untested": "未試験",
         "generated_now": "発生中", "unknown": "試験済み（判定なし）", "accepted": "承認された指摘", "open": "未処置の指摘",
         "on_plc": "PLC上で発生", "times": "{count}回",
@@ -54,7 +52,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "table": "異常一覧", "group": "分類", "error": "異常", "code": "コード", "flag": "フラグ", "severity": "重大度",
         "status": "状態", "when": "発生／復旧", "details": "詳細", "count": "回数", "verdict": "判定",
         "scans": "スキャン数", "read_by": "参照箇所", "outputs": "変化した出力", "scan": "スキャン", "state": "開始状態",
-        "reason": "理由", "note": "備考", "in_sweep": "一括試験", "origin_plc": "PLC自身", "origin_program": "プログラム",
+        "reason": "理由", "in_sweep": "一括試験", "origin_plc": "PLC自身", "origin_program": "プログラム",
         "and_more": "ほか{count}件",
         "fatal": "運転停止", "nonfatal": "運転継続",
         "never": "未発生", "generated": "発生中", "cleared": "復旧済み",

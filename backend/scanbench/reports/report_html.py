@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
-from importlib.resources import files
 
+from scanbench.reports.page import Page, table, td, th
 from scanbench.reports.record_text import Language
 from scanbench.reports.report import CONTEXT, Report
 from scanbench.reports.report_words import WORDS
@@ -28,23 +28,14 @@ def to_html(report: Report, language: Language = "en") -> str:
 
 class _Document:
     def __init__(self, report: Report, language: Language) -> None:
-        self._report, self._language = report, language
-        self._words = WORDS[language]
+        self._report, self._page = report, Page(language, WORDS)
+        self._word = self._page.word
         self._differences = report.differences()
 
     def text(self) -> str:
         head = self._report.head
-        style = files("scanbench.verify").joinpath("report.css").read_text("utf-8")
-        title = escape(f"{self._words['title']} – {head.project}, {head.title}")
         parts = (self._head(), self._verdict(), *self._sections(), self._table())
-        return (
-            f'<!DOCTYPE html>\n<html lang="{self._language}">\n<head>\n<meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n{''.join(parts)}</body>\n</html>\n"
-        )
-
-    def _word(self, word: str, /, **values: object) -> str:
-        return escape(self._words[word].format(**values) if values else self._words[word])
+        return self._page.document(f"{head.project}, {head.title}", parts)
 
     # ---- head and verdict -----------------------------------------------------------------------------------------
 
@@ -56,10 +47,9 @@ class _Document:
             ("model", escape(head.model)), ("version", str(head.version)),
             ("range", escape(head.title)), ("scans", f"{head.first} – {head.last}"),
             ("source", source), ("interval", f"{head.interval_ns / 1e6:g} ms"),
-            ("when", escape(_moment(head.when))), ("by", escape(head.by)), ("tool", escape(head.tool)),
+            ("written", escape(_moment(head.when))), ("by", escape(head.by)), ("tool", escape(head.tool)),
         ]  # fmt: skip
-        rows = "".join(f"<dt>{self._word(name)}</dt><dd>{value}</dd>" for name, value in pairs)
-        return f'<h1>{self._word("title")}</h1>\n<dl class="head">{rows}<dt></dt><dd></dd></dl>\n'
+        return self._page.head(pairs)
 
     def _verdict(self) -> str:
         head = self._report.head
@@ -96,7 +86,7 @@ class _Document:
 
     def _section(self, row: Row, difference: Mismatch) -> str:
         column = column_of(difference, self._report.columns)
-        nothing = self._words["nothing"]
+        nothing = self._page.plain("nothing")
         bits = differing_bits(difference.control, difference.monitor)
         pairs = [
             ("control_long", _value(column, difference.control, nothing, bits)),
@@ -109,7 +99,7 @@ class _Document:
         if difference.place is not None:
             pairs.append(("place", _place(difference.place)))
             pairs.append(("task", escape(difference.place.task) or escape(nothing)))
-        rows = "".join(f"<dt>{self._word(name)}</dt><dd>{value}</dd>" for name, value in pairs)
+        rows = self._page.pairs(pairs)
         call = f", {self._word('call').lower()} {row.call}" if row.call > 1 else ""
         source = difference.place.text if difference.place is not None else ""
         code = f'<pre class="mono">{escape(source)}</pre>' if source else ""
@@ -125,15 +115,15 @@ class _Document:
         if not rows:
             return ""
         outputs, inputs, left_out = self._shown()
-        body = "".join(self._row(row, outputs, inputs) for row in rows[:ROWS])
+        body = [self._row(row, outputs, inputs) for row in rows[:ROWS]]
         notes = []
         if left_out:
             notes.append(self._word("columns_left_out", count=left_out))
         if len(rows) > ROWS:
             notes.append(self._word("rows_left_out", count=f"{len(rows) - ROWS:,}"))
         return (
-            f'<h2>{self._word(title)}</h2>\n<div class="scroll"><table>\n<thead>{self._heads(outputs, inputs)}</thead>\n'
-            f'<tbody>\n{body}</tbody>\n</table></div>\n<p class="faint">{" ".join(notes)}</p>\n'
+            f"<h2>{self._word(title)}</h2>\n{table(self._heads(outputs, inputs), body, 'values')}"
+            f'<p class="faint">{" ".join(notes)}</p>\n'
         )
 
     def _around(self) -> list[Row]:
@@ -153,9 +143,7 @@ class _Document:
 
         names = "".join(f'<th scope="colgroup" colspan="2">{escape(each.name)}</th>' for each in outputs)
         group = f'<th scope="colgroup" colspan="{len(inputs)}">{self._word("inputs")}</th>' if inputs else ""
-        sides = f'<th scope="col">{self._word("control")}</th><th scope="col">{self._word("monitor")}</th>' * len(
-            outputs
-        )
+        sides = (th(self._word("control")) + th(self._word("monitor"))) * len(outputs)
         used = "".join(f'<th scope="col" class="faint">{escape(each.name)}</th>' for each in inputs)
         first = "".join(map(over, ("scan", "call", "instance_path")))
         return f"<tr>{first}{names}{group}{over('note')}</tr><tr>{sides}{used}</tr>"
@@ -172,8 +160,7 @@ class _Document:
     def _row(self, row: Row, outputs: Sequence[Column], inputs: Sequence[Column]) -> str:
         bad = {each.name for each in row.differences}
         cells = [
-            f'<td class="num first">{row.scan}</td>', f'<td class="num">{row.call or ""}</td>',
-            f'<td class="mono">{escape(row.instance)}</td>',
+            td(row.scan, "num first"), td(row.call or None, "num"), td(row.instance, "mono"),
         ]  # fmt: skip
         for column in outputs:
             output = row.outputs.get(column.name)
@@ -191,7 +178,7 @@ class _Document:
                 text += f"<br>{self._word('was_set', value=value_text(column, given.set))}"
             mark = " bad" if given.expected is not None and column.name in bad else ""
             cells.append(f'<td class="value mono{mark}">{text}</td>')
-        cells.append(f'<td class="note">{escape("; ".join((*row.disturbances, *filter(None, [row.note]))))}</td>')
+        cells.append(td("; ".join((*row.disturbances, *filter(None, [row.note]))), "note"))
         return f'<tr class="{"differs" if row.differs else ""}">{"".join(cells)}</tr>\n'
 
 
@@ -201,9 +188,7 @@ def _output_cells(column: Column, output: Output | None, mark: str) -> tuple[str
     control, monitor = value_text(column, output.control), value_text(column, output.monitor)
     if output.set is not None:
         monitor = f"{monitor} → {value_text(column, output.set)}"
-    return (
-        f'<td class="value mono{mark}">{escape(control)}</td>', f'<td class="value mono">{escape(monitor)}</td>'
-    )  # fmt: skip
+    return td(control, f"value mono{mark}"), td(monitor, "value mono")
 
 
 def _value(column: Column, data: bytes, nothing: str, bits: Iterable[int]) -> str:

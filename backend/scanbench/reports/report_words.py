@@ -6,8 +6,7 @@ from scanbench.reports.record_text import Language
 
 WORDS: Mapping[Language, Mapping[str, str]] = {
     "en": {
-        "title": "Verification report", "project": "Project", "instance": "Virtual PLC", "model": "PLC model",
-        "version": "Program version", "range": "Range", "scans": "Scans", "by": "By", "when": "Written", "tool": "With",
+        "title": "Verification report", "range": "Range", "scans": "Scans",
         "source": "Control device", "live": "the PLC, while it ran", "past": "the recorded run, run again natively",
         "trace": "trace of a real controller: {name}", "interval": "Task interval",
         "verdict": "Result", "no_difference": "No difference", "differences_found": "Differences found",
@@ -27,7 +26,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "outside": "a variable that the range does not use",
         "recorded": "the run file has another value than the same code gives when it runs again",
         "rows": "Rows that differ, and those around them", "rows_same": "The last rows",
-        "inputs": "Inputs, in the order of use", "note": "Note", "instance_path": "Instance",
+        "inputs": "Inputs, in the order of use", "instance_path": "Instance",
         "columns_left_out": "{count} more columns are in the CSV and JSON exports.",
         "rows_left_out": "{count} more rows are in the CSV and JSON exports.",
         "expected": "expected {value}", "was_set": "set to {value}",
@@ -36,9 +35,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "nothing": "–",
     },
     "ja": {
-        "title": "検証報告書", "project": "プロジェクト", "instance": "仮想PLC", "model": "PLC機種",
-        "version": "プログラム版数", "range": "検証範囲", "scans": "スキャン", "by": "作成者", "when": "作成日時",
-        "tool": "作成ソフトウェア", "source": "制御装置", "live": "運転中のPLC", "past": "記録された運転（ネイティブ再実行）",
+        "title": "検証報告書", "range": "検証範囲", "scans": "スキャン", "source": "制御装置", "live": "運転中のPLC", "past": "記録された運転（ネイティブ再実行）",
         "trace": "実機のトレース：{name}", "interval": "タスク周期",
         "verdict": "結果", "no_difference": "差異なし", "differences_found": "差異あり", "nothing_compared": "比較なし",
         "compared": "比較したスキャン", "skipped": "比較していないスキャン", "differing": "差異のある行",
@@ -56,7 +53,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "outside": "検証範囲が使用しない変数",
         "recorded": "実行ファイルの値が、同じコードの再実行と異なる",
         "rows": "差異のある行とその前後", "rows_same": "最後の行",
-        "inputs": "入力（使用順）", "note": "備考", "instance_path": "インスタンス",
+        "inputs": "入力（使用順）", "instance_path": "インスタンス",
         "columns_left_out": "ほかに{count}列あります（CSV・JSON出力に含まれます）。",
         "rows_left_out": "ほかに{count}行あります（CSV・JSON出力に含まれます）。",
         "expected": "期待値 {value}", "was_set": "設定値 {value}",

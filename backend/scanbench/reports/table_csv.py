@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from scanbench.reports.report import Report
-from scanbench.reports.value_text import Format, value_text
+from scanbench.reports.value_text import value_text
+from scanbench.symbols.values import Format
 from scanbench.verify.contract import Column, Input, Output, Row
 
 PIECE = 1 << 18

@@ -84,7 +84,7 @@ class Passage:
         self._halts = True
         self._listen = NOTHING
         self._waiting: list[Entry] = []
-        self._apply: Callable[[Entry], None] = lambda entry: None
+        self._apply: Callable[[Entry], object] = lambda entry: None
         self._insider: Insider | None = None
         self._enter: Callable[[Command, int], None] = lambda command, count: None
         self._wrote = False
@@ -94,7 +94,7 @@ class Passage:
 
     def begin(
         self, hook: Onlooker | None, halts: bool, listen: Listen, waiting: Sequence[Entry],
-        apply: Callable[[Entry], None], insider: Insider | None = None,
+        apply: Callable[[Entry], object], insider: Insider | None = None,
         enter: Callable[[Command, int], None] = lambda command, count: None,
     ) -> None:  # fmt: skip
         """Before `engine.run`: who listens and whether that may halt, what is entered in the one scan that is run then, and

@@ -8,14 +8,14 @@ class Interrupt:
 
     def __init__(self) -> None:
         self.asked = False
-        self._knock: Callable[[], None] | None = None
+        self._interrupt: Callable[[], None] | None = None
 
     def ask(self) -> None:
         """Ends the run soon."""
         self.asked = True
-        if self._knock is not None:
-            self._knock()
+        if self._interrupt is not None:
+            self._interrupt()
 
-    def reaches(self, knock: Callable[[], None]) -> None:
+    def reaches(self, interrupt: Callable[[], None]) -> None:
         """What makes the engine come back that runs now."""
-        self._knock = knock
+        self._interrupt = interrupt

@@ -28,7 +28,7 @@ class Within:
 
     waiting: Sequence[Entry]
     """Entries that the journal has already."""
-    again: Callable[[Entry], None]
+    again: Callable[[Entry], object]
     """Enters one of them."""
     insider: Insider | None
     enter: Callable[[Command, int], None]
@@ -188,6 +188,12 @@ class Listening:
         if self._passage is None or self._passage.engine is not engine:
             self._passage = Passage(engine)
         return self._passage
+
+    def go_to_begin(self) -> None:
+        """To where a scan began that is halted: it is run from there."""
+        if self.inside is not None:
+            self._loaded.memory[:] = self.inside.begin
+            self.inside = None
 
     def load(self, loaded: Loaded) -> None:
         """Another program runs."""

@@ -27,7 +27,8 @@ from scanbench.program.types import (
     Type,
 )
 from scanbench.public import Public
-from scanbench.symbols.symbols import UnknownPath, resolve, starting_at
+from scanbench.symbols.names import names_of
+from scanbench.symbols.symbols import UnknownPath, resolve
 
 _HEADER = (
     (Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2), (Layout.EPOCH, 8), (Layout.STARTED, 8),
@@ -68,10 +69,10 @@ def changes(old: Program, new: Program) -> Change:
     """What would become of the variables, whatever values they have: before anybody agrees to it."""
     memory = bytearray(old.layout.size)
     memory[: len(old.initial_image)] = old.initial_image
-    return carry_over(old, memory, new, bytearray(new.layout.size))
+    return migrate(old, memory, new, bytearray(new.layout.size))
 
 
-def carry_over(old: Program, old_memory: bytes | bytearray | memoryview, new: Program, new_memory: bytearray) -> Change:
+def migrate(old: Program, old_memory: bytes | bytearray | memoryview, new: Program, new_memory: bytearray) -> Change:
     """Fills `new_memory`, a fresh image of `new`, from the running image of `old`."""
     change = Change()
     for offset, size in _HEADER:
@@ -188,14 +189,14 @@ class _Carrier:
         area = self._old_program.layout.area_at(offset)
         if area is not None:
             return self._new_program.layout.areas[area[0].name] + area[1]
-        for symbol in starting_at(self._old_program, offset):
-            if not _refers_to(reference, symbol.type):
+        for part in names_of(self._old_program).starting(offset):
+            if not _refers_to(reference, part.type):
                 continue
             try:
-                there = resolve(self._new_program, symbol.path)
+                there = resolve(self._new_program, part.name)
             except UnknownPath:
                 continue
-            if there.type.name == symbol.type.name and not there.slots:
+            if there.type.name == part.type.name and not there.slots:
                 return there.offset
         return None
 

@@ -135,25 +135,25 @@ class Resource:
         ran = self.runnable
         self._attend(NONE_MET)  # nothing, unless this run was gone on with behind what was due
         if ran and not self.runnable:
-            return Stop(Reason.KNOCKED)
+            return Stop(Reason.INTERRUPTED)
         waits, first, listening = self.waiting.waits(self.view), self.header.scan, self.listening
         if waits.scan is not None:
             scans = min(scans, waits.scan - first)
         agenda, insider = self.waiting.agenda, waits.inside
         listening.observe(agenda.observed if waits.sites and agenda is not None else None)
         if insider is not None and not self._finishing and listening.takes_over():
-            return Stop(Reason.KNOCKED)
+            return Stop(Reason.INTERRUPTED)
         alone = bool(waits.sites) or insider is not None
         stop = self._run(self.engine, min(scans, 1) if alone else scans, pace, self.waiting.conditions(waits), insider)
         if stop.reason is Reason.HALTED:
-            return Stop(Reason.KNOCKED) if listening.probe_reached() else stop
+            return Stop(Reason.INTERRUPTED) if listening.probe_reached() else stop
         if stop.reason is Reason.TRAP and not self._finishing and listening.trap_taken_back():
             return Stop(Reason.HALTED)
         came_true = held(self.engine, waits) if stop.reason is Reason.CONDITION else NONE_MET.conditions
         met = Met(came_true, listening.reached(waits.sites))
         until = self.waiting.until
         if stop.reason is Reason.CONDITION and (until is None or not self.engine.holds(until)):
-            stop = Stop(Reason.KNOCKED)
+            stop = Stop(Reason.INTERRUPTED)
         if stop.reason is Reason.TRAP:
             self._notice(stop.trap)
         elif self.header.scan > first:
@@ -161,9 +161,9 @@ class Resource:
         self._attend(met)
         return stop
 
-    def knock(self) -> None:
+    def interrupt(self) -> None:
         """Asks, from any thread, for the run to come back after the current scan."""
-        self.engine.knock()
+        self.engine.interrupt()
 
     def finish(self) -> None:
         """Runs the scan to its end that is halted, whoever wants to halt it again. A trap ends it, too."""
@@ -224,7 +224,7 @@ class Resource:
 
     def leave(self) -> None:
         """Where the scan began that is halted, without what was entered inside of it: for what is shown of the past."""
-        self._stand_at_begin()
+        self.listening.go_to_begin()
         self.journal = self.journal.prefix(front(self.journal, self.header.scan))
 
     # ---- running --------------------------------------------------------------------------------------------------
@@ -233,7 +233,7 @@ class Resource:
         self, engine: Engine, scans: int, pace: Pace | None, conditions: tuple[Condition, ...],
         insider: Insider | None = None,
     ) -> Stop:  # fmt: skip
-        self._stand_at_begin()
+        self.listening.go_to_begin()
         if not self.runnable:
             raise RuntimeError("the program is stopped: it must not be run")
         waiting = entered_inside(self.journal, self.header.scan)
@@ -243,23 +243,16 @@ class Resource:
         first, start = self.header.scan, monotonic_ns()
         busy = pace.busy_ns if pace is not None else 0
         if waiting or self.listening.hook is not None or insider is not None:
-            within = Within(waiting, self._again, insider, partial(self._enter_inside, first))
+            within = Within(
+                waiting, lambda entry: seam.apply(self.loaded, self.programs, entry.plan), insider,
+                partial(self._enter_inside, first),
+            )  # fmt: skip
             stop = self.listening.run(scans, pace, within, not self._finishing, self.lenient)
         else:
             stop = engine.run(scans, pace)
         self.measured.scans += self.header.scan - first
         self.measured.busy_ns += pace.busy_ns - busy if pace is not None else monotonic_ns() - start
         return stop
-
-    def _stand_at_begin(self) -> None:
-        """Where a scan began that is halted: it is run from there."""
-        inside = self.listening.inside
-        if inside is not None:
-            self.memory[:] = inside.begin
-            self.listening.inside = None
-
-    def _again(self, entry: Entry) -> None:
-        seam.apply(self.loaded, self.programs, entry.plan)
 
     def _enter_inside(self, scan: int, command: Command, count: int) -> None:
         """What an insider enters. If it is refused, the agenda finds that it was not entered."""

@@ -3,7 +3,7 @@
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.runtime.header import Header, Mode, fresh_image
-from scanbench.runtime.migrate_image import Change, carry_over
+from scanbench.runtime.migrate_image import Change, migrate
 from scanbench.runtime.restart import restarted
 
 _U64 = (1 << 64) - 1
@@ -14,7 +14,7 @@ def swapped(
 ) -> tuple[bytearray, Change]:
     """The image of `new` behind the image of `old`; `fresh` as in `Swapped`. Time goes on, however long a scan is now."""
     image = fresh_image(new, Mode.MONITOR)
-    change = carry_over(old, memory, new, image)
+    change = migrate(old, memory, new, image)
     header = Header(image)
     origin = header.origin_ns + header.scan * (old.interval_ns - new.interval_ns)
     image[Layout.ORIGIN : Layout.ORIGIN + 8] = (origin & _U64).to_bytes(8, "little")

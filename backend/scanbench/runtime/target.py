@@ -12,7 +12,7 @@ from scanbench.program.types import Elementary, StringType, Subrange
 from scanbench.runtime.command import Command, Patch, Refusal, View
 from scanbench.runtime.rights import Right, may
 from scanbench.symbols.call_sites import Calls, CallSite, Formal, address, formal_of
-from scanbench.symbols.named import temporary_at, variable_at
+from scanbench.symbols.names import names_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.values import parse_value
 
@@ -108,7 +108,7 @@ def meant(view: View, path: str, site: str) -> Meant | Refusal:
     place = symbol.locate(view.memory) if not site else _at_site(view, symbol.path, site)
     if isinstance(place, Refusal):
         return place
-    named = None if place is None else variable_at(view.program, place, symbol.type)
+    named = None if place is None else names_of(view.program).variable(place, symbol.type)
     if named is None:
         return Meant(path, "") if not site else Refusal(_nowhere(view, symbol.path, site, place))
     return Meant(named.path, symbol.path)
@@ -141,7 +141,7 @@ def passed_by(view: View, formal: Formal, path: str, site: CallSite) -> Spot | N
 
 
 def _nowhere(view: View, path: str, site: str, place: Spot | None) -> str:
-    temporary = None if place is None else temporary_at(view.statements, place[0])
+    temporary = None if place is None else names_of(view.statements).temporary(place[0])
     if temporary is not None:
         return _gone(path, *temporary)
     return f"what {site} passes for {path} cannot be told now: let that call run first"
@@ -167,7 +167,7 @@ def writable_target(view: View, path: str, verb: Right, through: str = "") -> Ta
         return Refusal(not_called(view, symbol))
     offset, bit = place
     if offset >= view.program.layout.state_size:
-        found = temporary_at(view.statements, offset)
+        found = names_of(view.statements).temporary(offset)
         return Refusal(_gone(symbol.path, *(found or (None, ""))))
     reason = read_only_reason(view, symbol, offset, bit)
     if reason is not None:
@@ -200,7 +200,7 @@ def read_only_reason(view: View, symbol: Symbol, offset: int, bit: int | None) -
             )
         return None
     if symbol.slots:
-        named = variable_at(view.program, (offset, bit), symbol.type)
+        named = names_of(view.program).variable((offset, bit), symbol.type)
         symbol = symbol if named is None else named
     if not symbol.writable:
         return f"{symbol.path} is a constant: change it in the program and build"

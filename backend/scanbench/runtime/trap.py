@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from scanbench.program.layout import Layout
-from scanbench.program.program import Program, TrapKind, TrapSite
+from scanbench.program.program import Program
+from scanbench.program.sites import TrapKind, TrapSite
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Fold

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
-from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job, answered
+from scanbench.jobs.client import ANSWER_S, DIED, SLOW, WORK_S, Job, answered
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
@@ -51,8 +51,8 @@ class _Rerun:
     ended: bool = False
 
 
-class Pasts:
-    """All of a server."""
+class RunHistory:
+    """What was asked of the past of all PLCs of a server."""
 
     def __init__(self, runs: Path, cache: Path, open: Open, answer_s: float = ANSWER_S) -> None:
         self._answer_s, self._answered = answer_s, 0
@@ -91,7 +91,7 @@ class Pasts:
 
     async def last_writer(self, session: Session, path: str, scan: int | None) -> Writer:
         """Who last wrote a variable before `scan` began, or before what is shown now."""
-        state, live, run = session.state, _until(session), str(session.run_file)
+        state, live, run = session.state, _until(session), str(session.instance.run_file)
         wanted = (state.scan if state.past_by else NOW) if scan is None else scan
         found = await self._ask(lambda ref: FindWriter(ref, run, path.strip(), wanted, live))
         assert isinstance(found, WriterFound)
@@ -103,7 +103,7 @@ class Pasts:
         """What is another at the beginning of `last` than at that of `first`."""
         live = _until(session)
         live_other = 0 if other is None else _until(other)
-        run, second = str(session.run_file), "" if other is None else str(other.run_file)
+        run, second = str(session.instance.run_file), "" if other is None else str(other.instance.run_file)
         found = await self._ask(lambda ref: FindChanges(ref, run, first, last, live, second, live_other))
         assert isinstance(found, ChangesFound)
         if found.changes is None:
@@ -168,9 +168,11 @@ class Pasts:
             del self._comparisons[id]
         id = self._number()
         changed = Comparison(id, a.id, b.id, author)
-        job = Job(self._cache, lambda message: self._on_compared(id, message), lambda _job: self._on_compare_end(id))
+        job = Job(
+            self._cache, lambda message: self._on_compared(id, message), lambda _job: self._on_compare_end(id), WORK_S
+        )
         self._comparisons[id] = _Comparison(a, changed, job)
-        job.ask(CompareRuns(id, str(a.run_file), str(b.run_file), _until(a), _until(b)))
+        job.ask(CompareRuns(id, str(a.instance.run_file), str(b.instance.run_file), _until(a), _until(b)))
         return changed
 
     async def forget(self, id: int) -> None:
@@ -215,9 +217,9 @@ class Pasts:
         id = self._number()
         changed = Rerun(id, author, name)
         file = self._runs / f"rerun-{fresh_token()}"
-        job = Job(self._cache, lambda message: self._on_rerun(id, message), lambda _job: self._on_rerun_end(id))
+        job = Job(self._cache, lambda message: self._on_rerun(id, message), lambda _job: self._on_rerun_end(id), WORK_S)
         self._reruns[id] = _Rerun(session, changed, job, file)
-        job.ask(RerunRun(id, str(session.run_file), str(file), change, _until(session), author))
+        job.ask(RerunRun(id, str(session.instance.run_file), str(file), change, _until(session), author))
         return changed
 
     async def cancel_rerun(self, id: int) -> None:
@@ -292,4 +294,4 @@ class Pasts:
 def _until(session: Session) -> int:
     """Scans in front of this one are over; 0 where nobody knows but the run file."""
     state = session.state
-    return max(state.scan, state.live_scan) if session.on else 0
+    return max(state.scan, state.live_scan) if session.instance.on else 0

@@ -10,8 +10,8 @@ from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
-from scanbench.wire.events import BuildOutcome, Change, CheckOutcome
-from scanbench.wire.host import Sources
+from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
+from scanbench.wire.host import Preview, Previewed, Sources
 from scanbench.wire.refused import Refused, Unavailable
 
 
@@ -26,21 +26,21 @@ class Projects:
 
     async def all(self) -> list[ProjectRow]:
         """Every project."""
-        return await asyncio.to_thread(self._store.projects)
+        return await asyncio.to_thread(self._store.projects.all)
 
     async def get(self, id: int) -> ProjectRow:
         """The project of this number."""
-        return await asyncio.to_thread(self._store.project, id)
+        return await asyncio.to_thread(self._store.projects.get, id)
 
     async def create(self, name: str, model: str, watch: Sequence[str] = ()) -> ProjectRow:
         """An empty project on a model."""
         self.model(model)
-        return await asyncio.to_thread(self._store.create_project, name, model, watch)
+        return await asyncio.to_thread(self._store.projects.create, name, model, watch)
 
     async def delete(self, id: int) -> None:
         """Deletes a project that no PLC runs (`refuse_running`)."""
         await self.refuse_running(id)
-        await asyncio.to_thread(self._store.delete_project, id)
+        await asyncio.to_thread(self._store.projects.delete, id)
 
     async def refuse_running(self, id: int) -> None:
         """A project that a PLC runs cannot be deleted."""
@@ -59,29 +59,29 @@ class Projects:
 
     async def files(self, id: int) -> list[FileInfo]:
         """The files of a project."""
-        return await asyncio.to_thread(self._store.files, id)
+        return await asyncio.to_thread(self._store.files.all, id)
 
     async def file(self, id: int, path: str) -> FileRow:
         """One file."""
-        return await asyncio.to_thread(self._store.file, id, path)
+        return await asyncio.to_thread(self._store.files.get, id, path)
 
     async def save(self, id: int, path: str, text: str, version: int, author: str) -> FileRow:
         """Saves what was edited from `version` on; `store.Conflict` when somebody else was first."""
         _check_path(path)
-        file = await asyncio.to_thread(self._store.save_file, id, path, text, version, author)
+        file = await asyncio.to_thread(self._store.files.save, id, path, text, version, author)
         for session in self._sessions_of(id):
-            session.told_saved(author, file.path, file.version)
+            session.tell(FileSaved(author, file.path, file.version))
         return file
 
     async def delete_file(self, id: int, path: str, author: str) -> None:
         """Deletes a file."""
-        await asyncio.to_thread(self._store.delete_file, id, path)
+        await asyncio.to_thread(self._store.files.delete, id, path)
         for session in self._sessions_of(id):
-            session.told_deleted(author, path)
+            session.tell(FileDeleted(author, path))
 
     async def sources(self, id: int) -> dict[str, str]:
         """Path -> text of all program files."""
-        return await asyncio.to_thread(self._store.sources, id)
+        return await asyncio.to_thread(self._store.files.sources, id)
 
     # ---- check and build ------------------------------------------------------------------------------------------
 
@@ -98,7 +98,7 @@ class Projects:
     async def built(self, id: int, version: int | None = None) -> Sources | None:
         """A build that was accepted: the last one, or that of a `version`."""
         project = await self.get(id)
-        build = await asyncio.to_thread(self._store.build, id, version)
+        build = await asyncio.to_thread(self._store.builds.get, id, version)
         return None if build is None else Sources(project.model, build.sources, INTERVAL_NS, build.version)
 
     async def build(
@@ -121,8 +121,8 @@ class Projects:
             _check_path(path)
         project = await self.create(name, sources.model)
         for path, text in sources.files.items():
-            await asyncio.to_thread(self._store.save_file, project.id, path, text, 0, author)
-        await asyncio.to_thread(self._store.accept_build, project.id, sources.files, author, sources.version)
+            await asyncio.to_thread(self._store.files.save, project.id, path, text, 0, author)
+        await asyncio.to_thread(self._store.builds.accept, project.id, sources.files, author, sources.version)
         return await self.get(project.id)
 
     async def _build(self, id: int, author: str, agreed: bool, instances: Sequence[int] | None) -> BuildOutcome:
@@ -151,7 +151,7 @@ class Projects:
         lines = [f"{session.name} not changed: {refused[session.id]}" for session in sessions if session.id in refused]
         if sessions and len(refused) == len(sessions):
             return BuildOutcome(False, "; ".join(["nothing was changed", *lines]), found, project, changes)
-        await asyncio.to_thread(self._store.accept_build, id, sources, author)
+        await asyncio.to_thread(self._store.builds.accept, id, sources, author)
         willing = [session for session in sessions if session.id not in refused]
         acks = await asyncio.gather(*(session.build(build, author) for session in willing))
         done = [f"{session.name}: {ack.message}" for session, ack in zip(willing, acks, strict=True)]
@@ -160,7 +160,7 @@ class Projects:
 
     async def _runs_already(self, project: ProjectRow, sources: Mapping[str, str], sessions: Sequence[Session]) -> bool:
         """Whether a build would change nothing; one that stopped by an error is begun anew by a build."""
-        if await asyncio.to_thread(self._store.last_build, project.id) != sources:
+        if await asyncio.to_thread(self._store.builds.last, project.id) != sources:
             return False
         return all(
             session.state.version == project.version
@@ -174,7 +174,8 @@ class Projects:
 
         async def change(session: Session) -> Change | None:
             try:
-                return Change(session.id, session.name, await session.preview(build))
+                preview = await session.instance.ask(lambda ref: Preview(ref, build), Previewed)
+                return Change(session.id, session.name, preview)
             except Unavailable:
                 return None
 

@@ -38,7 +38,7 @@ class Solo:
         try:
             solo._write_behind.start()
             await asyncio.to_thread(zygote().start)
-            solo.session.start()
+            solo.session.instance.start()
             await solo.standing()
         except BaseException:
             await solo.close()
@@ -52,7 +52,7 @@ class Solo:
         cache = cache or data / "cache"
         try:
             store = Store(f"sqlite:///{data / 'scanbench.db'}")
-            row = store.create_instance(store.create_project(name, model.name).id, name)
+            row = store.instances.create(store.projects.create(name, model.name).id, name)
             write_behind, reactions = WriteBehind(store), Reactions(cache)
             memory = Remembered(name, sources, run_path(data, row.id), row.limits, Driven(speed, paused=True))
             session = Session(

@@ -26,9 +26,9 @@ class States:
         """Removes files that belong to nothing any more. Waits for the disk."""
         self._directory.mkdir(parents=True, exist_ok=True)
         known = set[Path]()
-        for project in self._store.projects():
-            known.update(self.path(row.id) for row in self._store.states(project.id))
-            known.update(path for row in self._store.sweeps(project.id) for path in self.of_sweep(row).values())
+        for project in self._store.projects.all():
+            known.update(self.path(row.id) for row in self._store.states.all(project.id))
+            known.update(path for row in self._store.sweeps.all(project.id) for path in self.of_sweep(row).values())
         for path in self._directory.iterdir():
             if path not in known:
                 discard(path)
@@ -56,7 +56,7 @@ class States:
 
     async def of_project(self, project: int) -> list[StateRow]:
         """The states that somebody kept."""
-        return await asyncio.to_thread(self._store.states, project)
+        return await asyncio.to_thread(self._store.states.all, project)
 
     async def keep(self, session: Session, name: str, scan: int | None, author: str) -> StateRow:
         """Keeps the PLC as it was before `scan`, or is now."""
@@ -64,7 +64,7 @@ class States:
             raise Refused(f"a state needs a name of its own, other than {NOW}")
         state = session.state
         row = await asyncio.to_thread(
-            lambda: self._store.create_state(
+            lambda: self._store.states.create(
                 session.project_id, name, instance=session.name, scan=state.scan if scan is None else scan,
                 program_version=state.version, by=author,
             )
@@ -72,9 +72,9 @@ class States:
         try:
             await self.take(session, self.path(row.id), scan, author)
         except BaseException:
-            await asyncio.to_thread(self._store.delete_state, row.id)
+            await asyncio.to_thread(self._store.states.delete, row.id)
             raise
-        session.told(author, f"state kept: {name}")
+        session.log.add(author, f"state kept: {name}")
         return row
 
     async def take(self, session: Session, path: Path, scan: int | None, author: str) -> None:
@@ -88,7 +88,7 @@ class States:
 
     async def delete(self, id: int) -> None:
         """Forgets a state."""
-        await asyncio.to_thread(self._store.delete_state, id)
+        await asyncio.to_thread(self._store.states.delete, id)
         await asyncio.to_thread(discard, self.path(id))
 
 

@@ -14,7 +14,7 @@ from scanbench.faults.inject import Generate
 from scanbench.faults.reaction.compare import Outcome, SweepChange, compare
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef, find_error
-from scanbench.jobs.client import DIED, Job
+from scanbench.jobs.client import DIED, WORK_S, Job
 from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
@@ -92,7 +92,7 @@ class Sweeps:
 
     async def start(self) -> None:
         """Sweeps that ran when the server went are interrupted: they can be resumed."""
-        await asyncio.to_thread(self._store.interrupt_sweeps, STOPPED_SERVER)
+        await asyncio.to_thread(self._store.sweeps.interrupt, STOPPED_SERVER)
 
     async def close(self) -> None:
         """Ends what runs; it can be resumed."""
@@ -103,21 +103,21 @@ class Sweeps:
 
     async def of_project(self, project: int) -> list[SweepRow]:
         """The sweeps of a project, the newest first."""
-        return list(map(self._live, await asyncio.to_thread(self._store.sweeps, project)))
+        return list(map(self._live, await asyncio.to_thread(self._store.sweeps.all, project)))
 
     async def row(self, id: int) -> SweepRow:
         """A sweep without its cells."""
-        return self._live(await asyncio.to_thread(self._store.sweep, id))
+        return self._live(await asyncio.to_thread(self._store.sweeps.get, id))
 
     async def whole(self, id: int) -> Whole:
         """A sweep with its cells."""
         row = await self.row(id)
-        cells = await asyncio.to_thread(self._store.cells, id)
+        cells = await asyncio.to_thread(self._store.sweeps.cells, id)
         return Whole(row, tuple(cells), await self._accepted(row.project))
 
     async def reaction(self, id: int, error: str, state: str) -> Reaction:
         """All that was found out about a cell."""
-        told = await asyncio.to_thread(self._store.cell_reaction, id, error, state)
+        told = await asyncio.to_thread(self._store.sweeps.reaction, id, error, state)
         if told is None:
             raise NotFound(f"this sweep knows no reaction to {error} from {state}")
         return from_json(told)
@@ -136,7 +136,7 @@ class Sweeps:
         return {version: worst(await self._verdicts(row.id)) for version, row in newest.items()}
 
     async def _verdicts(self, id: int) -> list[tuple[str, Swept]]:
-        cells = await asyncio.to_thread(self._store.cells, id)
+        cells = await asyncio.to_thread(self._store.sweeps.cells, id)
         found = ((cell, _VERDICTS.get(cell.verdict or "")) for cell in cells)
         return [(cell.error, Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None]
 
@@ -144,10 +144,10 @@ class Sweeps:
         """Tells the PLCs of a project what its sweeps found out."""
         found = await self.found(project)
         for session in self._sessions_of(project):
-            session.take_sweeps(found)
+            session.errors.take_sweeps(found)
 
     async def _accepted(self, project: int) -> dict[tuple[str, str], AcceptedRow]:
-        rows = await asyncio.to_thread(self._store.acceptances, project)
+        rows = await asyncio.to_thread(self._store.findings.accepted, project)
         return {(row.error, row.state): row for row in rows}
 
     def _live(self, row: SweepRow) -> SweepRow:
@@ -161,9 +161,9 @@ class Sweeps:
         self, session: Session, errors: Sequence[str] | None, states: Sequence[int], window: int, author: str
     ) -> SweepRow:
         """Begins a sweep of the program that runs; without states from where the PLC stands now."""
-        if session.why_not:
-            raise Refused(session.why_not)
-        project, sources, model = session.project_id, session.sources, session.model
+        if session.instance.why_not:
+            raise Refused(session.instance.why_not)
+        project, sources, model = session.project_id, session.instance.sources, session.model
         swept = _swept(model, errors)
         async with self._beginning.setdefault(project, asyncio.Lock()):
             self._one_at_a_time(project)
@@ -173,7 +173,7 @@ class Sweeps:
                     raise Refused(f"there is no state {state} in this project")
             kept = [known[state] for state in dict.fromkeys(states)]
             row = await asyncio.to_thread(
-                lambda: self._store.create_sweep(
+                lambda: self._store.sweeps.create(
                     project, instance_id=session.id, instance=session.name, model=model.name,
                     program_version=sources.version, by=author, window=window,
                     states=tuple(state.name for state in kept) or (NOW,), errors=swept,
@@ -187,11 +187,11 @@ class Sweeps:
                 points = await self._points(row)
             except BaseException:
                 await self._states.discard(row)
-                await asyncio.to_thread(self._store.delete_sweep, row.id)
+                await asyncio.to_thread(self._store.sweeps.delete, row.id)
                 raise
             self._run(row, points, sources, [])
         names = ", ".join(row.states)
-        session.told(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
+        session.log.add(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
         return row
 
     async def resume(self, id: int) -> SweepRow:
@@ -205,8 +205,8 @@ class Sweeps:
             if sources is None:
                 raise Refused(f"version {row.program_version} of the program is not kept any more: begin a new sweep")
             points = await self._points(row)
-            cells = await asyncio.to_thread(self._store.cells, id)
-            change = partial(self._store.change_sweep, id, status="running", message="", seconds=row.seconds)
+            cells = await asyncio.to_thread(self._store.sweeps.cells, id)
+            change = partial(self._store.sweeps.change, id, status="running", message="", seconds=row.seconds)
             self._run(await asyncio.to_thread(change), points, sources, cells)
         return await self.row(id)
 
@@ -220,7 +220,7 @@ class Sweeps:
     async def delete(self, id: int) -> None:
         """Forgets a sweep."""
         row = await self.cancel(id)
-        await asyncio.to_thread(self._store.delete_sweep, id)
+        await asyncio.to_thread(self._store.sweeps.delete, id)
         await self._states.discard(row)
         await self._show(row.project)
 
@@ -239,7 +239,9 @@ class Sweeps:
         if cell is None or cell.verdict not in FINDINGS:
             raise Refused(f"{error} from {state} is no finding of this sweep: there is nothing to accept")
         made = await asyncio.to_thread(
-            lambda: self._store.accept(whole.row.project, error=error, state=state, reason=reason.strip(), by=author)
+            lambda: self._store.findings.accept(
+                whole.row.project, error=error, state=state, reason=reason.strip(), by=author
+            )
         )
         await self._tell(whole.row, self._now(id), [cell])
         return made
@@ -247,7 +249,7 @@ class Sweeps:
     async def withdraw(self, id: int, error: str, state: str) -> None:
         """The finding counts again."""
         whole = await self.whole(id)
-        await asyncio.to_thread(lambda: self._store.withdraw(whole.row.project, error=error, state=state))
+        await asyncio.to_thread(lambda: self._store.findings.withdraw(whole.row.project, error=error, state=state))
         cells = [each for each in whole.cells if (each.error, each.state) == (error, state)]
         await self._tell(whole.row, self._now(id), cells)
 
@@ -259,7 +261,7 @@ class Sweeps:
         if state not in points or sources is None:
             raise Refused(f"this sweep cannot be opened at {state}: it has no such state, or its program is gone")
         session = await self._open_state(row.project, Path(points[state].run), name, author)
-        if replace(session.sources, version=sources.version) != sources:
+        if replace(session.instance.sources, version=sources.version) != sources:
             ack = await session.build(sources, author)
             if not ack.ok:
                 raise Refused(f"{name} was made, but version {sources.version} does not run on it: {ack.message}")
@@ -284,7 +286,7 @@ class Sweeps:
 
     def _run(self, row: SweepRow, points: Sequence[StartPoint], sources: Sources, done: Sequence[CellRow]) -> None:
         inbox: asyncio.Queue[object] = asyncio.Queue()
-        job = Job(self._cache, inbox.put_nowait, lambda _: inbox.put_nowait(None))
+        job = Job(self._cache, inbox.put_nowait, lambda _: inbox.put_nowait(None), WORK_S)
         running = _Running(row, job, inbox, monotonic_ns(), row.seconds)
         self._running[row.id] = running
         pairs = tuple((cell.error, cell.state) for cell in done)
@@ -311,7 +313,7 @@ class Sweeps:
             self._running.pop(id, None)
             await running.job.end()
         with suppress(NotFound):  # deleted meanwhile
-            change = partial(self._store.change_sweep, id, status=status, message=message, seconds=seconds)
+            change = partial(self._store.sweeps.change, id, status=status, message=message, seconds=seconds)
             await self._tell(await asyncio.to_thread(change), "", [])
             await self._show(running.row.project)
 
@@ -342,7 +344,7 @@ class Sweeps:
     async def _keep(self, running: _Running) -> None:
         fresh, running.fresh = running.fresh, []
         if fresh:
-            await asyncio.to_thread(self._store.add_cells, running.row.id, fresh)
+            await asyncio.to_thread(self._store.sweeps.add_cells, running.row.id, fresh)
         await self._tell(await self.row(running.row.id), running.now, fresh)
 
     async def _tell(self, row: SweepRow, now: str, cells: Sequence[CellRow]) -> None:

@@ -60,11 +60,11 @@ class Records:
     async def versions(self, session: Session) -> list[HistoryVersion]:
         """The versions with a history, the newest first."""
         found = []
-        for version in reversed(session.history_versions):
+        for version in reversed(session.errors.versions):
             rows, _, build = await self._of_version(session, version)
             raised = sum(row.status != "never" for row in rows)
             at, author = (None, "") if build is None else (build.at, build.author)
-            found.append(HistoryVersion(version, version == session.history_version, raised, at, author))
+            found.append(HistoryVersion(version, version == session.errors.version, raised, at, author))
         return found
 
     async def rows(self, session: Session, version: int | None) -> list[ErrorRow]:
@@ -74,14 +74,14 @@ class Records:
 
     async def of_instance(self, session: Session, version: int | None, by: str, language: Language) -> TestRecord:
         """The record of a version, or of the one that runs."""
-        version = session.history_version if version is None else version
+        version = session.errors.version if version is None else version
         rows, model, build = await self._of_version(session, version)
         await self._write_behind.flush()
 
         def make() -> TestRecord:
-            project = self._store.project(session.project_id)
-            lines = self._store.error_log(session.id, version, LOG_LINES)
-            accepted = self._store.acceptances(session.project_id)
+            project = self._store.projects.get(session.project_id)
+            lines = self._store.log.errors(session.id, version, LOG_LINES)
+            accepted = self._store.findings.accepted(session.project_id)
             head = RecordHead(
                 project.name, model.name, session.name, version, "" if build is None else build.hash, wall_time(), by,
                 self._tool,
@@ -95,25 +95,25 @@ class Records:
         return await asyncio.to_thread(make)
 
     async def _of_version(self, session: Session, version: int | None) -> tuple[list[ErrorRow], Model, BuildRow | None]:
-        if session.why_not:
-            raise Refused(f"the error history cannot be read: {session.why_not}")
-        wanted = session.history_version if version is None else version
+        if session.instance.why_not:
+            raise Refused(f"the error history cannot be read: {session.instance.why_not}")
+        wanted = session.errors.version if version is None else version
         # A version that was only swept has nothing but that to tell: it has a record all the same.
-        if wanted not in session.history_versions and not await asyncio.to_thread(self._swept, session, wanted):
-            known = ", ".join(map(str, session.history_versions))
+        if wanted not in session.errors.versions and not await asyncio.to_thread(self._swept, session, wanted):
+            known = ", ".join(map(str, session.errors.versions))
             raise NotFound(f"{session.name} has no error history of version {wanted}; there are {known}")
 
         def read() -> tuple[list[ErrorRow], Model, BuildRow | None]:
-            build = self._store.build(session.project_id, wanted)
+            build = self._store.builds.get(session.project_id, wanted)
             model = self._model(session, wanted, build)
-            return session.rows_of(wanted, model), model, build
+            return session.errors.rows_of(wanted, model), model, build
 
         return await asyncio.to_thread(read)
 
     @staticmethod
     def _model(session: Session, version: int, build: BuildRow | None) -> Model:
         """The catalogue that the version had: the project's own errors are part of its sources."""
-        if version == session.history_version or build is None:
+        if version == session.errors.version or build is None:
             return session.model
         return model_for(device_of(session.model), build.sources)
 
@@ -123,7 +123,7 @@ class Records:
     def _swept(self, session: Session, version: int) -> list[SweepRow]:
         """The sweeps of a version on this PLC, the newest first."""
         found = []
-        for sweep in self._store.sweeps(session.project_id):
+        for sweep in self._store.sweeps.all(session.project_id):
             ours = sweep.instance_id == session.id and sweep.model == session.model.name
             if ours and sweep.program_version == version and sweep.done:
                 found.append(sweep)
@@ -132,7 +132,7 @@ class Records:
     def _sweep(self, sweep: SweepRow) -> RecordSweep:
         cells = tuple(
             RecordCell(cell.error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, cell.note)
-            for cell in self._store.cells(sweep.id)
+            for cell in self._store.sweeps.cells(sweep.id)
         )
         return RecordSweep(sweep.at, sweep.by, sweep.instance, sweep.status, sweep.window, sweep.states, cells)
 
@@ -140,14 +140,14 @@ class Records:
 
     async def imported(self, project: int) -> list[RecordInfo]:
         """The records that were brought into a project, the newest first."""
-        return await asyncio.to_thread(self._store.records, project)
+        return await asyncio.to_thread(self._store.records.all, project)
 
     async def bring_in(self, project: int, text: str, by: str) -> RecordInfo:
         """Keeps a record from elsewhere; `Refused` says what is wrong with it, and where."""
         if len(await self.imported(project)) >= IMPORTED:
             raise Refused(f"nothing was imported: the project has {IMPORTED} records already, delete one of them first")
         record = await asyncio.to_thread(_read, text)
-        return await asyncio.to_thread(self._store.add_record, project, title=record.title[:255], text=text, by=by)
+        return await asyncio.to_thread(self._store.records.add, project, title=record.title[:255], text=text, by=by)
 
     async def one(self, project: int, id: int) -> tuple[RecordInfo, TestRecord]:
         """A record that was brought in."""
@@ -157,10 +157,10 @@ class Records:
     async def delete(self, project: int, id: int) -> None:
         """Forgets a record that was brought in."""
         await asyncio.to_thread(self._of_project, project, id)
-        await asyncio.to_thread(self._store.delete_record, id)
+        await asyncio.to_thread(self._store.records.delete, id)
 
     def _of_project(self, project: int, id: int) -> RecordRow:
-        row = self._store.record(id)
+        row = self._store.records.get(id)
         if row.project != project:
             raise NotFound(f"there is no record {id} in this project")
         return row

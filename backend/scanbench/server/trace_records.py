@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import cast
 
 from scanbench.engines.sample import MAX_SIGNALS
-from scanbench.jobs.client import DIED, Job
+from scanbench.jobs.client import DIED, WORK_S, Job
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import Json, KeptRow
@@ -74,7 +74,7 @@ class TraceRecords:
     def tidy(self) -> None:
         """Removes files that belong to nothing any more. Waits for the disk."""
         self._directory.mkdir(parents=True, exist_ok=True)
-        rows = [row for project in self._store.projects() for row in self._store.kept("trace", project.id)]
+        rows = [row for project in self._store.projects.all() for row in self._store.kept.all("trace", project.id)]
         known = {self._path(row.id) for row in rows}
         for path in self._directory.iterdir():
             if path not in known:
@@ -89,11 +89,11 @@ class TraceRecords:
 
     async def of_project(self, project: int) -> list[TraceRecord]:
         """The newest first."""
-        return list(map(_record, await asyncio.to_thread(self._store.kept, "trace", project)))
+        return list(map(_record, await asyncio.to_thread(self._store.kept.all, "trace", project)))
 
     async def one(self, id: int) -> TraceRecord:
         """One record."""
-        return _record(await asyncio.to_thread(self._store.kept_one, "trace", id))
+        return _record(await asyncio.to_thread(self._store.kept.get, "trace", id))
 
     async def keep(self, session: Session, trace: int, name: str, author: str) -> TraceRecord:
         """Keeps what a trace has recorded until now."""
@@ -130,14 +130,14 @@ class TraceRecords:
         self, session: Session, name: str, content: Json, write: Callable[[Path], object], author: str
     ) -> TraceRecord:  # fmt: skip
         row = await asyncio.to_thread(
-            lambda: self._store.keep(
+            lambda: self._store.kept.keep(
                 "trace", session.project_id, name=name, instance=session.name, content=content, by=author
             )
         )
         try:
             await asyncio.to_thread(write, self._path(row.id))
         except BaseException as error:
-            await asyncio.to_thread(self._store.forget, "trace", row.id)
+            await asyncio.to_thread(self._store.kept.forget, "trace", row.id)
             if isinstance(error, OSError):
                 raise Refused(f"the record cannot be kept: {error.strerror}") from error
             raise
@@ -145,7 +145,7 @@ class TraceRecords:
 
     async def delete(self, id: int) -> None:
         """Forgets a record."""
-        await asyncio.to_thread(self._store.forget, "trace", id)
+        await asyncio.to_thread(self._store.kept.forget, "trace", id)
         self._open.pop(id, None)
         await asyncio.to_thread(self._path(id).unlink, True)
 
@@ -201,9 +201,9 @@ class TraceRecords:
         id, self._next = self._next, self._next + 1
         file = self._directory / f"flight-{fresh_token()}"
         changed = FlightChanged(id, author, 0, last - first + 1)
-        job = Job(self._cache, lambda message: self._on_message(id, message), lambda _job: self._on_end(id))
+        job = Job(self._cache, lambda message: self._on_message(id, message), lambda _job: self._on_end(id), WORK_S)
         self._flights[id] = _Flight(session, job, changed, file, every)
-        job.ask(RecordFlight(id, str(session.run_file), signals, every, first, last, str(file)))
+        job.ask(RecordFlight(id, str(session.instance.run_file), signals, every, first, last, str(file)))
         self._tell(id, changed)
         return changed
 

@@ -108,7 +108,7 @@ class TraceFiles:
 
     async def check(self, session: Session, file: TraceFile, mapping: TraceMapping) -> Checked:
         """Whether it can be verified with this mapping, and if not, where it cannot."""
-        sources = session.sources
+        sources = session.instance.sources
 
         def work() -> Checked:
             try:
@@ -151,7 +151,7 @@ class TraceFiles:
 
     async def mappings(self, project: int) -> list[MappingRow]:
         """Those of a project, by name."""
-        return await asyncio.to_thread(self._store.mappings, project)
+        return await asyncio.to_thread(self._store.mappings.all, project)
 
     async def save_mapping(self, project: int, name: str, mapping: TraceMapping, author: str) -> MappingRow:
         """Saves one; it replaces that of the same name."""
@@ -160,11 +160,11 @@ class TraceFiles:
         except BadMapping as bad:
             raise Refused(str(bad)) from bad
         content = json.loads(mapping.to_json())
-        return await asyncio.to_thread(self._store.save_mapping, project, name, content, author)
+        return await asyncio.to_thread(self._store.mappings.save, project, name, content, author)
 
     async def delete_mapping(self, mapping: int) -> None:
         """Forgets one."""
-        await asyncio.to_thread(self._store.delete_mapping, mapping)
+        await asyncio.to_thread(self._store.mappings.delete, mapping)
 
 
 def mapping_of(row: MappingRow) -> TraceMapping:

@@ -80,7 +80,7 @@ class Verification:
         self._job = Job(cache, self._on_message, self._on_end)
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
-        self._run = session.runs
+        self._run = session.instance.runs
         self._gone = False
         """Its process has ended."""
         self._busy: int | None = None
@@ -111,7 +111,13 @@ class Verification:
             trace = self._trace
             answer = await self._ask(
                 lambda ref: BeginTrace(
-                    ref, session.sources, str(trace.file), trace.name, trace.mapping, wanted.range, wanted.limit
+                    ref,
+                    session.instance.sources,
+                    str(trace.file),
+                    trace.name,
+                    trace.mapping,
+                    wanted.range,
+                    wanted.limit,
                 )
             )
         else:
@@ -119,7 +125,7 @@ class Verification:
                 raise Refused(f"scan {wanted.first:,} is not over yet: the PLC is at scan {live:,}")
             if wanted.first is not None and wanted.last is not None and wanted.last < wanted.first:
                 raise Refused(f"scans {wanted.first:,} to {wanted.last:,} are none")
-            path = str(session.run_file)
+            path = str(session.instance.run_file)
             answer = await self._ask(lambda ref: BeginVerify(ref, path, wanted.range, wanted.limit, live, first))
         if isinstance(answer, VerifyRefused):
             raise Refused(answer.message, answer.near)
@@ -270,7 +276,7 @@ class Verification:
                 self._cut = None
         if status.state in ("starting", "stopped", "done", "failed"):
             return
-        if status.source != "trace" and self.session.runs != self._run:
+        if status.source != "trace" and self.session.instance.runs != self._run:
             self._fail("a new run began: begin another verification")
         elif self._busy is not None:
             return

@@ -71,8 +71,8 @@ class Verifications:
     def tidy(self) -> None:
         """Removes files that belong to nothing any more. Waits for the disk."""
         self._directory.mkdir(parents=True, exist_ok=True)
-        projects = self._store.projects()
-        known = {self._path(row.id) for each in projects for row in self._store.kept("verification", each.id)}
+        projects = self._store.projects.all()
+        known = {self._path(row.id) for each in projects for row in self._store.kept.all("verification", each.id)}
         for path in self._directory.iterdir():
             if path not in known:
                 path.unlink(missing_ok=True)
@@ -119,7 +119,7 @@ class Verifications:
         except BaseException:
             await self._drop(id)
             raise
-        session.told(author, f"verification {id} begins: {made.status.title}")
+        session.log.add(author, f"verification {id} begins: {made.status.title}")
         return made.status
 
     async def _make_room(self) -> None:
@@ -134,7 +134,7 @@ class Verifications:
         old = [each for each in self._all.values() if each.over]
         if len(self._all) >= MOST_OPEN and old:
             status = old[0].status
-            old[0].session.told(status.by, f"verification {status.id} is forgotten, as others began: {status.title}")
+            old[0].session.log.add(status.by, f"verification {status.id} is forgotten, as others began: {status.title}")
             await self._drop(status.id)
 
     async def drive(
@@ -170,8 +170,8 @@ class Verifications:
         verification = self._one(id)
         session, status = verification.session, verification.status
         when, rows = iso(wall_time()), verification.rows.as_now()
-        project = (await asyncio.to_thread(self._store.project, session.project_id)).name
-        head = _head(status, project, session.name, session.sources.model, when)
+        project = (await asyncio.to_thread(self._store.projects.get, session.project_id)).name
+        head = _head(status, project, session.name, session.instance.sources.model, when)
         return await asyncio.to_thread(_exported, head, rows, format)
 
     def _hand_over(self, verification: Verification) -> bool:
@@ -229,11 +229,11 @@ class Verifications:
 
     async def records(self, project: int) -> list[Kept]:
         """The newest first."""
-        return [_kept(row) for row in await asyncio.to_thread(self._store.kept, "verification", project)]
+        return [_kept(row) for row in await asyncio.to_thread(self._store.kept.all, "verification", project)]
 
     async def record(self, id: int) -> Kept:
         """One that was kept."""
-        return _kept(await asyncio.to_thread(self._store.kept_one, "verification", id))
+        return _kept(await asyncio.to_thread(self._store.kept.get, "verification", id))
 
     async def keep(self, id: int, name: str, author: str) -> Kept:
         """Keeps one in the project, as it is now."""
@@ -241,22 +241,22 @@ class Verifications:
         session, status, rows = verification.session, verification.status, verification.rows.as_now()
         if not rows.kept:
             raise Refused("nothing was verified yet: let it run first")
-        content: Json = {"status": pack_body(status).hex(), "model": session.sources.model}
+        content: Json = {"status": pack_body(status).hex(), "model": session.instance.sources.model}
         row = await asyncio.to_thread(
-            lambda: self._store.keep(
+            lambda: self._store.kept.keep(
                 "verification", session.project_id, name=name, instance=session.name, content=content, by=author
             )
         )
         try:
             await asyncio.to_thread(lambda: self._path(row.id).write_bytes(pack(rows.packed())))
         except OSError as error:
-            await asyncio.to_thread(self._store.forget, "verification", row.id)
+            await asyncio.to_thread(self._store.kept.forget, "verification", row.id)
             raise Refused(f"the record cannot be kept: {error.strerror}") from error
         return _kept(row)
 
     async def delete_record(self, id: int) -> None:
         """Forgets one that was kept."""
-        await asyncio.to_thread(self._store.forget, "verification", id)
+        await asyncio.to_thread(self._store.kept.forget, "verification", id)
         await asyncio.to_thread(self._path(id).unlink, True)
 
     async def record_rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
@@ -267,7 +267,7 @@ class Verifications:
     async def export_record(self, id: int, format: Format) -> Exported:
         """Its rows as a file."""
         kept = await self.record(id)
-        project = (await asyncio.to_thread(self._store.project, kept.row.project)).name
+        project = (await asyncio.to_thread(self._store.projects.get, kept.row.project)).name
         head = _head(kept.status, project, kept.row.instance, str(kept.row.content["model"]), iso(kept.row.at))
         return await asyncio.to_thread(lambda: _exported(head, self._read(id), format))
 

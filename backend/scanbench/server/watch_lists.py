@@ -21,11 +21,11 @@ class WatchLists:
 
     async def all(self, project: int, user: str) -> list[WatchListRow]:
         """The lists that somebody sees."""
-        return await asyncio.to_thread(self._store.watch_lists, project, user)
+        return await asyncio.to_thread(self._store.watch_lists.seen, project, user)
 
     async def get(self, id: int, user: str) -> WatchListRow:
         """One of them."""
-        row = await asyncio.to_thread(self._store.watch_list, id)
+        row = await asyncio.to_thread(self._store.watch_lists.get, id)
         if row.owner not in ("", user):
             raise NotFound(f"there is no watch list {id}")
         return row
@@ -35,7 +35,7 @@ class WatchLists:
         if len(await self.all(project, user)) >= LISTS:
             raise Refused(f"there are {LISTS} watch lists already: delete one first")
         owner = "" if shared else user
-        row = await asyncio.to_thread(self._store.create_watch_list, project, name, owner, content, user)
+        row = await asyncio.to_thread(self._store.watch_lists.create, project, name, owner, content, user)
         self._tell(row, row.version, user)
         return row
 
@@ -47,14 +47,14 @@ class WatchLists:
         if before.owner == "" and not shared:
             raise Refused(f"{before.name} is shared: others may use it. Duplicate it to have one of your own")
         owner = "" if shared else user
-        row = await asyncio.to_thread(self._store.save_watch_list, id, name, owner, content, version, user)
+        row = await asyncio.to_thread(self._store.watch_lists.save, id, name, owner, content, version, user)
         self._tell(row, row.version, user)
         return row
 
     async def delete(self, id: int, user: str) -> None:
         """Forgets a list."""
         row = await self.get(id, user)
-        await asyncio.to_thread(self._store.delete_watch_list, id)
+        await asyncio.to_thread(self._store.watch_lists.delete, id)
         self._tell(row, 0, user)
 
     def _tell(self, row: WatchListRow, version: int, author: str) -> None:

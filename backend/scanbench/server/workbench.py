@@ -19,7 +19,7 @@ from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.server.history import Pasts
+from scanbench.server.history import RunHistory
 from scanbench.server.missing import stand_in, why_missing
 from scanbench.server.projects import Projects
 from scanbench.server.samples import samples
@@ -31,7 +31,8 @@ from scanbench.server.uploads import TraceFiles
 from scanbench.server.verifications import Verifications
 from scanbench.server.watch_lists import WatchLists
 from scanbench.session.instance import Remembered
-from scanbench.session.session import LOG_LINES, Session
+from scanbench.session.log import LOG_LINES
+from scanbench.session.session import Session
 from scanbench.session.write_behind import WriteBehind, breakpoint_of, line_of, row_of
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
@@ -66,7 +67,7 @@ class Workbench:
         self.trace_records = TraceRecords(store, data / "traces", self._cache)
         self.verifications = Verifications(store, data / "verifications", self._cache)
         self.trace_files = TraceFiles(store, data / "imports", self._cache)
-        self.pasts = Pasts(self._runs, self._cache, self._open_rerun)
+        self.history = RunHistory(self._runs, self._cache, self._open_rerun)
         self.sweeps = Sweeps(
             store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state
         )  # fmt: skip
@@ -83,7 +84,7 @@ class Workbench:
         await self.sweeps.start()
         if not await self.projects.all():
             await self._first_start()
-        for instance in await asyncio.to_thread(self._store.instances):
+        for instance in await asyncio.to_thread(self._store.instances.all):
             try:
                 await self._open(instance)
             except Refused as error:  # the others must not suffer
@@ -107,7 +108,7 @@ class Workbench:
         await self.sweeps.close()
         await self.trace_records.close()
         await self.verifications.close()
-        await self.pasts.close()
+        await self.history.close()
         await asyncio.gather(
             *(session.stop() for session in self._sessions.values()),
             self._checker.close(),
@@ -153,22 +154,22 @@ class Workbench:
             outcome = await self.projects.build(project_id, "server")
             if not outcome.ok:
                 raise Refused(f"{project.name} has no program that could run: {outcome.message}")
-        row = await asyncio.to_thread(self._store.create_instance, project_id, name)
+        row = await asyncio.to_thread(self._store.instances.create, project_id, name)
         await asyncio.to_thread(discard, run_path(self._runs, row.id))
         return await self._open(row)
 
     async def branch(self, id: int, name: str, scan: int | None, author: str) -> Session:
         """A new PLC that begins as this one was before `scan`, or is now; its past is the same."""
         origin = self.session(id)
-        row = await asyncio.to_thread(self._store.create_instance, origin.project_id, name)
+        row = await asyncio.to_thread(self._store.instances.create, origin.project_id, name)
         try:
             await self._copied(origin, run_path(self._runs, row.id), scan, author)
         except BaseException:
-            await asyncio.to_thread(self._store.delete_instance, row.id)
+            await asyncio.to_thread(self._store.instances.delete, row.id)
             await asyncio.to_thread(discard_all, self._runs, row.id)
             raise
         session = await self._open(row, paused=scan is not None)
-        session.told(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
+        session.log.add(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
         return session
 
     async def export(self, id: int, scan: int | None, author: str) -> Path:
@@ -185,11 +186,11 @@ class Workbench:
     @staticmethod
     async def _copied(session: Session, path: Path, scan: int | None, author: str) -> None:
         """Of a PLC without a process the file as it is: also of one that failed, when it is wanted most."""
-        if session.on or scan is not None:
+        if session.instance.on or scan is not None:
             await session.copy(path, scan, author)
             return
         try:
-            await asyncio.to_thread(shutil.copyfile, session.run_file, path)
+            await asyncio.to_thread(shutil.copyfile, session.instance.run_file, path)
         except OSError as error:
             raise Refused(f"the run of {session.name} cannot be copied: {error.strerror}") from error
 
@@ -204,7 +205,7 @@ class Workbench:
             sources, damage = await asyncio.to_thread(sources_and_damage, path, self.models)
             damage = damage.replace(path.name, "the file").replace(". The damaged rest was left as it was", "")
             project = await self.projects.from_sources(name, sources, author)
-            row = await asyncio.to_thread(self._store.create_instance, project.id, name)
+            row = await asyncio.to_thread(self._store.instances.create, project.id, name)
             await asyncio.to_thread(os.replace, path, run_path(self._runs, row.id))
         except BaseException as error:
             await asyncio.to_thread(discard, path)
@@ -214,7 +215,7 @@ class Workbench:
                 raise Refused(str(error).replace(path.name, "the file")) from error
             raise
         session = await self._open(row, paused=True)
-        session.told(author, f"the run was imported{'; ' * bool(damage)}{damage}")
+        session.log.add(author, f"the run was imported{'; ' * bool(damage)}{damage}")
         return session, damage
 
     async def _open_rerun(self, origin: Session, name: str, path: Path, author: str) -> Session:
@@ -223,17 +224,17 @@ class Workbench:
 
     async def _open_state(self, project: int, path: Path, name: str, author: str) -> Session:
         """A new paused PLC of a project that goes on where a state was kept."""
-        row = await asyncio.to_thread(self._store.create_instance, project, name)
+        row = await asyncio.to_thread(self._store.instances.create, project, name)
         try:
             await asyncio.to_thread(shutil.copyfile, path, run_path(self._runs, row.id))
         except BaseException as error:
-            await asyncio.to_thread(self._store.delete_instance, row.id)
+            await asyncio.to_thread(self._store.instances.delete, row.id)
             await asyncio.to_thread(discard_all, self._runs, row.id)
             if isinstance(error, OSError):
                 raise Refused(f"the state cannot be copied: {error.strerror}") from error
             raise
         session = await self._open(row, paused=True)
-        session.told(author, "begun from a kept state")
+        session.log.add(author, "begun from a kept state")
         return session
 
     def fresh_path(self) -> Path:
@@ -245,9 +246,9 @@ class Workbench:
     ) -> Session:
         """A new name, new limits, on or off."""
         session = self.session(id)
-        if powered and session.why_not:
-            raise Refused(session.why_not)
-        change = partial(self._store.change_instance, id, name=name, powered=powered, limits=limits)
+        if powered and session.instance.why_not:
+            raise Refused(session.instance.why_not)
+        change = partial(self._store.instances.change, id, name=name, powered=powered, limits=limits)
         await session.change(await asyncio.to_thread(change), author)
         return session
 
@@ -257,10 +258,10 @@ class Workbench:
         if session is None:
             raise NotFound(f"there is no instance {id}")
         await self.verifications.forget_instance(id)
-        await self.pasts.forget_instance(id)
+        await self.history.forget_instance(id)
         await session.stop()
         await self._write_behind.flush()
-        await asyncio.to_thread(self._store.delete_instance, id)
+        await asyncio.to_thread(self._store.instances.delete, id)
         await asyncio.to_thread(discard_all, self._runs, id)
 
     async def _open(self, row: InstanceRow, paused: bool = False) -> Session:
@@ -273,22 +274,22 @@ class Workbench:
             model = stand_in(project.model)
             why_not = why_missing(project.model, model_directory(), self._model_problems)
             log.error("%s: %s", row.name, why_not)
-        rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
-        lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
+        rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.errors.history, row.id)]
+        lines = [line_of(each) for each in await asyncio.to_thread(self._store.log.last, row.id, LOG_LINES)]
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits)
         if paused:
             memory.driven = Driven(paused=True)
-        kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints, row.id))
+        kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints.all, row.id))
         breakpoints = [each for each in kept if each is not None]
-        traces = await asyncio.to_thread(self._store.traces, row.id)
+        traces = await asyncio.to_thread(self._store.traces.all, row.id)
         session = Session(
             row, model, memory, self._write_behind, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces,
             why_not,
         )  # fmt: skip
         self._sessions[row.id] = session
-        session.take_sweeps(await self.sweeps.found(project.id))
+        session.errors.take_sweeps(await self.sweeps.found(project.id))
         if row.powered:
-            session.start()
+            session.instance.start()
         return session
 
     def _sessions_of(self, project_id: int) -> list[Session]:
@@ -307,4 +308,4 @@ class Workbench:
             if not outcome.ok:
                 log.error("sample %s: %s", sample.name, outcome.message)
             else:
-                await asyncio.to_thread(self._store.create_instance, project.id, f"line-{number}")
+                await asyncio.to_thread(self._store.instances.create, project.id, f"line-{number}")

@@ -10,17 +10,15 @@ import logging
 import signal
 import socket
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from scanbench.faults.reference import ErrorRef
 from scanbench.host.run_files import bring_back, set_aside
 from scanbench.host.zygote import NoProcess, Process, zygote
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
-from scanbench.runtime.forces import ForcedValue
-from scanbench.store.records import Limits
+from scanbench.session.conversation import PATIENCE, A, Conversation, Patience
+from scanbench.store.records import Limits, NotFound
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
 from scanbench.wire.debugging import DebugAnswer, DebugRequest
@@ -40,28 +38,6 @@ QUICK_DEATHS = 4
 
 OFF = "switched off; its run is kept"
 Telling = protocol.WatchPaths | protocol.UnwatchIds | protocol.WantSnapshot | protocol.Attend | protocol.SetLimits
-
-
-@dataclass(frozen=True, slots=True)
-class Patience:
-    """How long a process is waited for."""
-
-    look_s: float = 1.0
-    """From one look whether something was heard to the next. Looks are counted, so that a server that was held up itself
-    does not take that for silence."""
-    looks: int = 5
-    """So many looks in a row with nothing heard, and it does not answer."""
-    answer_s: float = 120.0
-    """For an answer of a process that does answer others."""
-    work_s: float = 600.0
-    """For what takes a while: builds, copies, the past, debugging."""
-    grace_s: float = 3.0
-    """For the end of a process that was told to end; then it is killed."""
-
-
-_WORK = protocol.Build | protocol.RollBack | protocol.Preview | protocol.Copy | protocol.Travel | DebugRequest
-_UNREAD_BYTES = 64 << 20
-"""More than this not read by a process: it is ended, and the next one is told everything anew."""
 
 
 @dataclass(slots=True)
@@ -90,7 +66,7 @@ class Instance:
 
     def __init__(
         self, memory: Remembered, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
-        cache: Path | None = None, patience: Patience = Patience(), why_not: str = "",
+        cache: Path | None = None, patience: Patience = PATIENCE, why_not: str = "",
     ) -> None:  # fmt: skip
         """`cache` is a directory where hosts keep what they built; `why_not` is why it can never be started."""
         self._cache, self._patience, self.why_not = cache, patience, why_not
@@ -101,12 +77,9 @@ class Instance:
         self._memory = memory
         self._on_state, self._on_message = on_state, on_message
         self._process: Process | None = None
-        self._writer: asyncio.StreamWriter | None = None
+        self._conversation = Conversation(memory.name, patience, self._kill)
         self._task: asyncio.Task[None] | None = None
-        self._connected = asyncio.Event()
         self._turning = asyncio.Lock()  # one at a time is switched on, off, or to a new run
-        self._answers: dict[int, asyncio.Future[object]] = {}
-        self._next_ref = 1
         self._deaths = 0
         self.runs = 0
         """New runs that began since the server started."""
@@ -154,16 +127,18 @@ class Instance:
 
     async def _stop(self) -> None:
         self._stopping = True
-        if self._writer is not None:
-            self._writer.write(pack(protocol.Quit()))
+        self._conversation.tell(protocol.Quit())
         if self._task is not None:
             try:
                 await asyncio.wait_for(asyncio.shield(self._task), self._patience.grace_s)
             except TimeoutError:
-                if self._process is not None:
-                    self._process.kill()
+                self._kill()
                 await self._task
         self._set_state(state="off", message=OFF, pid=None)
+
+    def _kill(self) -> None:
+        if self._process is not None:
+            self._process.kill()
 
     async def _supervise(self) -> None:
         while True:
@@ -206,9 +181,8 @@ class Instance:
             ours.close()
             return str(error)
         reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
-        self._writer = writer
         writer.write(pack(self._memory.start()))
-        self._connected.set()
+        self._conversation.begin(writer)
         if self._stopping:  # while the process was on its way
             writer.write(pack(protocol.Quit()))
         if self.state.state not in ("restarting", "no_space"):
@@ -232,9 +206,7 @@ class Instance:
         finally:
             looking.cancel()
             self._before_silence = None
-            self._writer = None
-            self._connected.clear()
-            self._fail_answers()
+            self._conversation.end()
             writer.close()
             code = await asyncio.to_thread(_reap, process, self._patience.grace_s)
         return failure or _failure_of(code, self._memory.limits.memory_mib)
@@ -256,7 +228,7 @@ class Instance:
         self._set_state(
             state="silent", message="the PLC's process does not answer; it goes on when it can, or switch it off and on"
         )
-        self._fail_answers(
+        self._conversation.give_up(
             "the PLC does not answer. What you asked for has not been confirmed: it may be done when the PLC goes on"
         )
 
@@ -287,9 +259,9 @@ class Instance:
                 self._memory.sources = message.sources
                 self._on_message(message)
             case TraceRead():
-                self._answer(message.ref, message)
+                self._conversation.answer(message.ref, message)
             case protocol.ForcesAre() if message.ref is not None:
-                self._answer(message.ref, message)
+                self._conversation.answer(message.ref, message)
             case (
                 protocol.Ack()
                 | protocol.Found()
@@ -297,9 +269,9 @@ class Instance:
                 | protocol.Previewed()
                 | protocol.ErrorsPreviewed()
             ):
-                self._answer(message.ref, message)
+                self._conversation.answer(message.ref, message)
             case _ if isinstance(message, DebugAnswer) and message.ref is not None:
-                self._answer(message.ref, message)
+                self._conversation.answer(message.ref, message)
             case _:
                 self._on_message(message)
 
@@ -321,49 +293,51 @@ class Instance:
 
     # ---- speaking to it -------------------------------------------------------------------------------------------
 
-    async def submit(self, command: Command) -> protocol.Ack:
-        """Enters a command in the seam."""
-        return self._ack(await self._ask(lambda ref: protocol.Submit(ref, command)))
+    async def ask(self, make: Callable[[int], object], answer: type[A]) -> A:
+        """Asks something; `make` makes the question with the ref that it is given, `answer` is what comes back. `Unavailable`
+        when the PLC is away, or does not answer in time."""
+        conversation = self._conversation
+        if self.why_not:
+            raise Unavailable(self.why_not)
+        if not conversation.there and self.state.state == "starting":
+            await conversation.reached(_REACHED_S)
+        if not conversation.open:
+            hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
+            raise Unavailable(f"the PLC is {self.state.state.replace('_', ' ')}: {self.state.message}. {hint}")
+        if self._before_silence is not None:
+            raise Unavailable(f"nothing was changed: {self.state.message}")
+        return await conversation.ask(make, answer)
 
-    async def drive(self, drive: protocol.Drive) -> protocol.Ack:
-        """Changes pace, pauses, goes on."""
-        return self._ack(await self._ask(lambda ref: replace(drive, ref=ref)))
-
-    async def travel(self, scan: int | None, author: str, count: int = 0) -> protocol.Ack:
-        """Shows the past, or live again."""
-        return self._ack(await self._ask(lambda ref: protocol.Travel(ref, scan, author, count)))
-
-    async def copy(self, path: Path, scan: int | None, author: str) -> protocol.Ack:
-        """A run file of its own."""
-        return self._ack(await self._ask(lambda ref: protocol.Copy(ref, str(path), scan, author)))
-
-    async def preview(self, sources: protocol.Sources) -> protocol.Previewed:
-        """What a swap would do."""
-        answer = await self._ask(lambda ref: protocol.Preview(ref, sources))
-        assert isinstance(answer, protocol.Previewed)
+    async def debug(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
+        """Asks something of debugging."""
+        answer = await self.ask(make, object)
+        assert isinstance(answer, DebugAnswer | protocol.Ack)
         return answer
 
-    async def forces(self) -> tuple[ForcedValue, ...]:
-        """The forces, and what they did in the scan that ran last."""
-        answer = await self._ask(protocol.WantForces)
-        assert isinstance(answer, protocol.ForcesAre)
-        return answer.forces
+    async def submit(self, command: Command) -> protocol.Ack:
+        """Enters a command in the seam."""
+        return await self.ask(lambda ref: protocol.Submit(ref, command), protocol.Ack)
 
-    async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
-        """What raising these would write."""
-        answer = await self._ask(lambda ref: protocol.PreviewErrors(ref, errors, again))
-        assert isinstance(answer, protocol.ErrorsPreviewed)
-        return answer.found
+    async def sources_of(self, version: int) -> protocol.Sources:
+        """What a version of the program was made of when it ran here; `NotFound` when it never did."""
+        found = await self.ask(lambda ref: protocol.WantSources(ref, version), protocol.SourcesOf)
+        if found.sources is None:
+            raise NotFound(found.message)
+        return found.sources
+
+    async def look_up(self, kind: str, text: str) -> protocol.Found:
+        """`members` of a path, what `complete`s a text, or the `instances` of a POU."""
+        return await self.ask(lambda ref: protocol.Lookup(ref, kind, text), protocol.Found)
+
+    def tell(self, message: Telling) -> bool:
+        """Something whose answer, if any, comes as a message; false when the process is away."""
+        return self._conversation.tell(message)
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:
         """Swaps the program; a PLC that failed begins a new run with it."""
         if self.state.state == "failed":
             return await self.begin_anew(sources)
-        return self._ack(await self._ask(lambda ref: protocol.Build(ref, sources, author)))
-
-    async def roll_back(self, author: str) -> protocol.Ack:
-        """Swaps the last program back in."""
-        return self._ack(await self._ask(lambda ref: protocol.RollBack(ref, author)))
+        return await self.ask(lambda ref: protocol.Build(ref, sources, author), protocol.Ack)
 
     async def begin_anew(self, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run, at scan 0; the old run file is kept aside."""
@@ -392,90 +366,6 @@ class Instance:
         """New limits; that of memory holds from the next start of the process."""
         self._memory.limits = limits
         self.tell(protocol.SetLimits(limits.run_mib, limits.cpu_percent))
-
-    async def look_up(self, kind: str, text: str) -> protocol.Found:
-        """Members of a path, completions of a text."""
-        answer = await self._ask(lambda ref: protocol.Lookup(ref, kind, text))
-        assert isinstance(answer, protocol.Found)
-        return answer
-
-    async def sources_of(self, version: int) -> protocol.SourcesOf:
-        """What a version of the program was made of when it ran here."""
-        answer = await self._ask(lambda ref: protocol.WantSources(ref, version))
-        assert isinstance(answer, protocol.SourcesOf)
-        return answer
-
-    async def ask(self, make: Callable[[int], object]) -> object:
-        """Asks something; `make` makes the request with this ref."""
-        return await self._ask(make)
-
-    async def debug(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
-        """Asks something of debugging; `make` makes the request with this ref."""
-        answer = await self._ask(make)
-        assert isinstance(answer, DebugAnswer | protocol.Ack)
-        return answer
-
-    def tell(self, message: Telling) -> bool:
-        """Something whose answer, if any, comes as a message; false when the process is away."""
-        if self._writer is None or self._writer.is_closing():
-            return False
-        self._write(self._writer, pack(message))
-        return True
-
-    def _write(self, writer: asyncio.StreamWriter, packed: bytes) -> None:
-        """Sends it some time; a process that has not read for long is not written to for ever."""
-        writer.write(packed)
-        if writer.transport.get_write_buffer_size() > _UNREAD_BYTES and self._process is not None:
-            log.error("the process of %s does not read: it is ended, and started again", self._memory.name)
-            self._process.kill()
-
-    async def _ask(self, make: Callable[[int], object]) -> object:
-        if self.why_not:
-            raise Unavailable(self.why_not)
-        if self._writer is None and self.state.state == "starting":
-            await self._reached()
-        if self._writer is None or self._writer.is_closing():
-            hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
-            raise Unavailable(f"the PLC is {self.state.state.replace('_', ' ')}: {self.state.message}. {hint}")
-        if self._before_silence is not None:
-            raise Unavailable(f"nothing was changed: {self.state.message}")
-        ref, self._next_ref = self._next_ref, self._next_ref + 1
-        question = make(ref)
-        packed = pack(question)
-        future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
-        self._answers[ref] = future
-        self._write(self._writer, packed)
-        seconds = self._patience.work_s if isinstance(question, _WORK) else self._patience.answer_s
-        try:
-            return await asyncio.wait_for(future, seconds)
-        except TimeoutError:
-            raise Unavailable(
-                f"the PLC has not answered this within {seconds:g} s. It may still be done: look before you repeat it"
-            ) from None
-        finally:
-            self._answers.pop(ref, None)
-
-    async def _reached(self) -> None:
-        """Waits a while for a process that is on its way."""
-        with suppress(TimeoutError):
-            async with asyncio.timeout(_REACHED_S):
-                await self._connected.wait()
-
-    @staticmethod
-    def _ack(answer: object) -> protocol.Ack:
-        assert isinstance(answer, protocol.Ack)
-        return answer
-
-    def _answer(self, ref: int, message: object) -> None:
-        future = self._answers.pop(ref, None)
-        if future is not None and not future.done():
-            future.set_result(message)
-
-    def _fail_answers(self, why: str = "the PLC's process died before it answered. See the log, and repeat") -> None:
-        for future in self._answers.values():
-            if not future.done():
-                future.set_exception(Unavailable(why))
-        self._answers.clear()
 
 
 def _reap(process: Process, grace_s: float) -> int | None:

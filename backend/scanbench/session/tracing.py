@@ -1,9 +1,9 @@
 """The traces of one PLC, seen from the parent: what people want recorded, and what the host says of it."""
 
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
-from typing import cast
+from typing import Protocol, TypeVar, cast
 
 from scanbench.store.records import Json, NotFound
 from scanbench.taps.trace import TraceDefinition
@@ -14,7 +14,13 @@ from scanbench.wire import host as protocol
 from scanbench.wire.refused import Refused, Unavailable
 from scanbench.wire.traces import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 
-Ask = Callable[[Callable[[int], object]], Awaitable[object]]
+A = TypeVar("A")
+
+
+class Ask(Protocol):
+    """Asks the host; see `Instance.ask`."""
+
+    async def __call__(self, make: Callable[[int], object], answer: type[A], /) -> A: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +115,7 @@ class Tracing:
 
     async def _read(self, number: int, make: Callable[[int], object]) -> TraceRead:
         self.trace(number)
-        answer = await self._ask(make)
-        assert isinstance(answer, TraceRead)
+        answer = await self._ask(make, TraceRead)
         if answer.message:
             raise Refused(answer.message)
         return answer
@@ -128,15 +133,16 @@ class Tracing:
                 return
         self._publish(events.TracesChanged(self.traces))
 
-    def on_message(self, message: object) -> None:
-        """From the host."""
-        if isinstance(message, TracesAre):
-            self._told |= {each.id: each for each in message.traces if each.id in self._wanted}
-            self._publish(events.TracesChanged(self.traces))
+    def on_message(self, message: object) -> bool:
+        """What the host says; whether it was about traces."""
+        if not isinstance(message, TracesAre):
+            return False
+        self._told |= {each.id: each for each in message.traces if each.id in self._wanted}
+        self._publish(events.TracesChanged(self.traces))
+        return True
 
     async def _accepted(self, make: Callable[[int], object]) -> None:
-        answer = await self._ask(make)
-        assert isinstance(answer, protocol.Ack)
+        answer = await self._ask(make, protocol.Ack)
         if not answer.ok:
             raise Refused(answer.message, answer.near)
 

@@ -140,19 +140,19 @@ class WriteBehind:
 
     def _keep_breakpoints(self, instance: int, shared: Sequence[Breakpoint]) -> None:
         def write(_all: Sequence[object]) -> None:
-            self._store.keep_breakpoints(instance, [asdict(each) for each in shared])
+            self._store.breakpoints.keep(instance, [asdict(each) for each in shared])
 
         _write_most(f"the breakpoints of instance {instance}", [shared], write)
 
     def _keep_traces(self, instance: int, contents: Mapping[int, Json]) -> None:
         def write(_all: Sequence[object]) -> None:
-            self._store.keep_traces(instance, contents)
+            self._store.traces.keep(instance, contents)
 
         _write_most(f"the traces of instance {instance}", [contents], write)
 
     def _keep_rows(self, instance: int, rows: Sequence[ErrorRow]) -> None:
         def write(some: Sequence[ErrorRow]) -> None:
-            self._store.keep_history(instance, list(map(_kept, some)))
+            self._store.errors.keep(instance, list(map(_kept, some)))
 
         _write_most(f"the error history of instance {instance}", list(rows), write)
 
@@ -162,7 +162,7 @@ class WriteBehind:
         due = untrimmed > LOG_TRIMMED_EVERY
 
         def write(some: Sequence[LogRow]) -> None:
-            self._store.add_log(instance, some, LOG_KEPT if due else None)
+            self._store.log.add(instance, some, LOG_KEPT if due else None)
 
         left = list(lines)
         try:

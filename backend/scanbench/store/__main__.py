@@ -15,7 +15,7 @@ def main(arguments: list[str]) -> int:
     except StoreError as error:
         sys.stderr.write(f"{error}\n")
         return 1
-    projects = len(store.projects())
+    projects = len(store.projects.all())
     store.close()
     sys.stdout.write(f"the database is up to date, projects: {projects}\n")
     return 0

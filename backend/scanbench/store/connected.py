@@ -1,4 +1,4 @@
-"""A database that is open, and what all parts of the store need."""
+"""A database that is open, and what all repositories need."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,8 +13,8 @@ from scanbench.store.records import NotFound, NotStorable, StoreError
 from scanbench.store.tables import Instance, Project
 
 
-class Connected:
-    """Base of the parts of `Store`."""
+class Database:
+    """Reads and writes in transactions. Safe to use from several threads and processes."""
 
     def __init__(self, url: str, server: str | None = None) -> None:
         """Opens it, and brings its tables up to date; `StoreError` says why it cannot.
@@ -45,17 +45,26 @@ class Connected:
             self._claim = None
 
     @contextmanager
-    def _reading(self) -> Iterator[Session]:
+    def reading(self) -> Iterator[Session]:
+        """A transaction that changes nothing."""
         with _explained(), Session(self._engine) as session:
             yield session
 
     @contextmanager
-    def _writing(self) -> Iterator[Session]:
+    def writing(self) -> Iterator[Session]:
+        """A transaction: all of it is kept at its end, or nothing."""
         with _explained():
             if self._claim is not None:
                 self._claim.hold()
             with Session(self._writer) as session, session.begin():
                 yield session
+
+
+class Repository:
+    """Methods over some tables of a database, each one transaction."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
 
 
 @contextmanager

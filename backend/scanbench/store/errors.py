@@ -9,27 +9,27 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.orm import Session
 
 from scanbench.store import rows
-from scanbench.store.connected import Connected, the_instance
+from scanbench.store.connected import Repository, the_instance
 from scanbench.store.records import HistoryRow
 from scanbench.store.tables import AUTHOR, ErrorHistory
 
 _TABLE = cast(Table, ErrorHistory.__table__)
 
 
-class Errors(Connected):
+class Errors(Repository):
     """Error history and reactions."""
 
     def history(self, instance: int) -> list[HistoryRow]:
         """The errors that were raised on an instance, by version of the program and id."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             the_instance(session, instance)
             found = select(ErrorHistory).where(ErrorHistory.instance_id == instance)
             ordered = found.order_by(ErrorHistory.program_version, ErrorHistory.error)
             return [rows.history(entry) for entry in session.scalars(ordered)]
 
-    def keep_history(self, instance: int, errors: Sequence[HistoryRow]) -> None:
+    def keep(self, instance: int, errors: Sequence[HistoryRow]) -> None:
         """Each of these takes the place of what was known of the same error on the same version."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             the_instance(session, instance, lock=True)
             if errors:
                 session.execute(_upsert(session), [_columns(instance, row) for row in errors])

@@ -4,43 +4,43 @@ from sqlalchemy import delete, select
 
 from scanbench.runtime.clock import wall_time
 from scanbench.store import rows
-from scanbench.store.connected import Connected, check, the_project
+from scanbench.store.connected import Repository, check, the_project
 from scanbench.store.records import NotFound, RecordInfo, RecordRow
 from scanbench.store.tables import AUTHOR, PATH, TestRecord
 
 
-class ImportedRecords(Connected):
+class ImportedRecords(Repository):
     """Imported test records, as they came."""
 
-    def records(self, project: int) -> list[RecordInfo]:
+    def all(self, project: int) -> list[RecordInfo]:
         """The records of a project, the newest first."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             the_project(session, project)
             found = select(TestRecord).where(TestRecord.project_id == project).order_by(TestRecord.id.desc())
             return [rows.record(each) for each in session.scalars(found)]
 
-    def record(self, record: int) -> RecordRow:
+    def get(self, record: int) -> RecordRow:
         """One record with its text."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             found = session.get(TestRecord, record)
             if found is None:
                 raise NotFound(f"there is no record {record}")
             return RecordRow(found.id, found.project_id, found.title, found.by, found.at, found.text)
 
-    def add_record(self, project: int, *, title: str, text: str, by: str) -> RecordInfo:
+    def add(self, project: int, *, title: str, text: str, by: str) -> RecordInfo:
         """Keeps a record."""
         check("the title", title, PATH)
         check("the record", text)
-        with self._writing() as session:
+        with self._database.writing() as session:
             the_project(session, project)
             made = TestRecord(project_id=project, title=title, text=text, by=by[:AUTHOR], at=wall_time())
             session.add(made)
             session.flush()
             return rows.record(made)
 
-    def delete_record(self, record: int) -> None:
+    def delete(self, record: int) -> None:
         """Forgets a record."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             gone = delete(TestRecord).where(TestRecord.id == record).returning(TestRecord.id)
             if session.scalars(gone).first() is None:
                 raise NotFound(f"there is no record {record}")

@@ -3,25 +3,25 @@
 from sqlalchemy import delete, select
 
 from scanbench.runtime.clock import wall_time
-from scanbench.store.connected import Connected, check, the_project
+from scanbench.store.connected import Repository, check, the_project
 from scanbench.store.records import Json, MappingRow, NotFound
 from scanbench.store.tables import AUTHOR, NAME, TraceMap
 
 
-class Mappings(Connected):
+class Mappings(Repository):
     """As plain data: what they mean is verification's affair."""
 
-    def mappings(self, project: int) -> list[MappingRow]:
+    def all(self, project: int) -> list[MappingRow]:
         """Those of a project, by name."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             the_project(session, project)
             found = select(TraceMap).where(TraceMap.project_id == project).order_by(TraceMap.name)
             return list(map(_row, session.scalars(found)))
 
-    def save_mapping(self, project: int, name: str, content: Json, by: str) -> MappingRow:
+    def save(self, project: int, name: str, content: Json, by: str) -> MappingRow:
         """Saves one; it replaces that of the same name."""
         check("the name", name, NAME)
-        with self._writing() as session:
+        with self._database.writing() as session:
             the_project(session, project)
             same = (TraceMap.project_id == project) & (TraceMap.name == name)
             made = session.scalars(select(TraceMap).where(same).with_for_update()).first()
@@ -32,9 +32,9 @@ class Mappings(Connected):
             session.flush()
             return _row(made)
 
-    def delete_mapping(self, mapping: int) -> None:
+    def delete(self, mapping: int) -> None:
         """Forgets one."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             gone = delete(TraceMap).where(TraceMap.id == mapping).returning(TraceMap.id)
             if session.scalars(gone).first() is None:
                 raise NotFound(f"there is no mapping {mapping}")

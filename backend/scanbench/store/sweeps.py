@@ -9,7 +9,7 @@ from sqlalchemy.orm import Session
 
 from scanbench.runtime.clock import wall_time
 from scanbench.store import rows
-from scanbench.store.connected import Connected, check, the_project
+from scanbench.store.connected import Repository, check, the_project
 from scanbench.store.records import (
     AcceptedRow,
     CellRow,
@@ -24,24 +24,21 @@ from scanbench.store.records import (
 from scanbench.store.tables import AUTHOR, NAME, AcceptedFinding, ProgramState, Sweep, SweepCell
 
 
-class Sweeps(Connected):
-    """States, sweeps, cells, acceptances."""
+class States(Repository):
+    """States of programs that were kept, from which sweeps begin."""
 
-    # ---- states -------------------------------------------------------------------------------------------------
-    def states(self, project: int) -> list[StateRow]:
+    def all(self, project: int) -> list[StateRow]:
         """The kept states of a project, by name."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             the_project(session, project)
             found = select(ProgramState).where(ProgramState.project_id == project).order_by(ProgramState.name)
             return [rows.state(each) for each in session.scalars(found)]
 
-    def create_state(
-        self, project: int, name: str, *, instance: str, scan: int, program_version: int, by: str
-    ) -> StateRow:
+    def create(self, project: int, name: str, *, instance: str, scan: int, program_version: int, by: str) -> StateRow:
         """Keeps a state; its name is its own in the project."""
         check("the name", name, NAME)
         try:
-            with self._writing() as session:
+            with self._database.writing() as session:
                 the_project(session, project)
                 made = ProgramState(
                     project_id=project, name=name, instance=instance, scan=scan, program_version=program_version,
@@ -53,33 +50,36 @@ class Sweeps(Connected):
         except IntegrityError as error:
             raise NameTaken(f"there is a state {name!r} in this project already: choose another name") from error
 
-    def delete_state(self, state: int) -> None:
+    def delete(self, state: int) -> None:
         """Forgets a state; sweeps that began from it stay."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             gone = delete(ProgramState).where(ProgramState.id == state).returning(ProgramState.id)
             if session.scalars(gone).first() is None:
                 raise NotFound(f"there is no state {state}")
 
-    # ---- sweeps -------------------------------------------------------------------------------------------------
-    def sweeps(self, project: int) -> list[SweepRow]:
+
+class Sweeps(Repository):
+    """Sweeps and their cells."""
+
+    def all(self, project: int) -> list[SweepRow]:
         """The sweeps of a project, the newest first."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             the_project(session, project)
             found = session.scalars(select(Sweep).where(Sweep.project_id == project).order_by(Sweep.id.desc())).all()
             counts = _counts(session, [row.id for row in found])
             return [rows.sweep(row, counts[row.id]) for row in found]
 
-    def sweep(self, sweep: int) -> SweepRow:
+    def get(self, sweep: int) -> SweepRow:
         """One sweep."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             return rows.sweep(_sweep(session, sweep), _counts(session, [sweep])[sweep])
 
-    def create_sweep(
+    def create(
         self, project: int, *, instance_id: int | None, instance: str, model: str, program_version: int, by: str,
         window: int, states: Sequence[str], errors: Sequence[SweptError],
     ) -> SweepRow:  # fmt: skip
         """A sweep that runs, without cells."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             the_project(session, project)
             made = Sweep(
                 project_id=project, instance_id=instance_id, instance=instance, model=model,
@@ -90,29 +90,29 @@ class Sweeps(Connected):
             session.flush()
             return rows.sweep(made, {})
 
-    def change_sweep(self, sweep: int, *, status: SweepStatus, message: str, seconds: float) -> SweepRow:
+    def change(self, sweep: int, *, status: SweepStatus, message: str, seconds: float) -> SweepRow:
         """How a sweep stands; `seconds` spent in all."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             row = _sweep(session, sweep)
             row.status, row.message, row.seconds = status, message, seconds
             session.flush()
             return rows.sweep(row, _counts(session, [sweep])[sweep])
 
-    def interrupt_sweeps(self, message: str) -> int:
+    def interrupt(self, message: str) -> int:
         """At the start of a server: what ran when it ended is interrupted; how many that were."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             ended = update(Sweep).where(Sweep.status == "running").values(status="interrupted", message=message)
             return len(session.scalars(ended.returning(Sweep.id)).all())
 
-    def delete_sweep(self, sweep: int) -> None:
+    def delete(self, sweep: int) -> None:
         """Deletes a sweep with its cells."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             if session.scalars(delete(Sweep).where(Sweep.id == sweep).returning(Sweep.id)).first() is None:
                 raise NotFound(f"there is no sweep {sweep}")
 
     def add_cells(self, sweep: int, cells: Sequence[CellRow]) -> None:
         """More cells; one that is there already is replaced."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             _sweep(session, sweep)
             for cell in cells:
                 told = {name: value for name, value in asdict(cell).items() if name != "reaction"}
@@ -121,7 +121,7 @@ class Sweeps(Connected):
 
     def cells(self, sweep: int) -> list[CellRow]:
         """The cells in the order of errors and states, without their reactions."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             row = _sweep(session, sweep)
             errors = {error["id"]: place for place, error in enumerate(row.errors)}
             states = {state: place for place, state in enumerate(row.states)}
@@ -129,19 +129,22 @@ class Sweeps(Connected):
             last = len(errors)
             return sorted(found, key=lambda cell: (errors.get(cell.error, last), states.get(cell.state, 0)))
 
-    def cell_reaction(self, sweep: int, error: str, state: str) -> Json | None:
+    def reaction(self, sweep: int, error: str, state: str) -> Json | None:
         """The reaction of one cell; None where there is none."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             _sweep(session, sweep)
             found = session.get(SweepCell, (sweep, error, state))
             if found is None:
                 raise NotFound(f"sweep {sweep} has no cell for {error} from {state!r}")
             return found.reaction
 
-    # ---- accepted findings --------------------------------------------------------------------------------------
-    def acceptances(self, project: int) -> list[AcceptedRow]:
+
+class Findings(Repository):
+    """What was accepted of what sweeps found."""
+
+    def accepted(self, project: int) -> list[AcceptedRow]:
         """Everything that was accepted in a project."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             the_project(session, project)
             found = select(AcceptedFinding).where(AcceptedFinding.project_id == project)
             ordered = found.order_by(AcceptedFinding.error, AcceptedFinding.state)
@@ -151,7 +154,7 @@ class Sweeps(Connected):
         """Accepts a finding, or gives it another reason."""
         check("the reason", reason, 500)
         check("the state", state, NAME)
-        with self._writing() as session:
+        with self._database.writing() as session:
             the_project(session, project)
             made = AcceptedFinding(
                 project_id=project, error=error, state=state, reason=reason, by=by[:AUTHOR], at=wall_time()
@@ -160,7 +163,7 @@ class Sweeps(Connected):
 
     def withdraw(self, project: int, *, error: str, state: str) -> None:
         """Takes an acceptance back."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             the_project(session, project)
             found = session.get(AcceptedFinding, (project, error, state))
             if found is None:

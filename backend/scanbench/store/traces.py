@@ -4,24 +4,24 @@ from collections.abc import Mapping
 
 from sqlalchemy import delete, insert, select
 
-from scanbench.store.connected import Connected, the_instance
+from scanbench.store.connected import Repository, the_instance
 from scanbench.store.records import Json
 from scanbench.store.tables import Trace
 
 
-class Traces(Connected):
+class Traces(Repository):
     """Traces, as plain data: what they mean is the tap's affair."""
 
-    def traces(self, instance: int) -> dict[int, Json]:
+    def all(self, instance: int) -> dict[int, Json]:
         """The traces of an instance, by number."""
-        with self._reading() as session:
+        with self._database.reading() as session:
             the_instance(session, instance)
             found = select(Trace).where(Trace.instance_id == instance).order_by(Trace.number)
             return {entry.number: entry.content for entry in session.scalars(found)}
 
-    def keep_traces(self, instance: int, contents: Mapping[int, Json]) -> None:
+    def keep(self, instance: int, contents: Mapping[int, Json]) -> None:
         """These take the place of all that were kept."""
-        with self._writing() as session:
+        with self._database.writing() as session:
             the_instance(session, instance, lock=True)
             session.execute(delete(Trace).where(Trace.instance_id == instance))
             if contents:

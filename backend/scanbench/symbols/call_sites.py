@@ -31,7 +31,8 @@ from scanbench.program.program import (
 )
 from scanbench.program.types import Elementary, Kind, Member, Record, Section, actual_of, is_derived
 from scanbench.symbols.instances import instances_of
-from scanbench.symbols.symbols import PART, Symbol, UnknownPath, holding, resolve
+from scanbench.symbols.names import names_of
+from scanbench.symbols.symbols import PART, Symbol, UnknownPath, resolve
 
 WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 
@@ -143,10 +144,10 @@ class Calls:
         own = this.type if this is not None else pou.instance
         behind_this = this is not None and instance.slot is not None and instance.slot.offset == this.offset
         if instance.reference is None and (behind_this or (instance.base is Base.SELF and instance.slot is None)):
-            for symbol in holding(self._program, at):
-                if isinstance(symbol.type, Record) and isinstance(own, Record) and is_derived(symbol.type, own):
-                    if _reaches(instance, at - symbol.offset - instance.offset):
-                        yield symbol.path, symbol.offset
+            for around in names_of(self._program).holding(at):
+                if isinstance(around.type, Record) and isinstance(own, Record) and is_derived(around.type, own):
+                    if _reaches(instance, at - around.offset - instance.offset):
+                        yield around.name, around.offset
             return
         if instance.reference is None and instance.slot is None and not _reaches(instance, at - instance.offset):
             return

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from scanbench.program.program import Program
+from scanbench.program.program import Pou, Program
 from scanbench.program.types import ArrayType, Record, Type
 from scanbench.symbols.symbols import Symbol, members, roots
 
@@ -17,6 +17,14 @@ def instances_of(program: Program, pou: str, limit: int = 1000) -> list[Symbol]:
         if len(found) >= limit:
             break
     return found
+
+
+def owner_of(pou: Pou) -> Record | None:
+    """The variables of the instances whose code it is; None for a FUNCTION."""
+    if pou.kind != "function":
+        return pou.instance
+    type = pou.this.type if pou.this is not None else None
+    return type if isinstance(type, Record) else None
 
 
 def _walk(program: Program, name: str, holding: dict[int, bool]) -> Iterator[Symbol]:

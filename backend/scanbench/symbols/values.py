@@ -4,6 +4,7 @@ import math
 import re
 import struct
 from datetime import date as calendar_date
+from typing import Literal
 
 from scanbench.program.numbers import round_real
 from scanbench.program.types import (
@@ -30,6 +31,11 @@ DATES = {
     "DATE_AND_TIME": ("DT", literals.date_and_time, "DT#2026-11-21-12:30:15"),
 }
 """By name of the type without its L: short prefix, reader, example."""
+
+Format = Literal["default", "decimal", "signed", "unsigned", "hex", "binary", "bcd", "float", "time", "ascii"]
+"""The same names, and the same meaning, as of a row of the watch table."""
+NUMBERS = (Kind.INT, Kind.UINT, Kind.BITS)
+"""What is shown in any of them."""
 
 
 def parse_value(type: Type, text: str) -> bytes:
@@ -173,8 +179,15 @@ def python_value(type: Type, data: bytes) -> bool | int | float | str | None:
     return chr(number) if type.kind is Kind.CHAR else number
 
 
-def format_value(type: Type, data: bytes) -> str:
-    """A value as people read it: TRUE, 42, 16#00FF, T#1s500ms, D#2026-11-21, 1.5, 'text', "wide", RED, NULL."""
+def format_value(type: Type, data: bytes, format: Format = "default") -> str:
+    """A value as people read it: TRUE, 42, 16#00FF, T#1s500ms, D#2026-11-21, 1.5, 'text', "wide", RED, NULL. A format that the
+    type does not have is the usual one; what has no single value, an array or a structure, is empty."""
+    if format != "default" and isinstance(type, Elementary) and not isinstance(type, Enumeration):
+        found = _in_format(type, data, format)
+        if found:
+            return found
+    if not isinstance(type, Elementary | StringType):
+        return ""
     value = python_value(type, data)
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
@@ -246,3 +259,48 @@ def format_time(ns: int) -> str:
         if count:
             text += f"{count}{unit}"
     return f"T#{'-' if ns < 0 else ''}{text}"
+
+
+def raw(data: bytes) -> str:
+    """Bytes as one number, the highest first."""
+    return f"16#{data[::-1].hex().upper()}"
+
+
+def _in_format(type: Elementary, data: bytes, format: Format) -> str:
+    """Empty where the type has no such format."""
+    bits, signed = int.from_bytes(data, "little"), int.from_bytes(data, "little", signed=True)
+    if type.kind is Kind.REAL:
+        return _based(bits, len(data), format)
+    if type.kind is Kind.TIME:
+        return f"{signed / 1e6:.15g}" if format == "decimal" else raw(data) if format == "hex" else ""
+    if type.kind not in NUMBERS:
+        return ""
+    number = signed if type.kind is Kind.INT else bits
+    match format:
+        case "decimal":
+            return str(number)
+        case "signed":
+            return str(signed)
+        case "unsigned":
+            return str(bits)
+        case "bcd":
+            digits = data[::-1].hex().upper()
+            return digits if digits.isdigit() else f"16#{digits}"
+        case "float":
+            return repr(_real(data)) if len(data) >= 4 else ""
+        case "time":
+            return format_time(number * 1_000_000)
+        case "ascii":
+            return f"'{''.join(chr(each) if 0x20 <= each < 0x7F else '.' for each in data[::-1])}'"
+    return _based(bits, len(data), format)
+
+
+def _real(data: bytes) -> float:
+    value = float(struct.unpack("<f" if len(data) == 4 else "<d", data)[0])
+    return float(f"{value:.7g}") if len(data) == 4 else value
+
+
+def _based(bits: int, size: int, format: Format) -> str:
+    if format == "hex":
+        return f"16#{bits:0{2 * size}X}"
+    return f"2#{bits:0{8 * size}b}" if format == "binary" else ""

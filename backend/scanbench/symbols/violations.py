@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
-from scanbench.program.program import CheckSite, Program
-from scanbench.symbols.symbols import instance_at
+from scanbench.program.program import Program
+from scanbench.program.sites import CheckSite
+from scanbench.symbols.names import names_of
 
 _HEAD = struct.Struct("<II")
 _ENTRY = struct.Struct("<IIQQQQ8x")
@@ -63,7 +64,7 @@ def read_violations(program: Program, image: bytes | bytearray | memoryview) -> 
         if not 1 <= number <= len(program.checks):
             continue  # a tool wrote over the list
         site = program.checks[number - 1]
-        path = instance_at(program, instance, site.pou) if instance else ""
+        path = names_of(program).instance(instance, site.pou) if instance else ""
         shown = _signed(site, value)
         made = Violation(
             number, _plain(site.span), site.pou, path, site.variable, shown, site.low, site.high, times, first, last

@@ -4,9 +4,10 @@ from dataclasses import dataclass, field
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
+from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
-from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.parse_st import whole
 from scanbench.syntax.pragmas import in_out_pragmas
 from scanbench.syntax.source import Source
 
@@ -143,9 +144,9 @@ def _whole(name: str, text: str) -> Chunked:
 
 
 def _parsed(source: Source, tokens: Tokens, problems: list[Problem]) -> tuple[tree.File, list[Problem]]:
-    parser = StParser(source, tokens)
-    parser.problems += problems
-    return parser.whole()
+    cursor = Cursor(source, tokens)
+    cursor.problems += problems
+    return whole(cursor)
 
 
 def _slice(tokens: Tokens, first: int, last: int, start: int, end: int) -> Tokens:

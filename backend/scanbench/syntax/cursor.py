@@ -40,6 +40,13 @@ class Cursor:
         """Those that no FUNCTION_BLOCK has taken yet."""
         self.at = 0
         self.depth = 0
+        self.list_name = ""
+        """Of the variables that a vendor keeps in a list of its own."""
+        self.namespace = ""
+        self.visible: tuple[str, ...] = ()
+        """Namespaces that USING names, here."""
+        self.kept: list[Span] = []
+        """Sections VAR_STAT and VAR_INST of the POU that is read."""
 
     def take(self) -> int:
         """The next token; the end is never passed."""
@@ -82,8 +89,8 @@ class Cursor:
         if self.texts[self.at] == text:
             self.at += 1
             return
-        end = self._end_of(max(self.at - 1, 0))
-        self.report("S003", f"`{text}` expected {where}{self._found()}.", self.source.span(max(end - 1, 0), end))
+        end = self.end_of(max(self.at - 1, 0))
+        self.report("S003", f"`{text}` expected {where}{self.found()}.", self.source.span(max(end - 1, 0), end))
 
     def name(self, what: str) -> int:
         kind = self.kinds[self.at]
@@ -112,7 +119,7 @@ class Cursor:
 
     def fail(self, message: str, token: int | None = None) -> Unexpected:
         """To be raised, after reporting what is wrong with this token."""
-        self.report("S003", message + self._found(token) + ".", self.span_of(self.at if token is None else token))
+        self.report("S003", message + self.found(token) + ".", self.span_of(self.at if token is None else token))
         return Unexpected()
 
     def report(self, code: str, message: str, span: Span) -> None:
@@ -128,16 +135,16 @@ class Cursor:
 
     def span_from(self, token: int) -> Span:
         """From `token` to the last one taken."""
-        end = self._end_of(max(self.at - 1, 0))
-        return Stretch(self.source, self.starts[token], max(end, self._end_of(token)))
+        end = self.end_of(max(self.at - 1, 0))
+        return Stretch(self.source, self.starts[token], max(end, self.end_of(token)))
 
-    def _end_of(self, token: int) -> int:
+    def end_of(self, token: int) -> int:
         return self.starts[token] + len(self.texts[token])
 
     def line_of(self, token: int) -> int:
         return self.source.line(self.starts[token])
 
-    def _found(self, token: int | None = None) -> str:
+    def found(self, token: int | None = None) -> str:
         text = self.texts[self.at if token is None else token]
         return f", found `{text[:40]}`" if text else ", but the file ends here"
 

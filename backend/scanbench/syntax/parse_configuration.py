@@ -3,10 +3,9 @@
 from dataclasses import dataclass, field
 
 from scanbench.problems import Span
-from scanbench.syntax import tree
-from scanbench.syntax.cursor import NAME, Unexpected
+from scanbench.syntax import parse_declaration, parse_expression, parse_initial, parse_type, tree
+from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_pou import PouParser
 
 WORDS = ("RESOURCE", "TASK")
 PARTS = frozenset(("VAR_GLOBAL", "VAR_ACCESS", "VAR_CONFIG", "PROGRAM", "END_RESOURCE", "END_CONFIGURATION"))
@@ -24,182 +23,188 @@ class _Parts:
     accesses: list[tree.AccessDeclaration] = field(default_factory=list)
 
 
-class ConfigurationParser(PouParser):
-    def configuration(self) -> tree.Configuration:
-        start = self.take()
-        name = self.name("the name of the configuration")
-        span = self.span_from(start)
-        parts = self._parts("END_CONFIGURATION")
-        self.end("END_CONFIGURATION", f"CONFIGURATION {self.texts[name]}")
-        return tree.Configuration(
-            self.texts[name], tuple(parts.globals), tuple(parts.tasks), tuple(parts.programs), span,
-            tuple(parts.resources), tuple(parts.settings), tuple(parts.accesses),
-        )  # fmt: skip
+def configuration(c: Cursor) -> tree.Configuration:
+    start = c.take()
+    name = c.name("the name of the configuration")
+    span = c.span_from(start)
+    parts = _parts(c, "END_CONFIGURATION")
+    parse_declaration.end(c, "END_CONFIGURATION", f"CONFIGURATION {c.texts[name]}")
+    return tree.Configuration(
+        c.texts[name], tuple(parts.globals), tuple(parts.tasks), tuple(parts.programs), span,
+        tuple(parts.resources), tuple(parts.settings), tuple(parts.accesses),
+    )  # fmt: skip
 
-    def _parts(self, end: str) -> _Parts:
-        parts = _Parts()
-        while not self.is_(end) and not self.ended():
-            before, depth = self.at, self.depth
-            try:
-                if not self._part_of(parts, end):
-                    break
-            except Unexpected:
-                self.depth = depth
-                self._skip_part(before)
-        return parts
 
-    def _part_of(self, parts: _Parts, end: str) -> bool:
-        """Reads one part; false where something else begins."""
-        text, word = self.texts[self.at], self.word()
-        if text == ";":
-            self.take()
-        elif text == "VAR_GLOBAL":
-            section = self.section()
-            parts.globals += [section] if section else []
-        elif text == "VAR_CONFIG":
-            parts.settings += self._settings()
-        elif text == "VAR_ACCESS":
-            parts.accesses += self._accesses()
-        elif text == "PROGRAM":
-            parts.programs.append(self._program())
-        elif word == "TASK":
-            parts.tasks.append(self._task())
-        elif word == "RESOURCE" and end != "END_RESOURCE":
-            parts.resources.append(self._resource())
-        elif text.startswith("END_") or text in ("FUNCTION", "FUNCTION_BLOCK", "TYPE", "CONFIGURATION"):
-            return False
-        else:
-            raise self.fail(f"RESOURCE, TASK, PROGRAM, VAR_GLOBAL or {end} expected")
-        return True
-
-    def _skip_part(self, before: int) -> None:
-        if self.at == before:
-            self.take()
-        while not self.ended() and self.texts[self.at] not in PARTS and self.word() not in WORDS:
-            if self.texts[self.take()] == ";":
-                return
-
-    def _resource(self) -> tree.ResourceDeclaration:
-        self.take()
-        name = self.name("the name of the resource")
-        if self.accept_word("ON"):
-            self.name("the type of the resource")
-        parts = self._parts("END_RESOURCE")
-        for where in [each.span for each in parts.settings] + [each.span for each in parts.accesses]:
-            self.report("S003", "VAR_CONFIG and VAR_ACCESS stand outside of a RESOURCE.", where)
-        self.end("END_RESOURCE", f"RESOURCE {self.texts[name]}")
-        return tree.ResourceDeclaration(
-            self.texts[name], tuple(parts.globals), tuple(parts.tasks), tuple(parts.programs), self.span_of(name)
-        )
-
-    def _task(self) -> tree.TaskDeclaration:
-        self.take()
-        name = self.name("the name of the task")
-        known: dict[str, tree.Expression | None] = {"INTERVAL": None, "PRIORITY": None, "SINGLE": None}
-        self.expect("(", "behind the name of the task")
-        while not self.is_(")"):
-            key = self.name("INTERVAL, SINGLE or PRIORITY")
-            self.expect(":=", f"behind {self.texts[key]}")
-            value = self.expression()
-            word = self.texts[key].upper()
-            if word not in known:
-                self.report("X001", f"{word} of a task is not supported.", self.span_of(key))
-            elif known[word] is not None:
-                self.report("D001", f"{word} of this task is given twice.", self.span_of(key))
-            known[word] = value
-            if not self.accept(","):
+def _parts(c: Cursor, end: str) -> _Parts:
+    parts = _Parts()
+    while not c.is_(end) and not c.ended():
+        before, depth = c.at, c.depth
+        try:
+            if not _part_of(c, parts, end):
                 break
-        self.expect(")", "to close the task")
-        self.close(";", "behind the task")
-        return tree.TaskDeclaration(
-            self.texts[name], known["INTERVAL"], known["PRIORITY"], self.span_of(name), known["SINGLE"]
-        )
+        except Unexpected:
+            c.depth = depth
+            _skip_part(c, before)
+    return parts
 
-    def _program(self) -> tree.ProgramDeclaration:
-        self.take()
-        retain = self.word() == "RETAIN" and self.kinds[self.at + 1] is NAME
-        if self.word() in ("RETAIN", "NON_RETAIN") and self.kinds[self.at + 1] is NAME:
-            self.take()
-        name = self.name("the name of the program instance")
-        task = self.texts[self.name("the name of a task")] if self.accept_word("WITH") else None
-        self.expect(":", "behind the program instance, then its type")
-        type_name = self.qualified("the name of a PROGRAM")
-        connections: list[tree.Argument] = []
-        blocks: list[tuple[str, str, Span]] = []
-        if self.accept("("):
-            while not self.is_(")"):
-                self._connection(connections, blocks)
-                if not self.accept(","):
-                    break
-            self.expect(")", "to close the connections of the program")
-        self.close(";", "behind the program instance")
-        span = self.span_of(name)
-        return tree.ProgramDeclaration(
-            self.texts[name], task, type_name, span, tuple(connections), tuple(blocks), retain
-        )
 
-    def _connection(self, connections: list[tree.Argument], blocks: list[tuple[str, str, Span]]) -> None:
-        """`input := x`, `output => y`, or `instance WITH task`."""
-        start = self.at
-        if self.kinds[start] is NAME and self.word(1) == "WITH":
-            self.at += 2
-            task = self.name("the name of a task")
-            blocks.append((self.texts[start], self.texts[task], self.span_from(start)))
+def _part_of(c: Cursor, parts: _Parts, end: str) -> bool:
+    """Reads one part; false where something else begins."""
+    text, word = c.texts[c.at], c.word()
+    if text == ";":
+        c.take()
+    elif text == "VAR_GLOBAL":
+        section = parse_declaration.section(c)
+        parts.globals += [section] if section else []
+    elif text == "VAR_CONFIG":
+        parts.settings += _settings(c)
+    elif text == "VAR_ACCESS":
+        parts.accesses += _accesses(c)
+    elif text == "PROGRAM":
+        parts.programs.append(_program(c))
+    elif word == "TASK":
+        parts.tasks.append(_task(c))
+    elif word == "RESOURCE" and end != "END_RESOURCE":
+        parts.resources.append(_resource(c))
+    elif text.startswith("END_") or text in ("FUNCTION", "FUNCTION_BLOCK", "TYPE", "CONFIGURATION"):
+        return False
+    else:
+        raise c.fail(f"RESOURCE, TASK, PROGRAM, VAR_GLOBAL or {end} expected")
+    return True
+
+
+def _skip_part(c: Cursor, before: int) -> None:
+    if c.at == before:
+        c.take()
+    while not c.ended() and c.texts[c.at] not in PARTS and c.word() not in WORDS:
+        if c.texts[c.take()] == ";":
             return
-        argument = self._argument()
-        if argument.name is None:
-            raise self.fail("`input := value`, `output => variable` or `instance WITH task` expected", start)
-        connections.append(argument)
 
-    # ---- VAR_CONFIG and VAR_ACCESS ------------------------------------------------------------------------------
 
-    def _settings(self) -> list[tree.Variable]:
-        """`resource.program.instance.variable AT %IX1.0 : BOOL := TRUE;`"""
-        found = []
-        start = self.take()
-        while not self.is_("END_VAR") and self.kinds[self.at] is NAME:
-            try:
-                first = self.at
-                path = self._instance_path()
-                span = self.span_from(first)
-                address, address_span = self._address()
-                self.expect(":", "behind the path, then its type")
-                spec = self.type_spec()
-                arguments = self.arguments("initial values") if self.is_("(") else ()
-                initial = self.initial() if self.accept(":=") else None
-                self.close(";", f"behind the setting of `{path}`")
-                found.append(tree.Variable(path, spec, initial, address, span, address_span, arguments))
-            except Unexpected:
-                self.skip_declaration()
-        self.end("END_VAR", f"VAR_CONFIG of line {self.line_of(start)}")
-        return found
+def _resource(c: Cursor) -> tree.ResourceDeclaration:
+    c.take()
+    name = c.name("the name of the resource")
+    if c.accept_word("ON"):
+        c.name("the type of the resource")
+    parts = _parts(c, "END_RESOURCE")
+    for where in [each.span for each in parts.settings] + [each.span for each in parts.accesses]:
+        c.report("S003", "VAR_CONFIG and VAR_ACCESS stand outside of a RESOURCE.", where)
+    parse_declaration.end(c, "END_RESOURCE", f"RESOURCE {c.texts[name]}")
+    return tree.ResourceDeclaration(
+        c.texts[name], tuple(parts.globals), tuple(parts.tasks), tuple(parts.programs), c.span_of(name)
+    )
 
-    def _accesses(self) -> list[tree.AccessDeclaration]:
-        """`name : resource.program.variable : type READ_WRITE;`"""
-        found = []
-        start = self.take()
-        while not self.is_("END_VAR") and self.kinds[self.at] is NAME:
-            try:
-                name = self.take()
-                self.expect(":", "behind the name, then the path of the variable")
-                path = self._instance_path()
-                self.expect(":", "behind the path, then the type of the variable")
-                spec = self.type_spec()
-                writable = self.word() == "READ_WRITE"
-                if self.word() in ("READ_WRITE", "READ_ONLY"):
-                    self.take()
-                self.close(";", f"behind the access path `{self.texts[name]}`")
-                found.append(tree.AccessDeclaration(self.texts[name], path, spec, writable, self.span_of(name)))
-            except Unexpected:
-                self.skip_declaration()
-        self.end("END_VAR", f"VAR_ACCESS of line {self.line_of(start)}")
-        return found
 
-    def _instance_path(self) -> str:
-        """Names, indices and an address joined by dots, as written but for blanks."""
-        start = self.at
-        while self.kinds[self.at] in (NAME, Lex.ADDRESS, Lex.INTEGER) or self.is_(".", "[", "]", ","):
-            self.take()
-        if self.at == start:
-            raise self.fail("the path of a variable expected")
-        return "".join(self.texts[start : self.at])
+def _task(c: Cursor) -> tree.TaskDeclaration:
+    c.take()
+    name = c.name("the name of the task")
+    known: dict[str, tree.Expression | None] = {"INTERVAL": None, "PRIORITY": None, "SINGLE": None}
+    c.expect("(", "behind the name of the task")
+    while not c.is_(")"):
+        key = c.name("INTERVAL, SINGLE or PRIORITY")
+        c.expect(":=", f"behind {c.texts[key]}")
+        value = parse_expression.expression(c)
+        word = c.texts[key].upper()
+        if word not in known:
+            c.report("X001", f"{word} of a task is not supported.", c.span_of(key))
+        elif known[word] is not None:
+            c.report("D001", f"{word} of this task is given twice.", c.span_of(key))
+        known[word] = value
+        if not c.accept(","):
+            break
+    c.expect(")", "to close the task")
+    c.close(";", "behind the task")
+    return tree.TaskDeclaration(c.texts[name], known["INTERVAL"], known["PRIORITY"], c.span_of(name), known["SINGLE"])
+
+
+def _program(c: Cursor) -> tree.ProgramDeclaration:
+    c.take()
+    retain = c.word() == "RETAIN" and c.kinds[c.at + 1] is NAME
+    if c.word() in ("RETAIN", "NON_RETAIN") and c.kinds[c.at + 1] is NAME:
+        c.take()
+    name = c.name("the name of the program instance")
+    task = c.texts[c.name("the name of a task")] if c.accept_word("WITH") else None
+    c.expect(":", "behind the program instance, then its type")
+    type_name = c.qualified("the name of a PROGRAM")
+    connections: list[tree.Argument] = []
+    blocks: list[tuple[str, str, Span]] = []
+    if c.accept("("):
+        while not c.is_(")"):
+            _connection(c, connections, blocks)
+            if not c.accept(","):
+                break
+        c.expect(")", "to close the connections of the program")
+    c.close(";", "behind the program instance")
+    span = c.span_of(name)
+    return tree.ProgramDeclaration(c.texts[name], task, type_name, span, tuple(connections), tuple(blocks), retain)
+
+
+def _connection(c: Cursor, connections: list[tree.Argument], blocks: list[tuple[str, str, Span]]) -> None:
+    """`input := x`, `output => y`, or `instance WITH task`."""
+    start = c.at
+    if c.kinds[start] is NAME and c.word(1) == "WITH":
+        c.at += 2
+        task = c.name("the name of a task")
+        blocks.append((c.texts[start], c.texts[task], c.span_from(start)))
+        return
+    argument = parse_expression.argument(c)
+    if argument.name is None:
+        raise c.fail("`input := value`, `output => variable` or `instance WITH task` expected", start)
+    connections.append(argument)
+
+
+# ---- VAR_CONFIG and VAR_ACCESS ------------------------------------------------------------------------------
+
+
+def _settings(c: Cursor) -> list[tree.Variable]:
+    """`resource.program.instance.variable AT %IX1.0 : BOOL := TRUE;`"""
+    found = []
+    start = c.take()
+    while not c.is_("END_VAR") and c.kinds[c.at] is NAME:
+        try:
+            first = c.at
+            path = _instance_path(c)
+            span = c.span_from(first)
+            address, address_span = parse_type.located(c)
+            c.expect(":", "behind the path, then its type")
+            spec = parse_type.type_spec(c)
+            arguments = parse_expression.arguments(c, "initial values") if c.is_("(") else ()
+            initial = parse_initial.initial(c) if c.accept(":=") else None
+            c.close(";", f"behind the setting of `{path}`")
+            found.append(tree.Variable(path, spec, initial, address, span, address_span, arguments))
+        except Unexpected:
+            parse_type.skip_declaration(c)
+    parse_declaration.end(c, "END_VAR", f"VAR_CONFIG of line {c.line_of(start)}")
+    return found
+
+
+def _accesses(c: Cursor) -> list[tree.AccessDeclaration]:
+    """`name : resource.program.variable : type READ_WRITE;`"""
+    found = []
+    start = c.take()
+    while not c.is_("END_VAR") and c.kinds[c.at] is NAME:
+        try:
+            name = c.take()
+            c.expect(":", "behind the name, then the path of the variable")
+            path = _instance_path(c)
+            c.expect(":", "behind the path, then the type of the variable")
+            spec = parse_type.type_spec(c)
+            writable = c.word() == "READ_WRITE"
+            if c.word() in ("READ_WRITE", "READ_ONLY"):
+                c.take()
+            c.close(";", f"behind the access path `{c.texts[name]}`")
+            found.append(tree.AccessDeclaration(c.texts[name], path, spec, writable, c.span_of(name)))
+        except Unexpected:
+            parse_type.skip_declaration(c)
+    parse_declaration.end(c, "END_VAR", f"VAR_ACCESS of line {c.line_of(start)}")
+    return found
+
+
+def _instance_path(c: Cursor) -> str:
+    """Names, indices and an address joined by dots, as written but for blanks."""
+    start = c.at
+    while c.kinds[c.at] in (NAME, Lex.ADDRESS, Lex.INTEGER) or c.is_(".", "[", "]", ","):
+        c.take()
+    if c.at == start:
+        raise c.fail("the path of a variable expected")
+    return "".join(c.texts[start : c.at])

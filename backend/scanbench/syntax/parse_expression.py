@@ -2,9 +2,9 @@
 
 from scanbench.problems import Span
 from scanbench.syntax import tree
-from scanbench.syntax.cursor import NAME, Unexpected
+from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_literal import LiteralParser
+from scanbench.syntax.parse_literal import literal
 from scanbench.syntax.source import Stretch
 
 BINARY: dict[str, tuple[int, str]] = {
@@ -43,177 +43,180 @@ FOREIGN = {
 MAX_CHAIN = 1000
 
 
-class ExpressionParser(LiteralParser):
-    def expression(self, weakest: int = 0) -> tree.Expression:
-        """Operands joined by operators that are no weaker than this."""
-        left, count = self._operand(), 0
-        texts = self.texts
-        while (found := BINARY.get(texts[self.at])) is not None and found[0] >= weakest:
-            self.at += 1
-            right = self.expression(found[0] + 1)
-            left = tree.BinaryOp(found[1], left, right, left.span.to(right.span))
-            count += 1
-            if count > MAX_CHAIN:
-                raise self.fail(f"more than {MAX_CHAIN} operands in one expression; split it up")
-        return left
+def expression(c: Cursor, weakest: int = 0) -> tree.Expression:
+    """Operands joined by operators that are no weaker than this."""
+    left, count = operand(c), 0
+    texts = c.texts
+    while (found := BINARY.get(texts[c.at])) is not None and found[0] >= weakest:
+        c.at += 1
+        right = expression(c, found[0] + 1)
+        left = tree.BinaryOp(found[1], left, right, left.span.to(right.span))
+        count += 1
+        if count > MAX_CHAIN:
+            raise c.fail(f"more than {MAX_CHAIN} operands in one expression; split it up")
+    return left
 
-    def _operand(self) -> tree.Expression:
-        at = self.at
-        kind = self.kinds[at]
-        if kind is NAME:
-            text = self.texts[at]
-            self.at = at + 1
-            start = self.starts[at]
-            name = tree.Name(text, Stretch(self.source, start, start + len(text)))
-            return self._postfix(name) if self.texts[at + 1] in POSTFIX else name
-        if kind in LITERALS:
-            self.at = at + 1
-            if kind is Lex.STRING and self.texts[at][0] == '"' and self.texts[at + 1] in QUOTED_NAME:
-                raise self.quoted(at)
-            return self.literal(at)
-        if kind is Lex.ADDRESS:
-            self.at = at + 1
-            return tree.DirectAddress(self.texts[at], self.span_of(at))
-        return self._marked(at, self.texts[at])
 
-    def _marked(self, at: int, text: str) -> tree.Expression:
-        """An operand that begins with an operator or keyword."""
-        if text == "(":
-            self.take()
-            self.enter()
-            inner = self.expression()
-            self.leave()
-            self.expect(")", "to close the parenthesis")
-            return self._postfix(inner) if self.is_("^", ".", "[") else inner
-        if text in ("TRUE", "FALSE"):
-            self.take()
-            return tree.Literal("bool", int(text == "TRUE"), None, self.span_of(at))
-        formal_not = text == "NOT" and self.texts[at + 1] == "(" and self.texts[at + 3] == ":="
-        if (text in FUNCTION_FORMS or formal_not) and self.texts[at + 1] == "(":
-            self.take()
-            return self._postfix(tree.Name(text, self.span_of(at)))
-        if text in UNARY:
-            self.take()
-            self.enter()
-            operand = self._operand()
-            self.leave()
-            return tree.UnaryOp(UNARY[text], operand, self.span_from(at))
-        if text == "#" and self.kinds[at + 1] is NAME:
-            self.take()  # `#local`, as one vendor writes its local variables
-            return self._operand()
-        foreign = FOREIGN.get(self.texts[at - 1] + text)
-        if foreign and self.starts[at - 1] + len(self.texts[at - 1]) == self.starts[at]:
-            self.report(
-                "S003", f"`{self.texts[at - 1]}{text}` is of another language; {foreign}.", self.span_from(at - 1)
-            )
-            raise Unexpected
-        raise self.fail("an expression (a value, variable or call) expected")
+def operand(c: Cursor) -> tree.Expression:
+    at, texts = c.at, c.texts
+    kind = c.kinds[at]
+    if kind is NAME:
+        text = texts[at]
+        c.at = at + 1
+        start = c.starts[at]
+        name = tree.Name(text, Stretch(c.source, start, start + len(text)))
+        return postfix(c, name) if texts[at + 1] in POSTFIX else name
+    if kind in LITERALS:
+        c.at = at + 1
+        if kind is Lex.STRING and texts[at][0] == '"' and texts[at + 1] in QUOTED_NAME:
+            raise c.quoted(at)
+        return literal(c, at)
+    if kind is Lex.ADDRESS:
+        c.at = at + 1
+        return tree.DirectAddress(texts[at], c.span_of(at))
+    return _marked(c, at, texts[at])
 
-    def _postfix(self, base: tree.Expression, calls: bool = True) -> tree.Expression:
-        """What follows a variable: `.member`, `[index]`, `(arguments)`, `^`, `.3`."""
-        count = 0
-        while (text := self.texts[self.at]) in POSTFIX:
-            if text == ".":
-                self.at += 1
-                base = self._member(base)
-            elif text == "[":
-                self.at += 1
-                self.enter()
-                indices = self._list()
-                self.leave()
-                end = self.expect("]", "to close the index")
-                base = tree.IndexOf(base, indices, base.span.to(self.span_of(end)))
-            elif text == "^":
-                base = tree.Dereference(base, base.span.to(self.here()))
-                self.at += 1
-            elif calls:
-                base = self._call(base)
-            else:
-                break
-            count += 1
-            if count > MAX_CHAIN:
-                raise self.fail(f"more than {MAX_CHAIN} members, indices and calls in a row")
-        return base
 
-    def _list(self) -> tuple[tree.Expression, ...]:
-        found = [self.expression()]
-        while self.accept(","):
-            found.append(self.expression())
-        return tuple(found)
+def _marked(c: Cursor, at: int, text: str) -> tree.Expression:
+    """An operand that begins with an operator or keyword."""
+    if text == "(":
+        c.take()
+        c.enter()
+        inner = expression(c)
+        c.leave()
+        c.expect(")", "to close the parenthesis")
+        return postfix(c, inner) if c.is_("^", ".", "[") else inner
+    if text in ("TRUE", "FALSE"):
+        c.take()
+        return tree.Literal("bool", int(text == "TRUE"), None, c.span_of(at))
+    formal_not = text == "NOT" and c.texts[at + 1] == "(" and c.texts[at + 3] == ":="
+    if (text in FUNCTION_FORMS or formal_not) and c.texts[at + 1] == "(":
+        c.take()
+        return postfix(c, tree.Name(text, c.span_of(at)))
+    if text in UNARY:
+        c.take()
+        c.enter()
+        inner = operand(c)
+        c.leave()
+        return tree.UnaryOp(UNARY[text], inner, c.span_from(at))
+    if text == "#" and c.kinds[at + 1] is NAME:
+        c.take()  # `#local`, as one vendor writes its local variables
+        return operand(c)
+    foreign = FOREIGN.get(c.texts[at - 1] + text)
+    if foreign and c.starts[at - 1] + len(c.texts[at - 1]) == c.starts[at]:
+        c.report("S003", f"`{c.texts[at - 1]}{text}` is of another language; {foreign}.", c.span_from(at - 1))
+        raise Unexpected
+    raise c.fail("an expression (a value, variable or call) expected")
 
-    def _member(self, base: tree.Expression) -> tree.Expression:
-        at = self.at
-        text, kind = self.texts[at], self.kinds[at]
-        if kind is NAME:
-            self.at = at + 1
-            return tree.MemberOf(base, text, base.span.to(self.span_of(at)))
-        if kind is Lex.INTEGER and text.isdigit() and len(text) < 4:
-            self.at = at + 1
-            return tree.PartialAccess(base, "X", int(text), base.span.to(self.span_of(at)))
-        if kind is Lex.ADDRESS:
-            size, (number, *bit) = text[1:2].upper(), text[2:].split(".")
-            if size in "XBWDL" and all(each.isdigit() and len(each) < 4 for each in (number, *bit)) and len(bit) < 2:
-                self.at = at + 1
-                span = base.span.to(self.span_of(at))
-                part = tree.PartialAccess(base, size, int(number), span)
-                return tree.PartialAccess(part, "X", int(bit[0]), span) if bit else part
-            raise self.fail("a part of a variable is written like x.%X3, x.%B1, x.%W0, x.%D0 or x.%B1.3")
-        if kind is Lex.TYPED and (owner := _path(base)):
-            self.at = at + 1
-            return self.literal(at, owner + ".")
-        if kind is Lex.KEYWORD and text not in ("AND", "OR", "XOR", "MOD", "NOT"):
-            raise self.fail(f"the name of a member expected; `{text}` is a keyword and cannot be a name")
-        raise self.fail("the name of a member expected")
 
-    def _call(self, callee: tree.Expression) -> tree.Call:
-        self._refuse(callee)
-        return tree.Call(callee, self.arguments("call"), self._through(callee))
+def postfix(c: Cursor, base: tree.Expression, calls: bool = True) -> tree.Expression:
+    """What follows a variable: `.member`, `[index]`, `(arguments)`, `^`, `.3`."""
+    count = 0
+    while (text := c.texts[c.at]) in POSTFIX:
+        if text == ".":
+            c.at += 1
+            base = _member(c, base)
+        elif text == "[":
+            c.at += 1
+            c.enter()
+            indices = _list(c)
+            c.leave()
+            end = c.expect("]", "to close the index")
+            base = tree.IndexOf(base, indices, base.span.to(c.span_of(end)))
+        elif text == "^":
+            base = tree.Dereference(base, base.span.to(c.here()))
+            c.at += 1
+        elif calls:
+            base = _call(c, base)
+        else:
+            break
+        count += 1
+        if count > MAX_CHAIN:
+            raise c.fail(f"more than {MAX_CHAIN} members, indices and calls in a row")
+    return base
 
-    def _through(self, first: tree.Expression) -> Span:
-        """From an expression to the last token taken."""
-        return first.span.to(self.span_of(self.at - 1))
 
-    def _refuse(self, callee: tree.Expression) -> None:
-        if isinstance(callee, tree.Name) and callee.name.upper() in REFUSED:
-            why = REFUSED[callee.name.upper()]
-            self.report("X001", f"`{callee.name}` is not supported: {why}.", callee.span)
-            raise Unexpected
+def _list(c: Cursor) -> tuple[tree.Expression, ...]:
+    found = [expression(c)]
+    while c.accept(","):
+        found.append(expression(c))
+    return tuple(found)
 
-    def arguments(self, of: str) -> tuple[tree.Argument, ...]:
-        """`(a, name := b, name => c)`."""
-        self.expect("(", f"to open the {of}")
-        self.enter()
-        found: list[tree.Argument] = []
-        while self.texts[self.at] != ")":
-            if (
-                self.kinds[self.at] is NAME
-                and self.texts[self.at + 1] == ":="
-                and self.texts[self.at + 2] in (",", ")")
-            ):
-                self.at += 2  # `name := ,` of vendors: the input keeps its value
-            else:
-                found.append(self._argument())
-            if not self.accept(","):
-                break
-        self.leave()
-        self.expect(")", f"to close the {of}")
-        return tuple(found)
 
-    def _argument(self) -> tree.Argument:
-        at = self.at
-        if self.kinds[at] is NAME and self.texts[at + 1] in (":=", "=>"):
-            self.at = at + 2
-            output = self.texts[at + 1] == "=>"
-            if output and self.texts[self.at] in (",", ")"):
-                return tree.Argument(self.texts[at], output, None, self.span_from(at))
-            value = self.expression()
-            return tree.Argument(self.texts[at], output, value, self.span_from(at))
-        if self.texts[at] == "NOT" and self.kinds[at + 1] is NAME and self.texts[at + 2] == "=>":
-            self.at = at + 3
-            value = self.expression()
-            return tree.Argument(self.texts[at + 1], True, value, self.span_from(at), negated=True)
-        value = self.expression()
-        return tree.Argument(None, False, value, value.span)
+def _member(c: Cursor, base: tree.Expression) -> tree.Expression:
+    at = c.at
+    text, kind = c.texts[at], c.kinds[at]
+    if kind is NAME:
+        c.at = at + 1
+        return tree.MemberOf(base, text, base.span.to(c.span_of(at)))
+    if kind is Lex.INTEGER and text.isdigit() and len(text) < 4:
+        c.at = at + 1
+        return tree.PartialAccess(base, "X", int(text), base.span.to(c.span_of(at)))
+    if kind is Lex.ADDRESS:
+        size, (number, *bit) = text[1:2].upper(), text[2:].split(".")
+        if size in "XBWDL" and all(each.isdigit() and len(each) < 4 for each in (number, *bit)) and len(bit) < 2:
+            c.at = at + 1
+            span = base.span.to(c.span_of(at))
+            part = tree.PartialAccess(base, size, int(number), span)
+            return tree.PartialAccess(part, "X", int(bit[0]), span) if bit else part
+        raise c.fail("a part of a variable is written like x.%X3, x.%B1, x.%W0, x.%D0 or x.%B1.3")
+    if kind is Lex.TYPED and (owner := _path(base)):
+        c.at = at + 1
+        return literal(c, at, owner + ".")
+    if kind is Lex.KEYWORD and text not in ("AND", "OR", "XOR", "MOD", "NOT"):
+        raise c.fail(f"the name of a member expected; `{text}` is a keyword and cannot be a name")
+    raise c.fail("the name of a member expected")
+
+
+def _call(c: Cursor, callee: tree.Expression) -> tree.Call:
+    _refuse(c, callee)
+    return tree.Call(callee, arguments(c, "call"), _through(c, callee))
+
+
+def _through(c: Cursor, first: tree.Expression) -> Span:
+    """From an expression to the last token taken."""
+    return first.span.to(c.span_of(c.at - 1))
+
+
+def _refuse(c: Cursor, callee: tree.Expression) -> None:
+    if isinstance(callee, tree.Name) and callee.name.upper() in REFUSED:
+        why = REFUSED[callee.name.upper()]
+        c.report("X001", f"`{callee.name}` is not supported: {why}.", callee.span)
+        raise Unexpected
+
+
+def arguments(c: Cursor, of: str) -> tuple[tree.Argument, ...]:
+    """`(a, name := b, name => c)`."""
+    c.expect("(", f"to open the {of}")
+    c.enter()
+    found: list[tree.Argument] = []
+    while c.texts[c.at] != ")":
+        if c.kinds[c.at] is NAME and c.texts[c.at + 1] == ":=" and c.texts[c.at + 2] in (",", ")"):
+            c.at += 2  # `name := ,` of vendors: the input keeps its value
+        else:
+            found.append(argument(c))
+        if not c.accept(","):
+            break
+    c.leave()
+    c.expect(")", f"to close the {of}")
+    return tuple(found)
+
+
+def argument(c: Cursor) -> tree.Argument:
+    at = c.at
+    if c.kinds[at] is NAME and c.texts[at + 1] in (":=", "=>"):
+        c.at = at + 2
+        output = c.texts[at + 1] == "=>"
+        if output and c.texts[c.at] in (",", ")"):
+            return tree.Argument(c.texts[at], output, None, c.span_from(at))
+        value = expression(c)
+        return tree.Argument(c.texts[at], output, value, c.span_from(at))
+    if c.texts[at] == "NOT" and c.kinds[at + 1] is NAME and c.texts[at + 2] == "=>":
+        c.at = at + 3
+        value = expression(c)
+        return tree.Argument(c.texts[at + 1], True, value, c.span_from(at), negated=True)
+    value = expression(c)
+    return tree.Argument(None, False, value, value.span)
 
 
 def _path(expression: tree.Expression) -> str:

@@ -12,22 +12,21 @@ Value = tuple[str, int | float | bytes, str | None]
 """Kind, value and type of a literal."""
 
 
-class LiteralParser(Cursor):
-    def literal(self, token: int, owner: str = "") -> tree.Literal | tree.TypedName:
-        """The literal or typed name that this token is; `owner` is the namespace written before it."""
-        text = self.texts[token]
-        span = self.span_of(token)
-        if self.kinds[token] is Lex.TYPED:
-            type_name, value = text.split("#", 1)
-            if (value[0] == "_" or value[0].isalpha()) and value.upper() not in ("TRUE", "FALSE"):
-                return tree.TypedName(owner + type_name, value, span)
-        try:
-            kind, number, type_name_ = _value(self.kinds[token], text)
-        except ValueError as error:
-            what = "This string" if self.kinds[token] is Lex.STRING else f"`{text[:40]}`"
-            self.report("S004", f"{what} cannot be read: {error}.", span)
-            return _broken(self.kinds[token], text, span)
-        return tree.Literal(kind, number, owner + type_name_ if type_name_ else None, span)
+def literal(c: Cursor, token: int, owner: str = "") -> tree.Literal | tree.TypedName:
+    """The literal or typed name that this token is; `owner` is the namespace written before it."""
+    text = c.texts[token]
+    span = c.span_of(token)
+    if c.kinds[token] is Lex.TYPED:
+        type_name, value = text.split("#", 1)
+        if (value[0] == "_" or value[0].isalpha()) and value.upper() not in ("TRUE", "FALSE"):
+            return tree.TypedName(owner + type_name, value, span)
+    try:
+        kind, number, type_name_ = _value(c.kinds[token], text)
+    except ValueError as error:
+        what = "This string" if c.kinds[token] is Lex.STRING else f"`{text[:40]}`"
+        c.report("S004", f"{what} cannot be read: {error}.", span)
+        return _broken(c.kinds[token], text, span)
+    return tree.Literal(kind, number, owner + type_name_ if type_name_ else None, span)
 
 
 def _value(kind: Lex, text: str) -> Value:

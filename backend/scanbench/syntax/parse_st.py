@@ -3,10 +3,8 @@
 import re
 
 from scanbench.problems import Problem
-from scanbench.syntax import tree
-from scanbench.syntax.cursor import NAME, Unexpected
-from scanbench.syntax.lexer import Tokens
-from scanbench.syntax.parse_configuration import ConfigurationParser
+from scanbench.syntax import parse_configuration, parse_declaration, parse_initial, parse_pou, parse_type, tree
+from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.parse_pou import MEMBERS, with_member
 from scanbench.syntax.source import Source
 
@@ -23,135 +21,132 @@ QUALIFIED_ONLY = re.compile(r"\{\s*attribute\s*(?::=)?\s*'qualified_only'", re.I
 
 def parse_st(source: Source) -> tuple[tree.File, list[Problem]]:
     """The tree of what could be read, and every problem on the way, in the order of the text."""
-    return StParser(source).whole()
+    return whole(Cursor(source))
 
 
-class StParser(ConfigurationParser):
-    def __init__(self, source: Source, tokens: Tokens | None = None, list_name: str = "") -> None:
-        super().__init__(source, tokens)
-        self.list_name = list_name
-        """Of the variables that a vendor keeps in a list of its own."""
-        self.namespace = ""
-        self.visible: tuple[str, ...] = ()
-        """Namespaces that USING names, here."""
+def whole(c: Cursor) -> tuple[tree.File, list[Problem]]:
+    """Everything up to the end of the text, and the problems in their order."""
+    result = tree.File(c.source.name)
+    while not c.ended():
+        _next(c, result)
+    parse_pou.check_pragmas(c)
+    c.problems.sort(key=lambda problem: (problem.span.line, problem.span.column))
+    return result, c.problems
 
-    def whole(self) -> tuple[tree.File, list[Problem]]:
-        """Everything up to the end of the text, and the problems in their order."""
-        result = tree.File(self.source.name)
-        while not self.ended():
-            self._next(result)
-        self.check_pragmas()
-        self.problems.sort(key=lambda problem: (problem.span.line, problem.span.column))
-        return result, self.problems
 
-    def _next(self, result: tree.File) -> None:
-        before = self.at
+def _next(c: Cursor, result: tree.File) -> None:
+    before = c.at
+    try:
+        _top(c, result)
+    except Unexpected:
+        c.depth = 0
+        _skip_top(c, before)
+
+
+def _top(c: Cursor, result: tree.File) -> None:
+    text, word = c.texts[c.at], c.word()
+    if text == ";":
+        c.take()
+    elif text in ("PROGRAM", "FUNCTION_BLOCK", "FUNCTION") or word in ("CLASS", "INTERFACE"):
+        result.pous.append(parse_pou.pou(c, c.namespace, c.visible))
+    elif text == "TYPE":
+        _types(c, result)
+    elif text == "VAR_GLOBAL":
+        section = parse_declaration.section(c, c.list_name, c.namespace)
+        result.globals += [section] if section else []
+    elif text == "CONFIGURATION":
+        result.configurations.append(parse_configuration.configuration(c))
+    elif word == "NAMESPACE":
+        _namespace(c, result)
+    elif word == "USING":
+        c.visible += parse_pou.using_names(c)
+    elif word in MEMBERS and result.pous:
+        # exports of vendors write methods and actions behind the POU they belong to
+        owner = result.pous[-1]
+        result.pous[-1] = with_member(owner, parse_pou.member(c, owner.kind.upper()))
+    elif (refused := word or text) in REFUSED:
+        c.report("X001", f"{refused} is not supported here; {REFUSED[refused]}.", c.here())
+        raise Unexpected
+    else:
+        raise c.fail("PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL or CONFIGURATION expected")
+
+
+def _skip_top(c: Cursor, before: int) -> None:
+    if c.at == before:
+        c.take()
+    while not c.ended() and c.texts[c.at] not in TOPS and not c.is_("END_NAMESPACE"):
+        if c.word() in WORDS and c.kinds[c.at + 1] is NAME:
+            return
+        c.take()
+
+
+def _namespace(c: Cursor, result: tree.File) -> None:
+    start = c.take()
+    internal = c.word() == "INTERNAL" and c.kinds[c.at + 1] is NAME
+    if internal:
+        c.take()
+    outer, visible = c.namespace, c.visible
+    name = c.qualified("the name of the NAMESPACE")
+    c.namespace = f"{outer}.{name}" if outer else name
+    if internal:
+        result.internal.append(c.namespace)
+    c.enter()
+    try:
+        while not c.is_("END_NAMESPACE") and not c.ended():
+            depth = c.depth
+            _next(c, result)
+            c.depth = depth
+    finally:
+        c.leave()
+        c.namespace, c.visible = outer, visible
+    parse_declaration.end(c, "END_NAMESPACE", f"NAMESPACE of line {c.line_of(start)}")
+
+
+def _types(c: Cursor, result: tree.File) -> None:
+    start = c.take()
+    qualified_only = _qualified_only(c, start)
+    access = "PUBLIC"
+    if c.word() in ("PUBLIC", "INTERNAL") and c.kinds[c.at + 1] is NAME:
+        access = c.word()
+        c.take()
+    while not c.is_("END_TYPE") and not c.ended() and c.texts[c.at] not in TOPS:
+        depth = c.depth
+        if c.accept(";"):
+            continue
         try:
-            self._top(result)
+            result.types.append(_type(c, qualified_only, access))
         except Unexpected:
-            self.depth = 0
-            self._skip_top(before)
+            c.depth = depth
+            _skip_type(c)
+    parse_declaration.end(c, "END_TYPE", f"TYPE of line {c.line_of(start)}")
 
-    def _top(self, result: tree.File) -> None:
-        text, word = self.texts[self.at], self.word()
-        if text == ";":
-            self.take()
-        elif text in ("PROGRAM", "FUNCTION_BLOCK", "FUNCTION") or word in ("CLASS", "INTERFACE"):
-            result.pous.append(self.pou(self.namespace, self.visible))
-        elif text == "TYPE":
-            self._types(result)
-        elif text == "VAR_GLOBAL":
-            section = self.section(self.list_name, self.namespace)
-            result.globals += [section] if section else []
-        elif text == "CONFIGURATION":
-            result.configurations.append(self.configuration())
-        elif word == "NAMESPACE":
-            self._namespace(result)
-        elif word == "USING":
-            self.visible += self.using()
-        elif word in MEMBERS and result.pous:
-            # exports of vendors write methods and actions behind the POU they belong to
-            owner = result.pous[-1]
-            result.pous[-1] = with_member(owner, self.member(owner.kind.upper()))
-        elif (refused := word or text) in REFUSED:
-            self.report("X001", f"{refused} is not supported here; {REFUSED[refused]}.", self.here())
-            raise Unexpected
-        else:
-            raise self.fail(
-                "PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL or CONFIGURATION expected"
-            )
 
-    def _skip_top(self, before: int) -> None:
-        if self.at == before:
-            self.take()
-        while not self.ended() and self.texts[self.at] not in TOPS and not self.is_("END_NAMESPACE"):
-            if self.word() in WORDS and self.kinds[self.at + 1] is NAME:
-                return
-            self.take()
+def _skip_type(c: Cursor) -> None:
+    """To behind the declaration; its structure may have members that end in `;`."""
+    while not c.is_("END_TYPE") and not c.ended() and c.texts[c.at] not in TOPS:
+        if c.texts[c.take()] == ";" or c.is_("END_VAR"):
+            return
 
-    def _namespace(self, result: tree.File) -> None:
-        start = self.take()
-        internal = self.word() == "INTERNAL" and self.kinds[self.at + 1] is NAME
-        if internal:
-            self.take()
-        outer, visible = self.namespace, self.visible
-        name = self.qualified("the name of the NAMESPACE")
-        self.namespace = f"{outer}.{name}" if outer else name
-        if internal:
-            result.internal.append(self.namespace)
-        self.enter()
-        try:
-            while not self.is_("END_NAMESPACE") and not self.ended():
-                depth = self.depth
-                self._next(result)
-                self.depth = depth
-        finally:
-            self.leave()
-            self.namespace, self.visible = outer, visible
-        self.end("END_NAMESPACE", f"NAMESPACE of line {self.line_of(start)}")
 
-    def _types(self, result: tree.File) -> None:
-        start = self.take()
-        qualified_only = self._qualified_only(start)
-        access = "PUBLIC"
-        if self.word() in ("PUBLIC", "INTERNAL") and self.kinds[self.at + 1] is NAME:
-            access = self.word()
-            self.take()
-        while not self.is_("END_TYPE") and not self.ended() and self.texts[self.at] not in TOPS:
-            depth = self.depth
-            if self.accept(";"):
-                continue
-            try:
-                result.types.append(self._type(qualified_only, access))
-            except Unexpected:
-                self.depth = depth
-                self._skip_type()
-        self.end("END_TYPE", f"TYPE of line {self.line_of(start)}")
+def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
+    name = c.name("the name of a type")
+    qualified_only = qualified_only or _qualified_only(c, name)
+    extends = None
+    if c.word() == "EXTENDS":
+        c.take()
+        extends = c.qualified("the name of a structure")
+    c.expect(":", "behind the name of the type")
+    spec = parse_type.structure(c, extends) if extends and c.is_("STRUCT") else parse_type.type_spec(c, named=True)
+    initial = parse_initial.initial(c) if c.accept(":=") else None
+    if not isinstance(spec, tree.StructSpec) or c.is_(";"):
+        c.close(";", f"behind the declaration of `{c.texts[name]}`")
+    return tree.TypeDeclaration(
+        c.texts[name], spec, initial, c.span_of(name), c.namespace, c.visible, access, qualified_only
+    )
 
-    def _skip_type(self) -> None:
-        """To behind the declaration; its structure may have members that end in `;`."""
-        while not self.is_("END_TYPE") and not self.ended() and self.texts[self.at] not in TOPS:
-            if self.texts[self.take()] == ";" or self.is_("END_VAR"):
-                return
 
-    def _type(self, qualified_only: bool, access: str) -> tree.TypeDeclaration:
-        name = self.name("the name of a type")
-        qualified_only = qualified_only or self._qualified_only(name)
-        extends = None
-        if self.word() == "EXTENDS":
-            self.take()
-            extends = self.qualified("the name of a structure")
-        self.expect(":", "behind the name of the type")
-        spec = self.structure(extends) if extends and self.is_("STRUCT") else self.type_spec(named=True)
-        initial = self.initial() if self.accept(":=") else None
-        if not isinstance(spec, tree.StructSpec) or self.is_(";"):
-            self.close(";", f"behind the declaration of `{self.texts[name]}`")
-        return tree.TypeDeclaration(
-            self.texts[name], spec, initial, self.span_of(name), self.namespace, self.visible, access, qualified_only
-        )
-
-    def _qualified_only(self, token: int) -> bool:
-        """Whether the vendor's attribute stands right before this token."""
-        first = self._end_of(token - 1) if token else 0
-        last = self.starts[token]
-        return any(first <= at < last and QUALIFIED_ONLY.match(text) for at, text in self.pragmas)
+def _qualified_only(c: Cursor, token: int) -> bool:
+    """Whether the vendor's attribute stands right before this token."""
+    first = c.end_of(token - 1) if token else 0
+    last = c.starts[token]
+    return any(first <= at < last and QUALIFIED_ONLY.match(text) for at, text in c.pragmas)

@@ -3,9 +3,10 @@
 from collections.abc import Callable
 
 from scanbench.syntax import tree
-from scanbench.syntax.cursor import NAME, Unexpected
+from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_declaration import POU_ENDS, POU_STARTS, SECTIONS, DeclarationParser
+from scanbench.syntax.parse_expression import expression
+from scanbench.syntax.parse_type import POU_ENDS, POU_STARTS, SECTIONS
 
 BLOCK_ENDS = frozenset(("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT"))
 STOPS = BLOCK_ENDS | POU_ENDS | POU_STARTS | SECTIONS | {"VAR_ACCESS", "VAR_CONFIG", "END_VAR", ""}
@@ -36,244 +37,251 @@ LABEL_TEXTS = frozenset(", .. . - + * / ** & ( ) MOD AND OR XOR NOT TRUE FALSE".
 MAX_LABELS = 1000
 
 
-class StatementParser(DeclarationParser):
-    def statements(self, labels: bool = False) -> tuple[tree.Statement, ...]:
-        """Statements up to something that ends a block; with `labels` also up to the next label of a CASE."""
-        found: list[tree.Statement] = []
-        depth = self.depth
-        while (text := self.texts[self.at]) not in STOPS:
-            if text == ";":
-                self.at += 1
-                continue
-            name = self.kinds[self.at] is NAME
-            if name and self.kinds[self.at + 1] is NAME and self.declaration_follows():
-                break
-            if labels and self._at_label():
-                break
-            before = self.at
-            try:
-                keyword = KEYWORDS.get(text)
-                if keyword is None:
-                    found.append(self._simple(name))
-                else:
-                    self.enter()
-                    found.append(keyword(self))
-                    self.depth = depth
-            except Unexpected:
-                self.depth = depth
-                self._skip(before)
-        return tuple(found)
+def statements(c: Cursor, labels: bool = False) -> tuple[tree.Statement, ...]:
+    """Statements up to something that ends a block; with `labels` also up to the next label of a CASE."""
+    found: list[tree.Statement] = []
+    depth, kinds, texts = c.depth, c.kinds, c.texts
+    while (text := texts[before := c.at]) not in STOPS:
+        if text == ";":
+            c.at += 1
+            continue
+        name = kinds[before] is NAME
+        if name and kinds[before + 1] is NAME and declaration_follows(c):
+            break
+        if labels and _at_label(c):
+            break
+        try:
+            keyword = KEYWORDS.get(text)
+            if keyword is None:
+                found.append(_simple(c, name))
+            else:
+                c.enter()
+                found.append(keyword(c))
+                c.depth = depth
+        except Unexpected:
+            c.depth = depth
+            _skip(c, before)
+    return tuple(found)
 
-    def declaration_follows(self) -> bool:
-        """METHOD and the like, with a name behind."""
-        return self.word() in DECLARATIONS and (
-            self.word(1) not in OPERATORS_WITH_NAME or self.texts[self.at + 2] != "="
-        )
 
-    def _skip(self, before: int) -> None:
-        """To the beginning of what may be the next statement; always at least one token on."""
-        if self.at == before:
-            self.take()
-        line = self.line_of(self.at - 1)
-        while (text := self.texts[self.at]) not in STOPS and text not in STARTS:
-            if self.kinds[self.at] is NAME and self.line_of(self.at) > line:
-                if self.texts[self.at + 1] in (":=", "(", ".", "[") or self.declaration_follows():
-                    return
-            self.take()
-            if text == ";":
+def declaration_follows(c: Cursor) -> bool:
+    """METHOD and the like, with a name behind."""
+    return c.word() in DECLARATIONS and (c.word(1) not in OPERATORS_WITH_NAME or c.texts[c.at + 2] != "=")
+
+
+def _skip(c: Cursor, before: int) -> None:
+    """To the beginning of what may be the next statement; always at least one token on."""
+    if c.at == before:
+        c.take()
+    line = c.line_of(c.at - 1)
+    while (text := c.texts[c.at]) not in STOPS and text not in STARTS:
+        if c.kinds[c.at] is NAME and c.line_of(c.at) > line:
+            if c.texts[c.at + 1] in (":=", "(", ".", "[") or declaration_follows(c):
                 return
+        c.take()
+        if text == ";":
+            return
 
-    def _simple(self, name: bool) -> tree.Statement:
-        """An assignment, a call, or a word that is a statement only where it stands alone."""
-        start = self.at
-        if name and self.texts[start + 1] not in (":=", "(", ".", "["):
-            word = self.word()
-            if word == "CONTINUE" and (self.texts[start + 1] == ";" or self.texts[start + 1] in STOPS):
-                self.take()
-                self.close(";", "behind CONTINUE")
-                return tree.ContinueStatement(self.span_of(start))
-            self._refused(word)
-        target = self.expression()
-        if self.accept(":="):
-            value = self.expression()
-            span = self.span_from(start)
-            if self.is_(":="):
-                self.report(
-                    "X001", "Several assignments in one (`a := b := c`) are not supported; write one for each.", span
-                )
-                raise Unexpected
-            self.close(";", "at the end of the assignment")
-            return tree.Assignment(target, value, span)
-        return self._other(start, target)
 
-    def _other(self, start: int, target: tree.Expression) -> tree.Statement:
-        word = self.word()
-        if word in OPERATORS_WITH_NAME and self.texts[self.at + 1] == "=":
-            self.at += 2
-            return self._assigned(start, target, word + "=")
-        if self.accept("?="):
-            return self._assigned(start, target, "?=")
-        if isinstance(target, tree.BinaryOp) and target.op == "eq":
-            self.report("S003", "An assignment is written `:=`; `=` compares.", target.span)
-            self.close(";", "at the end of the statement")
-            return tree.Assignment(target.left, target.right, target.span)
-        span = self.span_from(start)
-        if not isinstance(target, tree.Call) and not self.is_(";"):
-            raise self.fail("`:=` or `;` expected")
-        self.close(";", "at the end of the call" if isinstance(target, tree.Call) else "at the end of the statement")
-        return tree.ExpressionStatement(target, span)
-
-    def _assigned(self, start: int, target: tree.Expression, operator: str) -> tree.Statement:
-        value = self.expression()
-        span = self.span_from(start)
-        self.close(";", "at the end of the assignment")
-        return tree.Assignment(target, value, span, operator)
-
-    def _refused(self, word: str) -> None:
-        latched = self.word(1) in OPERATORS_WITH_NAME and self.texts[self.at + 2] == "="
-        if word in REFUSED and (
-            word[0] == "_" or (self.texts[self.at + 1] not in (";", "?=", "=", "^") and not latched)
-        ):
-            self.report("X001", f"{word} is not supported; {REFUSED[word]}.", self.here())
+def _simple(c: Cursor, name: bool) -> tree.Statement:
+    """An assignment, a call, or a word that is a statement only where it stands alone."""
+    start = c.at
+    if name and c.texts[start + 1] not in (":=", "(", ".", "["):
+        word = c.word()
+        if word == "CONTINUE" and (c.texts[start + 1] == ";" or c.texts[start + 1] in STOPS):
+            c.take()
+            c.close(";", "behind CONTINUE")
+            return tree.ContinueStatement(c.span_of(start))
+        _refused(c, word)
+    target = expression(c)
+    if c.accept(":="):
+        value = expression(c)
+        span = c.span_from(start)
+        if c.is_(":="):
+            c.report("X001", "Several assignments in one (`a := b := c`) are not supported; write one for each.", span)
             raise Unexpected
-        if self.texts[self.at + 1] == ":":
-            message = f"`{self.texts[self.at]}:` is a label to jump to, which is not supported; use IF and loops."
-            self.report("X001", message, self.span_of(self.at))
-            self.at += 2
-            raise Unexpected
+        c.close(";", "at the end of the assignment")
+        return tree.Assignment(target, value, span)
+    return _other(c, start, target)
 
-    def _exit(self) -> tree.Statement:
-        start = self.take()
-        self.close(";", f"behind {self.texts[start]}")
-        span = self.span_of(start)
-        return tree.ExitStatement(span) if self.texts[start] == "EXIT" else tree.ReturnStatement(span)
 
-    def _condition(self, keyword: str) -> tree.Expression:
-        start, depth = self.at, self.depth
-        try:
-            condition = self.expression()
-        except Unexpected:
-            self.depth = depth
-            if not self._reach(keyword):
-                raise
-            return tree.Literal("bool", 0, None, self.span_of(start))
-        if not self.accept(keyword):
-            self.close(keyword, "behind the selector" if keyword == "OF" else "behind the condition")
-        return condition
+def _other(c: Cursor, start: int, target: tree.Expression) -> tree.Statement:
+    word = c.word()
+    if word in OPERATORS_WITH_NAME and c.texts[c.at + 1] == "=":
+        c.at += 2
+        return _assigned(c, start, target, word + "=")
+    if c.accept("?="):
+        return _assigned(c, start, target, "?=")
+    if isinstance(target, tree.BinaryOp) and target.op == "eq":
+        c.report("S003", "An assignment is written `:=`; `=` compares.", target.span)
+        c.close(";", "at the end of the statement")
+        return tree.Assignment(target.left, target.right, target.span)
+    span = c.span_from(start)
+    if not isinstance(target, tree.Call) and not c.is_(";"):
+        raise c.fail("`:=` or `;` expected")
+    c.close(";", "at the end of the call" if isinstance(target, tree.Call) else "at the end of the statement")
+    return tree.ExpressionStatement(target, span)
 
-    def _reach(self, keyword: str) -> bool:
-        """Goes behind the keyword, if it comes before the statement ends."""
-        at = self.at
-        while (
-            self.texts[at] not in STOPS and self.texts[at] not in STARTS and self.texts[at] not in (";", ":=", keyword)
-        ):
-            at += 1
-        if self.texts[at] != keyword or keyword == "OF":
-            return False
-        self.at = at + 1
-        return True
 
-    def _if(self) -> tree.Statement:
-        start = self.take()
-        branches = [(self._condition("THEN"), self.statements())]
-        orelse: tuple[tree.Statement, ...] = ()
-        while self.accept("ELSIF"):
-            branches.append((self._condition("THEN"), self.statements()))
-        if self.accept("ELSE"):
-            orelse = self.statements()
-        span = self.span_from(start)
-        self._close_block("END_IF", start)
-        return tree.IfStatement(tuple(branches), orelse, span)
+def _assigned(c: Cursor, start: int, target: tree.Expression, operator: str) -> tree.Statement:
+    value = expression(c)
+    span = c.span_from(start)
+    c.close(";", "at the end of the assignment")
+    return tree.Assignment(target, value, span, operator)
 
-    def _close_block(self, keyword: str, start: int) -> None:
-        if not self.accept(keyword):
-            of = f"{self.texts[start]} of line {self.line_of(start)}"
-            self.report("S003", f"`{keyword}` expected to close the {of}{self._found()}.", self.here())
-        self.accept(";")
 
-    def _case(self) -> tree.Statement:
-        start = self.take()
-        selector = self._condition("OF")
-        span = self.span_from(start)
-        branches = []
-        orelse: tuple[tree.Statement, ...] = ()
-        while self.texts[self.at] not in STOPS:
-            if self.accept(";"):
-                continue
-            before = self.at
-            labels = self._labels()
-            branches.append((labels, self.statements(labels=True)))
-            if self.at == before:
+def _refused(c: Cursor, word: str) -> None:
+    latched = c.word(1) in OPERATORS_WITH_NAME and c.texts[c.at + 2] == "="
+    if word in REFUSED and (word[0] == "_" or (c.texts[c.at + 1] not in (";", "?=", "=", "^") and not latched)):
+        c.report("X001", f"{word} is not supported; {REFUSED[word]}.", c.here())
+        raise Unexpected
+    if c.texts[c.at + 1] == ":":
+        message = f"`{c.texts[c.at]}:` is a label to jump to, which is not supported; use IF and loops."
+        c.report("X001", message, c.span_of(c.at))
+        c.at += 2
+        raise Unexpected
+
+
+def _exit(c: Cursor) -> tree.Statement:
+    start = c.take()
+    c.close(";", f"behind {c.texts[start]}")
+    span = c.span_of(start)
+    return tree.ExitStatement(span) if c.texts[start] == "EXIT" else tree.ReturnStatement(span)
+
+
+def _condition(c: Cursor, keyword: str) -> tree.Expression:
+    start, depth = c.at, c.depth
+    try:
+        condition = expression(c)
+    except Unexpected:
+        c.depth = depth
+        if not _reach(c, keyword):
+            raise
+        return tree.Literal("bool", 0, None, c.span_of(start))
+    if not c.accept(keyword):
+        c.close(keyword, "behind the selector" if keyword == "OF" else "behind the condition")
+    return condition
+
+
+def _reach(c: Cursor, keyword: str) -> bool:
+    """Goes behind the keyword, if it comes before the statement ends."""
+    at = c.at
+    while c.texts[at] not in STOPS and c.texts[at] not in STARTS and c.texts[at] not in (";", ":=", keyword):
+        at += 1
+    if c.texts[at] != keyword or keyword == "OF":
+        return False
+    c.at = at + 1
+    return True
+
+
+def _if(c: Cursor) -> tree.Statement:
+    start = c.take()
+    branches = [(_condition(c, "THEN"), statements(c))]
+    orelse: tuple[tree.Statement, ...] = ()
+    while c.accept("ELSIF"):
+        branches.append((_condition(c, "THEN"), statements(c)))
+    if c.accept("ELSE"):
+        orelse = statements(c)
+    span = c.span_from(start)
+    _close_block(c, "END_IF", start)
+    return tree.IfStatement(tuple(branches), orelse, span)
+
+
+def _close_block(c: Cursor, keyword: str, start: int) -> None:
+    if not c.accept(keyword):
+        of = f"{c.texts[start]} of line {c.line_of(start)}"
+        c.report("S003", f"`{keyword}` expected to close the {of}{c.found()}.", c.here())
+    c.accept(";")
+
+
+def _case(c: Cursor) -> tree.Statement:
+    start = c.take()
+    selector = _condition(c, "OF")
+    span = c.span_from(start)
+    branches = []
+    orelse: tuple[tree.Statement, ...] = ()
+    while c.texts[c.at] not in STOPS:
+        if c.accept(";"):
+            continue
+        before = c.at
+        labels = _labels(c)
+        branches.append((labels, statements(c, labels=True)))
+        if c.at == before:
+            break
+    if c.accept("ELSE"):
+        c.accept(":")
+        orelse = statements(c)
+    _close_block(c, "END_CASE", start)
+    return tree.CaseStatement(selector, tuple(branches), orelse, span)
+
+
+def _labels(c: Cursor) -> tuple[tuple[tree.Expression, tree.Expression | None], ...]:
+    labels = []
+    depth = c.depth
+    try:
+        while True:
+            first = expression(c)
+            labels.append((first, expression(c) if c.accept("..") else None))
+            if not c.accept(","):
                 break
-        if self.accept("ELSE"):
-            self.accept(":")
-            orelse = self.statements()
-        self._close_block("END_CASE", start)
-        return tree.CaseStatement(selector, tuple(branches), orelse, span)
-
-    def _labels(self) -> tuple[tuple[tree.Expression, tree.Expression | None], ...]:
-        labels = []
-        depth = self.depth
-        try:
-            while True:
-                first = self.expression()
-                labels.append((first, self.expression() if self.accept("..") else None))
-                if not self.accept(","):
-                    break
-            self.expect(":", "behind the label of the CASE")
-        except Unexpected:
-            self.depth = depth
-            self._skip(self.at)
-        return tuple(labels)
-
-    def _at_label(self) -> bool:
-        """Looks for `value [.. value] {, ...} :` from here."""
-        at = self.at
-        kinds, texts = self.kinds, self.texts
-        last = min(at + MAX_LABELS, len(texts) - 1)
-        while at < last and (kinds[at] in LABEL_KINDS or texts[at] in LABEL_TEXTS):
-            at += 1
-        return at > self.at and texts[at] == ":"
-
-    def _for(self) -> tree.Statement:
-        start = self.take()
-        variable = self.expression()
-        self.expect(":=", "behind the control variable of the FOR")
-        first = self.expression()
-        self.expect("TO", "behind the start value of the FOR")
-        last = self.expression()
-        step = self.expression() if self.accept_word("BY") else None
-        self.close("DO", "behind the bounds of the FOR")
-        span = self.span_from(start)
-        body = self.statements()
-        self._close_block("END_FOR", start)
-        return tree.ForStatement(variable, first, last, step, body, span)
-
-    def _while(self) -> tree.Statement:
-        start = self.take()
-        condition = self._condition("DO")
-        span = self.span_from(start)
-        body = self.statements()
-        self._close_block("END_WHILE", start)
-        return tree.WhileStatement(condition, body, span)
-
-    def _repeat(self) -> tree.Statement:
-        start = self.take()
-        span = self.span_from(start)
-        body = self.statements()
-        self.expect("UNTIL", f"to close the REPEAT of line {self.line_of(start)}")
-        until = self.expression()
-        self.accept(";")
-        self._close_block("END_REPEAT", start)
-        return tree.RepeatStatement(body, until, span)
+        c.expect(":", "behind the label of the CASE")
+    except Unexpected:
+        c.depth = depth
+        _skip(c, c.at)
+    return tuple(labels)
 
 
-KEYWORDS: dict[str, Callable[[StatementParser], tree.Statement]] = {
-    "IF": StatementParser._if,
-    "CASE": StatementParser._case,
-    "FOR": StatementParser._for,
-    "WHILE": StatementParser._while,
-    "REPEAT": StatementParser._repeat,
-    "EXIT": StatementParser._exit,
-    "RETURN": StatementParser._exit,
+def _at_label(c: Cursor) -> bool:
+    """Looks for `value [.. value] {, ...} :` from here."""
+    at = c.at
+    kinds, texts = c.kinds, c.texts
+    last = min(at + MAX_LABELS, len(texts) - 1)
+    while at < last and (kinds[at] in LABEL_KINDS or texts[at] in LABEL_TEXTS):
+        at += 1
+    return at > c.at and texts[at] == ":"
+
+
+def _for(c: Cursor) -> tree.Statement:
+    start = c.take()
+    variable = expression(c)
+    c.expect(":=", "behind the control variable of the FOR")
+    first = expression(c)
+    c.expect("TO", "behind the start value of the FOR")
+    last = expression(c)
+    step = expression(c) if c.accept_word("BY") else None
+    c.close("DO", "behind the bounds of the FOR")
+    span = c.span_from(start)
+    body = statements(c)
+    _close_block(c, "END_FOR", start)
+    return tree.ForStatement(variable, first, last, step, body, span)
+
+
+def _while(c: Cursor) -> tree.Statement:
+    start = c.take()
+    condition = _condition(c, "DO")
+    span = c.span_from(start)
+    body = statements(c)
+    _close_block(c, "END_WHILE", start)
+    return tree.WhileStatement(condition, body, span)
+
+
+def _repeat(c: Cursor) -> tree.Statement:
+    start = c.take()
+    span = c.span_from(start)
+    body = statements(c)
+    c.expect("UNTIL", f"to close the REPEAT of line {c.line_of(start)}")
+    until = expression(c)
+    c.accept(";")
+    _close_block(c, "END_REPEAT", start)
+    return tree.RepeatStatement(body, until, span)
+
+
+KEYWORDS: dict[str, Callable[[Cursor], tree.Statement]] = {
+    "IF": _if,
+    "CASE": _case,
+    "FOR": _for,
+    "WHILE": _while,
+    "REPEAT": _repeat,
+    "EXIT": _exit,
+    "RETURN": _exit,
 }

@@ -1,198 +1,246 @@
 """Types and initial values."""
 
-from abc import ABC, abstractmethod
-
-from scanbench.syntax import tree
-from scanbench.syntax.cursor import NAME, Unexpected
+from scanbench.problems import Span
+from scanbench.syntax import parse_expression, parse_initial, tree
+from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_expression import ExpressionParser
 
 INTEGERS = frozenset("SINT INT DINT LINT USINT UINT UDINT ULINT BYTE WORD DWORD LWORD".split())
+SECTIONS = frozenset(
+    "VAR VAR_INPUT VAR_OUTPUT VAR_IN_OUT VAR_TEMP VAR_GLOBAL VAR_EXTERNAL VAR_STAT VAR_INST VAR_GENERIC".split()
+)
+POU_STARTS = frozenset(("PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "CONFIGURATION"))
+POU_ENDS = frozenset(
+    "END_PROGRAM END_FUNCTION END_FUNCTION_BLOCK END_CLASS END_INTERFACE END_METHOD END_PROPERTY END_GET END_SET "
+    "END_ACTION END_NAMESPACE END_TYPE END_CONFIGURATION END_RESOURCE".split()
+)
+DECLARATIONS_END = SECTIONS | POU_STARTS | POU_ENDS | {"END_VAR", "END_STRUCT", "END_UNION", "VAR_ACCESS", "VAR_CONFIG"}
+NOT_A_NAME = frozenset((":", ",", ":=", "AT"))
+"""What follows a variable's name, so that a word before it is no qualifier."""
 
 
-class TypeParser(ExpressionParser, ABC):
-    def type_spec(self, named: bool = False) -> tree.TypeSpec:
-        """A type; `named` in a TYPE declaration, where `Base (A, B)` can only be an enumeration."""
-        start = self.at
-        self.enter()
-        spec = self._type_spec(start, named)
-        self.leave()
-        return spec
+def type_spec(c: Cursor, named: bool = False) -> tree.TypeSpec:
+    """A type; `named` in a TYPE declaration, where `Base (A, B)` can only be an enumeration."""
+    start = c.at
+    c.enter()
+    spec = _type_spec(c, start, named)
+    c.leave()
+    return spec
 
-    def _type_spec(self, start: int, named: bool) -> tree.TypeSpec:
-        match self.texts[start]:
-            case "ARRAY":
-                return self._array()
-            case "STRUCT":
-                return self.structure()
-            case "(":
-                return self._enumeration(None, start)
-        word = self.word()
-        if word == "UNION" and self.kinds[start + 1] is not Lex.OPERATOR:
-            return self.structure()
-        if word == "REF_TO" or (word in ("POINTER", "REFERENCE") and self.texts[start + 1] == "TO"):
-            return self._reference(word)
-        if word in ("STRING", "WSTRING"):
-            return self._string_type(word == "WSTRING")
-        base = tree.NamedType(self.qualified("a type"), self.span_from(start))
-        if self.is_("("):
-            return self._restricted(base, start, named)
-        return base
 
-    def _reference(self, word: str) -> tree.ReferenceSpec:
-        start = self.take()
-        if word != "REF_TO":
-            self.take()
-        target = self.type_spec()
-        return tree.ReferenceSpec(target, word == "POINTER", self.span_from(start), word == "REFERENCE")
+def _type_spec(c: Cursor, start: int, named: bool) -> tree.TypeSpec:
+    match c.texts[start]:
+        case "ARRAY":
+            return _array(c)
+        case "STRUCT":
+            return structure(c)
+        case "(":
+            return _enumeration(c, None, start)
+    word = c.word()
+    if word == "UNION" and c.kinds[start + 1] is not Lex.OPERATOR:
+        return structure(c)
+    if word == "REF_TO" or (word in ("POINTER", "REFERENCE") and c.texts[start + 1] == "TO"):
+        return _reference(c, word)
+    if word in ("STRING", "WSTRING"):
+        return _string_type(c, word == "WSTRING")
+    base = tree.NamedType(c.qualified("a type"), c.span_from(start))
+    if c.is_("("):
+        return _restricted(c, base, start, named)
+    return base
 
-    def _restricted(self, base: tree.NamedType, start: int, named: bool) -> tree.TypeSpec:
-        """`INT (1..5)`, `INT (A, B)`; what belongs to an instance (`FB(a := 1)`) is left to the caller."""
-        begin = self.at
-        if self._range_follows():
-            self.take()
-            low = self.expression()
-            self.expect("..", "between the bounds of the subrange")
-            high = self.expression()
-            self.expect(")", "to close the subrange")
-            return tree.SubrangeSpec(base, low, high, self.span_from(start))
-        self.at = begin
-        if named or base.name.upper() in INTEGERS:
-            return self._enumeration(base, start)
-        return base
 
-    def _range_follows(self) -> bool:
-        """Whether `..` comes before the parenthesis closes."""
-        depth, at = 0, self.at
-        while self.kinds[at] is not Lex.END:
-            text = self.texts[at]
-            if text == "(":
-                depth += 1
-            elif text == ")":
-                depth -= 1
-                if depth == 0:
-                    return False
-            elif text == ".." and depth == 1:
-                return True
-            elif text in (";", ":", ":="):
+def _reference(c: Cursor, word: str) -> tree.ReferenceSpec:
+    start = c.take()
+    if word != "REF_TO":
+        c.take()
+    target = type_spec(c)
+    return tree.ReferenceSpec(target, word == "POINTER", c.span_from(start), word == "REFERENCE")
+
+
+def _restricted(c: Cursor, base: tree.NamedType, start: int, named: bool) -> tree.TypeSpec:
+    """`INT (1..5)`, `INT (A, B)`; what belongs to an instance (`FB(a := 1)`) is left to the caller."""
+    begin = c.at
+    if _range_follows(c):
+        c.take()
+        low = parse_expression.expression(c)
+        c.expect("..", "between the bounds of the subrange")
+        high = parse_expression.expression(c)
+        c.expect(")", "to close the subrange")
+        return tree.SubrangeSpec(base, low, high, c.span_from(start))
+    c.at = begin
+    if named or base.name.upper() in INTEGERS:
+        return _enumeration(c, base, start)
+    return base
+
+
+def _range_follows(c: Cursor) -> bool:
+    """Whether `..` comes before the parenthesis closes."""
+    depth, at = 0, c.at
+    while c.kinds[at] is not Lex.END:
+        text = c.texts[at]
+        if text == "(":
+            depth += 1
+        elif text == ")":
+            depth -= 1
+            if depth == 0:
                 return False
-            at += 1
-        return False
+        elif text == ".." and depth == 1:
+            return True
+        elif text in (";", ":", ":="):
+            return False
+        at += 1
+    return False
 
-    def _enumeration(self, base: tree.NamedType | None, start: int) -> tree.EnumSpec:
-        self.expect("(", "before the values")
-        values = []
-        while not self.is_(")"):
-            name = self.name("the name of a value")
-            number = self.expression() if self.accept(":=") else None
-            values.append((self.texts[name], number, self.span_of(name)))
-            if not self.accept(","):
-                break
-        self.expect(")", "to close the enumeration")
-        if not values:
-            self.report("S003", "An enumeration needs at least one value.", self.span_from(start))
-            raise Unexpected
-        if base is None and self.kinds[self.at] is NAME and self.word() in INTEGERS:
-            base = tree.NamedType(self.texts[self.at], self.here())
-            self.take()
-        return tree.EnumSpec(tuple(values), base, self.span_from(start))
 
-    def _string_type(self, wide: bool) -> tree.StringSpec:
-        start, length = self.take(), None
-        for opening, closing in (("[", "]"), ("(", ")")):
-            if self.accept(opening):
-                length = self.expression()
-                self.expect(closing, "to close the length of the STRING")
-                break
-        return tree.StringSpec(length, self.span_from(start), wide)
+def _enumeration(c: Cursor, base: tree.NamedType | None, start: int) -> tree.EnumSpec:
+    c.expect("(", "before the values")
+    values = []
+    while not c.is_(")"):
+        name = c.name("the name of a value")
+        number = parse_expression.expression(c) if c.accept(":=") else None
+        values.append((c.texts[name], number, c.span_of(name)))
+        if not c.accept(","):
+            break
+    c.expect(")", "to close the enumeration")
+    if not values:
+        c.report("S003", "An enumeration needs at least one value.", c.span_from(start))
+        raise Unexpected
+    if base is None and c.kinds[c.at] is NAME and c.word() in INTEGERS:
+        base = tree.NamedType(c.texts[c.at], c.here())
+        c.take()
+    return tree.EnumSpec(tuple(values), base, c.span_from(start))
 
-    def _array(self) -> tree.TypeSpec:
-        start = self.take()
-        self.expect("[", "behind ARRAY")
-        ranges: list[tuple[tree.Expression, tree.Expression]] = []
-        stars = 0
-        while True:
-            if self.accept("*"):
-                stars += 1
-            else:
-                low = self.expression()
-                self.expect("..", "between the bounds of the array")
-                ranges.append((low, self.expression()))
-            if not self.accept(","):
-                break
-        self.expect("]", "to close the bounds of the array")
-        self.expect("OF", "behind the bounds of the array")
-        element = self.type_spec()
-        span = self.span_from(start)
-        if stars and ranges:
-            self.report("S003", "The bounds of an array are all given, or all `*`.", span)
-            raise Unexpected
-        return tree.OpenArraySpec(stars, element, span) if stars else tree.ArraySpec(tuple(ranges), element, span)
 
-    @abstractmethod
-    def structure(self, extends: str | None = None) -> tree.StructSpec:
-        """STRUCT or UNION: it is made of variables, which `DeclarationParser` knows."""
+def _string_type(c: Cursor, wide: bool) -> tree.StringSpec:
+    start, length = c.take(), None
+    for opening, closing in (("[", "]"), ("(", ")")):
+        if c.accept(opening):
+            length = parse_expression.expression(c)
+            c.expect(closing, "to close the length of the STRING")
+            break
+    return tree.StringSpec(length, c.span_from(start), wide)
 
-    # ---- initial values -----------------------------------------------------------------------------------------
 
-    def initial(self) -> tree.Initial:
-        start = self.at
-        self.enter()
+def _array(c: Cursor) -> tree.TypeSpec:
+    start = c.take()
+    c.expect("[", "behind ARRAY")
+    ranges: list[tuple[tree.Expression, tree.Expression]] = []
+    stars = 0
+    while True:
+        if c.accept("*"):
+            stars += 1
+        else:
+            low = parse_expression.expression(c)
+            c.expect("..", "between the bounds of the array")
+            ranges.append((low, parse_expression.expression(c)))
+        if not c.accept(","):
+            break
+    c.expect("]", "to close the bounds of the array")
+    c.expect("OF", "behind the bounds of the array")
+    element = type_spec(c)
+    span = c.span_from(start)
+    if stars and ranges:
+        c.report("S003", "The bounds of an array are all given, or all `*`.", span)
+        raise Unexpected
+    return tree.OpenArraySpec(stars, element, span) if stars else tree.ArraySpec(tuple(ranges), element, span)
+
+
+def variables(c: Cursor) -> tuple[tree.Variable, ...]:
+    """Declarations up to what closes them."""
+    found: list[tree.Variable] = []
+    while c.texts[c.at] not in DECLARATIONS_END and not c.ended():
+        depth = c.depth
+        if c.accept(";"):
+            continue
         try:
-            if self.accept("["):
-                return self._array_initial(start)
-            if self.is_("(") and self.kinds[start + 1] is NAME and self.texts[start + 2] == ":=":
-                return self._struct_initial()
-            return self.expression()
-        finally:
-            self.leave()
+            found += _variables(c)
+        except Unexpected:
+            c.depth = depth
+            skip_declaration(c)
+    return tuple(found)
 
-    def bare_array_initial(self) -> tree.Initial:
-        """`1, 2, 3(0)`: an array's values without brackets, as vendors write them."""
-        start = self.at
-        items = [self._repeated()]
-        while self.accept(","):
-            items.append(self._repeated())
-        return tree.ArrayInit(tuple(items), self.span_from(start))
 
-    def _array_initial(self, start: int) -> tree.Initial:
-        items: list[tuple[tree.Expression | None, tree.Initial]] = []
-        while not self.is_("]"):
-            items.append(self._repeated())
-            if not self.accept(","):
-                break
-        self.expect("]", "to close the initial values")
-        return tree.ArrayInit(tuple(items), self.span_from(start))
+def skip_declaration(c: Cursor) -> None:
+    while c.texts[c.at] not in DECLARATIONS_END and not c.ended():
+        if c.texts[c.take()] == ";":
+            return
 
-    def _repeated(self) -> tuple[tree.Expression | None, tree.Initial]:
-        """`3(0)` stands for `0, 0, 0`, and `3()` for three default values."""
-        at = self.at
-        if self.texts[at + 1] != "(" or self.kinds[at] not in (Lex.INTEGER, NAME):
-            return None, self.initial()
-        if self.kinds[at] is NAME and not self._count_follows():
-            return None, self.initial()
-        self.take()
-        count = self.literal(at) if self.kinds[at] is Lex.INTEGER else tree.Name(self.texts[at], self.span_of(at))
-        if self.kinds[at + 2] is NAME and self.texts[at + 3] == ":=":
-            return count, self._struct_initial()
-        self.expect("(", "behind the count")
-        value = self.initial()
-        self.expect(")", "behind the repeated value")
-        return count, value
 
-    def _count_follows(self) -> bool:
-        """Whether `Name(` repeats a value: only a structure or an array behind it cannot be a call."""
-        at = self.at
-        return self.texts[at + 2] in ("[", "(")
+def _variables(c: Cursor) -> list[tree.Variable]:
+    """`a, b : type := value;` or `a AT address : type := value;`"""
+    if c.is_("AT"):
+        return _nameless(c)
+    names = [c.name("the name of a variable")]
+    address, address_span = located(c)
+    while c.accept(","):
+        names.append(c.name("the name of a variable"))
+    if address is None:
+        address, address_span = located(c)
+    c.expect(":", f"behind `{c.texts[names[-1]]}`, then its type")
+    spec = type_spec(c)
+    edge = c.word()[0] if c.word() in ("R_EDGE", "F_EDGE") else ""
+    if edge:
+        c.take()
+    if address is None:
+        address, address_span = located(c)
+    arguments: tuple[tree.Argument, ...] = ()
+    if c.is_("(") and isinstance(spec, tree.NamedType):
+        arguments = parse_expression.arguments(c, "initial values")
+    initial = _initial_of(c, spec) if c.accept(":=") else None
+    if c.word() == "REF" and c.texts[c.at + 1] == "=":
+        c.at += 2
+        where = c.at
+        bound = parse_expression.expression(c)
+        initial = tree.Call(
+            tree.Name("REF", c.span_of(where)), (tree.Argument(None, False, bound, bound.span),), bound.span
+        )
+    c.close(";", f"behind the declaration of `{c.texts[names[0]]}`")
+    return [
+        tree.Variable(c.texts[name], spec, initial, address, c.span_of(name), address_span, arguments, edge)
+        for name in names
+    ]
 
-    def _struct_initial(self) -> tree.StructInit:
-        start = self.expect("(", "before the members")
-        members = []
-        while not self.is_(")"):
-            name = self.name("the name of a member")
-            self.expect(":=", "behind the name of the member")
-            members.append((self.texts[name], self.initial(), self.span_of(name)))
-            if not self.accept(","):
-                break
-        self.expect(")", "to close the initial values")
-        return tree.StructInit(tuple(members), self.span_from(start))
+
+def _initial_of(c: Cursor, spec: tree.TypeSpec) -> tree.Initial:
+    if isinstance(spec, tree.ArraySpec) and not c.is_("[") and c.kinds[c.at] is not NAME:
+        return parse_initial.bare_array_initial(c)
+    return parse_initial.initial(c)
+
+
+def _nameless(c: Cursor) -> list[tree.Variable]:
+    """`AT %IX1.0 : BOOL;`: the address is used as it is, nothing is declared."""
+    start = c.at
+    located(c)
+    c.expect(":", "behind the address, then its type")
+    type_spec(c)
+    if c.accept(":="):
+        parse_initial.initial(c)
+        c.report("X001", "An initial value needs a variable with a name before AT.", c.span_from(start))
+    c.close(";", "behind the declaration")
+    return []
+
+
+def located(c: Cursor) -> tuple[str | None, Span | None]:
+    """What stands behind AT, as written: each vendor has a notation of its own."""
+    if not c.accept("AT"):
+        return None, None
+    start = c.at
+    while not c.is_(":", ";", ":=", "END_VAR") and not c.ended():
+        c.take()
+    if c.at == start:
+        raise c.fail("an address expected behind AT")
+    return c.source.text[c.starts[start] : c.end_of(c.at - 1)], c.span_from(start)
+
+
+def structure(c: Cursor, extends: str | None = None) -> tree.StructSpec:
+    start = c.take()
+    union = c.texts[start] != "STRUCT"
+    overlap = bool(c.word() == "OVERLAP" and c.texts[c.at + 1] not in NOT_A_NAME and c.take())
+    if c.word() == "EXTENDS" and c.texts[c.at + 1] not in NOT_A_NAME:
+        c.take()
+        extends = c.qualified("the name of a structure")
+    members = variables(c)
+    keyword = "END_UNION" if union else "END_STRUCT"
+    if not c.accept(keyword):
+        raise c.fail(f"`{keyword}` expected")
+    return tree.StructSpec(members, c.span_from(start), union, overlap, extends)

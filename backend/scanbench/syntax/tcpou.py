@@ -10,9 +10,10 @@ from xml.parsers import expat
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
+from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.lexer import AHEAD, Lex, Tokens, tokenize
 from scanbench.syntax.parse_pou import ENDS
-from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.parse_st import whole
 from scanbench.syntax.source import Source
 
 MAX_XML_DEPTH = 64
@@ -127,9 +128,10 @@ def parse_tc(source: Source) -> tuple[tree.File, list[Problem]]:
     writer = _Writer(Source(source.name, text), source.text)
     writer.object(found)
     list_name = writer.name(found)[0] if found.tag == "GVL" else ""
-    parser = StParser(writer.source, writer.tokens(), list_name)
-    parser.problems += writer.problems
-    return parser.whole()
+    cursor = Cursor(writer.source, writer.tokens())
+    cursor.list_name = list_name
+    cursor.problems += writer.problems
+    return whole(cursor)
 
 
 class _Writer:

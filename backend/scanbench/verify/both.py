@@ -12,10 +12,10 @@ from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
+from scanbench.symbols.leaves import WHOLE, Leaf
 from scanbench.verify.contract import ENDED, Mismatch, Row
 from scanbench.verify.control import Control, Source, Unverifiable, trap_of
 from scanbench.verify.monitor import Inputs, Monitor
-from scanbench.verify.naming import WHOLE, Leaf
 from scanbench.verify.ranges import Resolved
 from scanbench.verify.rows import MAX_MISMATCHES, Disturbed, Pair, Reader, row_of
 from scanbench.verify.sentences import mismatch, values
@@ -161,7 +161,7 @@ class Both:
         ran = Ran(view, control.begin(), monitor.begin(), held(control.resource.journal), calls)
         self.ran.append(ran)
         recorder = Recorder(
-            control.resource, view.reader.namer, view.range, view.limit, disturbed={*self._disturbed.own, *ran.held}
+            control.resource, view.reader.names, view.range, view.limit, disturbed={*self._disturbed.own, *ran.held}
         )
         ran.passes, self._disturbed.written = recorder.passes, recorder.written
 
@@ -173,7 +173,7 @@ class Both:
         if not recorder.began:
             first()
         inputs = Inputs(ran.passes, ran.there)
-        other = Recorder(monitor.resource, view.reader.namer, view.range, view.limit)
+        other = Recorder(monitor.resource, view.reader.names, view.range, view.limit)
         right = trap_of(self.monitor.run(other, inputs))
         if not other.began:
             inputs.first()
@@ -272,7 +272,7 @@ class Both:
         """The variables that have any of these bytes, where their values differ."""
         leaves: dict[str, Leaf] = {}
         for at in found[:MAX_BYTES]:
-            leaf = view.reader.namer.holding(at, one[at] ^ other[at])
+            leaf = view.reader.names.whole(at, one[at] ^ other[at])
             if leaf.name not in leaves and _cut(leaf, one) != _cut(leaf, other):
                 leaves[leaf.name] = leaf
         return list(leaves.values())[:MAX_MISMATCHES]

@@ -8,11 +8,11 @@ from scanbench.problems import perhaps
 from scanbench.program.types import StringType
 from scanbench.runtime.command import Patch
 from scanbench.runtime.trap import trap_info
+from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.values import parse_value
 from scanbench.verify.both import Both, Ran
 from scanbench.verify.contract import Output, Row
 from scanbench.verify.monitor import Inputs
-from scanbench.verify.naming import Leaf
 from scanbench.verify.rows import written_by
 from scanbench.verify.uses import Pass, Recorder
 
@@ -81,7 +81,7 @@ class Edits:
         side = both.monitor.side
 
         def run() -> tuple[int, list[Pass]]:
-            recorder = Recorder(side.resource, ran.view.reader.namer, ran.view.range, ran.view.limit)
+            recorder = Recorder(side.resource, ran.view.reader.names, ran.view.range, ran.view.limit)
             stop = both.monitor.run(recorder, inputs)
             return stop.trap if stop.reason is Reason.TRAP else 0, recorder.passes
 
@@ -110,10 +110,10 @@ def pass_of(both: Both, call: int) -> tuple[Ran, int]:
 
 def _inputs(ran: Ran, number: int) -> dict[str, Leaf]:
     made = ran.passes[number]
-    names = ran.view.reader.namer.names(made.around)
+    names = ran.view.reader.names.within(made.inside)
     found: dict[str, Leaf] = {}
     for access, _ in made.fresh():
-        for leaf in names.of(access.offset, access.size, access.bits):
+        for leaf in names.at(access.offset, access.size, access.bits):
             if not leaf.passing:
                 found.setdefault(leaf.name, leaf)
     return found

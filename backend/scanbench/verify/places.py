@@ -5,11 +5,10 @@ from dataclasses import dataclass
 
 from scanbench.engines.debug import Frame
 from scanbench.program.program import Pou, Program
-from scanbench.symbols.instances import instances_of
+from scanbench.symbols.instances import instances_of, owner_of
+from scanbench.symbols.names import names_of
 from scanbench.symbols.sites import Sites
-from scanbench.symbols.symbols import instance_at
 from scanbench.verify.contract import Place
-from scanbench.verify.ranges import owner_of
 
 Line = Callable[[str, int], str]
 """A line of a source file, trimmed; empty where it is not known."""
@@ -54,7 +53,7 @@ class Places:
         known = self._paths.get((pou, instance))
         if known is None:
             record = owner_of(pou)
-            known = pou.name if record is None else instance_at(self.program, instance, record.name)
+            known = pou.name if record is None else names_of(self.program).instance(instance, record.name)
             self._paths[pou, instance] = known
         return known
 

@@ -5,11 +5,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from scanbench.check.typed.local import this_of
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import Pou, Program
-from scanbench.program.types import Record
-from scanbench.symbols.instances import instances_of
+from scanbench.symbols.instances import instances_of, owner_of
 from scanbench.symbols.sites import Sites
 from scanbench.symbols.symbols import UnknownPath, resolve
 from scanbench.verify.contract import BadRange, Range
@@ -197,14 +195,6 @@ def _within(sites: Sites, mine: frozenset[int], wanted: Range, name: str) -> tup
 
 def _lines(first: int, last: int) -> str:
     return f", line {first}" if first == last else f", lines {first} to {last}"
-
-
-def owner_of(pou: Pou) -> Record | None:
-    """The variables of the instances whose code it is; None for a FUNCTION."""
-    if pou.kind != "function":
-        return pou.instance
-    this = this_of(pou)
-    return this.type if this is not None and isinstance(this.type, Record) else None
 
 
 def _instances(program: Program, pou: Pou) -> tuple[str, ...]:

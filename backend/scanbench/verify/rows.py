@@ -3,9 +3,11 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from scanbench.program.types import Enumeration
+from scanbench.symbols.leaves import Leaf
+from scanbench.symbols.names import Names, NamesInside
 from scanbench.verify.contract import MAX_COLUMNS, Cause, Column, Input, Mismatch, Output, Row, RowKind
 from scanbench.verify.monitor import Inputs
-from scanbench.verify.naming import Leaf, Namer, Names
 from scanbench.verify.places import FramesAt, Places
 from scanbench.verify.sentences import Teller
 from scanbench.verify.uses import Access, Pass
@@ -31,7 +33,7 @@ class Columns:
         if name not in self.all:
             if len(self.all) >= MAX_COLUMNS:
                 return False
-            self.all[name] = column = leaf.column()
+            self.all[name] = column = _column(leaf)
             self._new[0].append(column)
         known, new = (self._outputs, self._new[2]) if written else (self._inputs, self._new[1])
         if name not in known:
@@ -50,7 +52,7 @@ class Columns:
 class Reader:
     """What is needed to make rows of one program."""
 
-    namer: Namer
+    names: Names
     places: Places
     columns: Columns
 
@@ -99,15 +101,22 @@ class Pair:
         return found
 
 
+def _column(leaf: Leaf) -> Column:
+    type = leaf.type
+    return Column(
+        leaf.name, type.name, type.kind.value, type.size, type.values if isinstance(type, Enumeration) else ()
+    )
+
+
 def row_of(
     reader: Reader, pair: Pair, inputs: Inputs, number: int, disturbed: Disturbed, control_at: FramesAt,
     monitor_at: FramesAt,
 ) -> Row:  # fmt: skip
     """The row of a pass."""
     made = pair.either
-    names = reader.namer.names(made.around)
+    names = reader.names.within(made.inside)
     path = reader.places.path(made.pou, made.instance)
-    teller = Teller(reader.namer, reader.places, names, pair.scan, path, made.pou is not None)
+    teller = Teller(reader.names, reader.places, names, pair.scan, path, made.pou is not None)
     read, differences = _inputs(reader, names, inputs, number, disturbed, teller) if pair.control else ({}, [])
     outputs = _outputs(reader, names, pair)
     differences += _differences(pair, names, teller, control_at, monitor_at)
@@ -125,7 +134,7 @@ def row_of(
     )  # fmt: skip
 
 
-def _outputs(reader: Reader, names: Names, pair: Pair) -> dict[str, Output]:
+def _outputs(reader: Reader, names: NamesInside, pair: Pair) -> dict[str, Output]:
     control, monitor = pair.control, pair.monitor
     mine = _written(reader, names, control.log) if control is not None else {}
     if control is not None and monitor is not None and control.log == monitor.log:
@@ -134,13 +143,13 @@ def _outputs(reader: Reader, names: Names, pair: Pair) -> dict[str, Output]:
     return {name: Output(mine.get(name), other.get(name)) for name in {**mine, **other}}
 
 
-def _written(reader: Reader, names: Names, log: list[Access]) -> dict[str, bytes]:
+def _written(reader: Reader, names: NamesInside, log: list[Access]) -> dict[str, bytes]:
     """The last values, by columns, in the order of the first writes."""
     found: dict[str, bytes] = {}
     used = reader.columns.used
     for _, _, offset, size, bits, written, value in log:
         if written:
-            for leaf in names.of(offset, size, bits):
+            for leaf in names.at(offset, size, bits):
                 if leaf.name in found or used(leaf, True):
                     found[leaf.name] = leaf.cut(value, offset)
     return found
@@ -148,11 +157,11 @@ def _written(reader: Reader, names: Names, log: list[Access]) -> dict[str, bytes
 
 def written_by(reader: Reader, made: Pass) -> dict[str, bytes]:
     """The outputs of one side's pass."""
-    return _written(reader, reader.namer.names(made.around), made.log)
+    return _written(reader, reader.names.within(made.inside), made.log)
 
 
 def _inputs(
-    reader: Reader, names: Names, inputs: Inputs, number: int, disturbed: Disturbed, teller: Teller
+    reader: Reader, names: NamesInside, inputs: Inputs, number: int, disturbed: Disturbed, teller: Teller
 ) -> tuple[dict[str, Input], list[Mismatch]]:  # fmt: skip
     found: dict[str, Input] = {}
     differences: list[Mismatch] = []
@@ -165,7 +174,7 @@ def _inputs(
                 if at in instead:
                     patched[at - offset] = instead[at] & bits
             own = None if patched == value else bytes(patched)
-        for leaf in names.of(offset, size, bits):
+        for leaf in names.at(offset, size, bits):
             if leaf.name in found:
                 continue
             recorded = leaf.cut(value, offset)
@@ -180,7 +189,7 @@ def _inputs(
 
 
 def _differences(
-    pair: Pair, names: Names, teller: Teller, control_at: FramesAt, monitor_at: FramesAt
+    pair: Pair, names: NamesInside, teller: Teller, control_at: FramesAt, monitor_at: FramesAt
 ) -> list[Mismatch]:  # fmt: skip
     """The first place where they part, then every result that is another in the end."""
     control = pair.control.log if pair.control is not None else []
@@ -197,7 +206,7 @@ def _differences(
         if one[:6] != other[:6]:
             made.append(teller.order(one, other, control_at(one.position), monitor_at(other.position)))
             break
-        for leaf in names.of(one.offset, one.size, one.bits):
+        for leaf in names.at(one.offset, one.size, one.bits):
             here, there = leaf.cut(one.value, one.offset), leaf.cut(other.value, one.offset)
             if here == there:
                 last.pop(leaf.name, None)

@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 from scanbench.engines.debug import Frame
+from scanbench.symbols.leaves import Leaf
+from scanbench.symbols.names import Names, NamesInside
 from scanbench.symbols.values import format_value
 from scanbench.verify.contract import Cause, Mismatch, Place
-from scanbench.verify.naming import Leaf, Namer, Names
 from scanbench.verify.places import Places
 from scanbench.verify.uses import Access
 
@@ -16,9 +17,10 @@ _TEMPORARY = "a temporary"
 class Teller:
     """Of one pass."""
 
-    namer: Namer
-    places: Places
     names: Names
+    places: Places
+    here: NamesInside
+    """Those of the pass; `names`: by whole paths."""
     scan: int
     path: str
     """Of the instance."""
@@ -62,13 +64,13 @@ class Teller:
         return f"{'wrote' if access.written else 'read'} {self._name(access)}"
 
     def _name(self, access: Access) -> str:
-        found = self.names.of(access.offset, access.size, access.bits)
+        found = self.here.at(access.offset, access.size, access.bits)
         return self._subject(found[0]) if found else _TEMPORARY
 
     def _subject(self, leaf: Leaf) -> str:
         """Its whole path."""
-        if leaf.offset < self.namer.program.layout.state_size:
-            found = self.namer.anywhere(leaf.offset, leaf.type.size, leaf.bits)
+        if leaf.offset < self.names.program.layout.state_size:
+            found = self.names.at(leaf.offset, leaf.type.size, leaf.bits)
             if found:
                 return found[0].name
         return f"{self.path}.{leaf.name}" if self.inside and not leaf.passing else leaf.name

@@ -86,7 +86,7 @@ class Side:
         """One scan, in the debug flavour where somebody listens."""
         resource = self.resource
         with resource.listening.instead(hook, listen):
-            while (stop := resource.rerun(1)).reason is Reason.KNOCKED:
+            while (stop := resource.rerun(1)).reason is Reason.INTERRUPTED:
                 pass
         return stop
 

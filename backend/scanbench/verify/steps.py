@@ -7,10 +7,11 @@ from scanbench.engines.debug import READ, WRITE, Frame, Listen
 from scanbench.engines.engine import Reason, Stop
 from scanbench.runtime.holds import held
 from scanbench.runtime.resource import Resource
+from scanbench.symbols.leaves import Leaf
+from scanbench.symbols.names import ANYWHERE, NamesInside
 from scanbench.verify.both import Both, View, ViewOf
 from scanbench.verify.contract import ENDED, Input, Mismatch, Output, Place, Row
 from scanbench.verify.control import trap_of
-from scanbench.verify.naming import ANYWHERE, Leaf, Names
 from scanbench.verify.sentences import mismatch, values
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass
@@ -133,7 +134,7 @@ class _Step:
         inputs = {
             leaf.name: Input(leaf.cut(access.value, access.offset))
             for access, _ in Pass(None, 0, 0, log=control.log).fresh()
-            for leaf in names.of(access.offset, access.size, access.bits)
+            for leaf in names.at(access.offset, access.size, access.bits)
             if reader.columns.used(leaf._replace(passing=False), False)
         }
         note = ""
@@ -145,17 +146,17 @@ class _Step:
             tuple(self._differences(place)), tuple(dict.fromkeys(self.both.told)), len(control.log), note,
         )  # fmt: skip
 
-    def _names(self) -> Names:
+    def _names(self) -> NamesInside:
         """Those of the POU whose statement ran, where that is the range's."""
-        namer, before = self.view.reader.namer, self.control.before
+        names, before = self.view.reader.names, self.control.before
         if not before or before[0].pou not in self.view.range.pous:
-            return namer.names(ANYWHERE)
-        return namer.names(namer.around(before[0].pou, before[0].instance, self.control.memory))
+            return names.within(ANYWHERE)
+        return names.within(names.inside(before[0].pou, before[0].instance, self.control.memory))
 
-    def _written(self, names: Names, log: list[Access]) -> Iterator[tuple[Leaf, bytes]]:
+    def _written(self, names: NamesInside, log: list[Access]) -> Iterator[tuple[Leaf, bytes]]:
         for access in log:
             if access.written:
-                for leaf in names.of(access.offset, access.size, access.bits):
+                for leaf in names.at(access.offset, access.size, access.bits):
                     if self.view.reader.columns.used(leaf._replace(passing=False), True):
                         yield leaf, leaf.cut(access.value, access.offset)
 
@@ -195,6 +196,6 @@ class _Step:
             for leaf in self.both.leaves(self.view, chosen, control, monitor):
                 yield leaf, ours
         for frame in self.control.frames:
-            for leaf in self.view.reader.namer.temporaries(frame.pou):
+            for leaf in self.view.reader.names.temporaries(frame.pou):
                 if leaf.cut(control, 0) != leaf.cut(monitor, 0):
                     yield leaf, leaf.offset in written

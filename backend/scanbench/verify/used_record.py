@@ -17,7 +17,7 @@ def uses_of(both: Both, call: int) -> tuple[Use, ...]:
     inputs = Inputs(ran.passes, ran.there)
 
     def recorder(side: Side) -> Recorder:
-        return Recorder(side.resource, view.reader.namer, view.range, view.limit, detail=True)
+        return Recorder(side.resource, view.reader.names, view.range, view.limit, detail=True)
 
     def run_control() -> list[Pass]:
         mine = recorder(control)
@@ -33,13 +33,13 @@ def uses_of(both: Both, call: int) -> tuple[Use, ...]:
     first = control.again(ran.control, run_control)[number]
     passes = monitor.again(ran.monitor, run_monitor)
     second = passes[number] if number < len(passes) else Pass(None, 0, 0)
-    names = view.reader.namer.names(first.around)
+    names = view.reader.names.within(first.inside)
     found = []
     for index, (one, right) in enumerate(zip_longest(mine, second.log)):
         access: Access = one or right
         frames = first.frames_of[index] if one is not None else second.frames_of[index]
         place = view.reader.places.of(access.site, frames)
-        for leaf in names.of(access.offset, access.size, access.bits):
+        for leaf in names.at(access.offset, access.size, access.bits):
             there = None if one is None else leaf.cut(one.value, one.offset)
             same = right is not None and right[:6] == access[:6]
             here = leaf.cut(right.value, right.offset) if same else None

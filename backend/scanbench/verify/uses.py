@@ -11,7 +11,8 @@ from typing import NamedTuple
 from scanbench.engines.debug import READ, WRITE, Frame, Listen
 from scanbench.program.program import Blocks, Pou
 from scanbench.runtime.resource import Resource
-from scanbench.verify.naming import ANYWHERE, WHOLE, Around, Namer
+from scanbench.symbols.leaves import WHOLE
+from scanbench.symbols.names import ANYWHERE, Inside, Names
 from scanbench.verify.ranges import Resolved
 
 
@@ -47,7 +48,7 @@ class Pass:
     instance: int
     begin: int
     """The count of its first statement."""
-    around: Around = ANYWHERE
+    inside: Inside = ANYWHERE
     frames: tuple[Frame, ...] = ()
     """Open calls as it begins, innermost first; none of the whole scan."""
     log: list[Access] = field(default_factory=list)
@@ -92,11 +93,11 @@ class Recorder:
     """Listens to one side while a scan runs. It halts nowhere."""
 
     def __init__(
-        self, resource: Resource, namer: Namer, range: Resolved, limit: int, detail: bool = False,
+        self, resource: Resource, names: Names, range: Resolved, limit: int, detail: bool = False,
         disturbed: Iterable[int] = (),
     ) -> None:  # fmt: skip
         """`disturbed`: bytes of which every write is noted, wherever the program makes it."""
-        self._resource, self._namer, self._range = resource, namer, range
+        self._resource, self._names, self._range = resource, names, range
         self._engine = resource.loaded.debugged()
         self._memory = resource.memory
         self._left, self._detail = limit, detail
@@ -207,12 +208,12 @@ class Recorder:
         pou, instance = frames[0].pou, frames[0].instance
         if self._range.only is not None and instance != self._range.only:
             return
-        around = self._namer.around(pou, instance, self._memory)
+        inside = self._names.inside(pou, instance, self._memory)
         self._callers = frozenset(each.site for each in frames[1:])
-        self._begin(Pass(pou, instance, count, around, frames), depth)
+        self._begin(Pass(pou, instance, count, inside, frames), depth)
 
     def _begin(self, made: Pass, depth: int) -> Pass:
-        made.called = self._namer.program.layout.state_size
+        made.called = self._names.program.layout.state_size
         self._open, self._depth = made, depth
         self.passes.append(made)
         if self.on_begin is not None:

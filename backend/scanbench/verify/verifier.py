@@ -13,13 +13,13 @@ from scanbench.recording.timeline import NOT_AS_RECORDED
 from scanbench.runtime.command import Swapped
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.programs import NoProgram
+from scanbench.symbols.names import Names
 from scanbench.verify.both import Both, View
 from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Column, Range, Row, ScanVerified, Use
 from scanbench.verify.control import Control, Source, TextsOf, Unverifiable
 from scanbench.verify.edits import BadEdit, Edits
 from scanbench.verify.engines import Make
 from scanbench.verify.monitor import Monitor
-from scanbench.verify.naming import Namer
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
 from scanbench.verify.rows import Columns, Reader
@@ -235,7 +235,7 @@ class Verifier:
                 resolved = resolve_range(program, sites, self._range)
             except BadRange:  # another program runs meanwhile: nothing of it is in the range
                 resolved = Resolved("nothing", pous=frozenset(list(sites.bodies)[:1]))
-            self._views[version] = View(Reader(Namer(program, sites), places, self._columns), resolved, self._limit)
+            self._views[version] = View(Reader(Names(program, sites), places, self._columns), resolved, self._limit)
         return self._views[version]
 
     def _line(self, version: int, file: str, line: int) -> str:

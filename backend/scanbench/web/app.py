@@ -19,8 +19,8 @@ from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
-from scanbench.web.component_names import by_title
 from scanbench.web.headers import NoStore
+from scanbench.web.operations import Api, operation_id
 from scanbench.web.pages import frontend_directory, not_built_page
 from scanbench.web.routes import binding as routes_binding
 from scanbench.web.routes import debug as routes_debug
@@ -42,6 +42,8 @@ from scanbench.wire.refused import Refused, Unavailable
 _STATUS: dict[type[Exception], int] = {
     NotFound: 404, NameTaken: 409, NotStorable: 422, Refused: 422, Unavailable: 503, StoreError: 503,
 }  # fmt: skip
+
+_ABOUT = "Projects, virtual PLCs and what can be done with them. Refused: 4xx with a `Refusal`, whose `near` names what was perhaps meant."
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +80,9 @@ def create_app(config: Config) -> ASGIApp:
 
 def bare_app() -> FastAPI:
     """Routes without anything behind them: enough to describe the API."""
-    app = _Api(
-        title="Scanbench", version=__version__, docs_url=None, redoc_url=None, openapi_url="/api/openapi.json",
+    app = Api(
+        title="Scanbench", description=_ABOUT, license_info={"name": "Apache-2.0", "identifier": "Apache-2.0"},
+        generate_unique_id_function=operation_id, version=__version__, docs_url=None, redoc_url=None, openapi_url="/api/openapi.json",
         responses={"4XX": {"model": wire.Refusal}},
     )  # fmt: skip
     for routes in (
@@ -97,18 +100,6 @@ def bare_app() -> FastAPI:
     app.add_exception_handler(OSError, _on_os_error)
     _serve_page(app, frontend_directory())
     return app
-
-
-class _Api(FastAPI):
-    def openapi(self) -> dict[str, object]:
-        """The description of the API, components by the names that they give themselves."""
-        if self.openapi_schema is not None:
-            return self.openapi_schema
-        described = super().openapi()
-        schemas, described = by_title(described["components"].pop("schemas"), described)
-        described["components"]["schemas"] = schemas
-        self.openapi_schema = described
-        return described
 
 
 def _refusing(status: int):  # type: ignore[no-untyped-def]  # the handler's type is Starlette's own affair

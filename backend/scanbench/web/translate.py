@@ -3,7 +3,7 @@
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
-from scanbench.program.program import CheckSite
+from scanbench.program.sites import CheckSite
 from scanbench.public import iso
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
@@ -121,7 +121,7 @@ def instance(session: Session, row: ProjectRow) -> wire.Instance:
     return wire.Instance(
         id=session.id, name=session.name, project=project(row), model=session.model.name, state=state(session.state),
         load=wire.InstanceLoad(
-            cpu_percent=round(load.cpu_percent, 1), memory_bytes=load.memory_bytes, run_bytes=session.timeline.info.bytes
+            cpu_percent=round(load.cpu_percent, 1), memory_bytes=load.memory_bytes, run_bytes=session.log.timeline.info.bytes
         ),
         limits=wire.InstanceLimits(
             memory_mib=limits.memory_mib, cpu_percent=limits.cpu_percent, run_mib=limits.run_mib

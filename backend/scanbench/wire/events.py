@@ -11,7 +11,7 @@ from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.history.contract import Divergence
 from scanbench.problems import Problem, Severity
-from scanbench.program.program import CheckSite
+from scanbench.program.sites import CheckSite
 from scanbench.public import Moment, Public
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue

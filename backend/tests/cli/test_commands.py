@@ -137,6 +137,22 @@ def test_values_as_json(count: str) -> None:
     }  # fmt: skip
 
 
+def test_values_as_text_are_written_as_in_a_program(tmp_path: Path) -> None:
+    path = tmp_path / "main.st"
+    path.write_text(
+        "TYPE Part : STRUCT id : INT := 7; name : STRING := 'nut'; END_STRUCT; END_TYPE\n"
+        "PROGRAM Main VAR b : BOOL; w : WORD; a : ARRAY[1..2] OF BOOL; p : Part; END_VAR\n"
+        "b := NOT b; w := 16#FF; a[2] := b; END_PROGRAM\n"
+    )
+    paths = ("Main.b", "Main.w", "Main.a", "Main.p")
+    prints = [argument for each in paths for argument in ("--print", each)]
+    said = scanbench("run", str(path), "--scans", "1", "--every", "1", *prints)
+    shown = {"Main.b": "TRUE", "Main.w": "16#00FF", "Main.a": "[FALSE, TRUE]", "Main.p": "(id := 7, name := 'nut')"}
+    row = "1: " + ", ".join(f"{each} = {value}" for each, value in shown.items())
+    assert said.stdout.splitlines() == [row, *(f"{each} = {value}" for each, value in shown.items())]
+    assert said.stderr == "1 scans, 0.01 s of PLC time\n"
+
+
 def test_a_command_applies_before_the_scan_it_names(count: str) -> None:
     shown = scanbench("run", count, "--scans", "5", "--set", "Main.n=100@3", "--every", "1", "--print", "Main.n")
     assert shown.stdout.splitlines()[:5] == [
@@ -212,7 +228,7 @@ def test_the_example_of_the_error_catalogue(count: str) -> None:
 
 def test_help_documents_every_command() -> None:
     shown = process("--help").stdout
-    assert all(command in shown for command in ("serve", "check", "run", "bench"))
+    assert all(command in shown for command in ("serve", "check", "run", "verify"))
     assert "--raise" in scanbench("run", "--help").stdout
 
 

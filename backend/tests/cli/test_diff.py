@@ -68,7 +68,7 @@ def test_the_first_difference_is_named(program: str, tmp_path: Path) -> None:
         "Main.belt[3].speed  593  510",
         "B  scan 1283",
         "Main.load := 90",
-        "They differ behind scans 1283 to 1999",
+        "They differ after scans 1283 to 1999",
     ):
         assert part in text, text
     data = json.loads(call("diff", one, other, "--json").stdout)

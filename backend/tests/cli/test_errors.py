@@ -219,7 +219,7 @@ def test_a_state_from_a_recorded_run(project: Path) -> None:
         ([{"name": "A", "do": ["5: Main.on"]}], "write PATH=VALUE, or one of force"),
         ([{"name": "A", "do": ["5: raise batery-error"]}], "Did you mean `battery-error`"),
         ([{"name": "A", "do": ["5: mode SLOW"]}], "there are PROGRAM"),
-        ([{"name": "A", "do": ["500: Main.on=TRUE"]}], "comes behind its 100 scans"),
+        ([{"name": "A", "do": ["500: Main.on=TRUE"]}], "comes after its 100 scans"),
         ([{"name": "A", "do": ["5: A400=3"]}], "refused before scan 5"),
         ([{"name": "A", "do": ["5: mode PROGRAM"]}], "the program does not run there"),
         ([{"name": "A", "do": ["5: raise memory-error"]}], "the program does not run there"),

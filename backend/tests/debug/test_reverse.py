@@ -24,7 +24,7 @@ def walker(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(checkpoints, "EVERY_NS", 5_000_000)
     walker = Walker(tmp_path / "a.run", SELDOM, BUILDS.engine)
     walker.prober = Counted() if request.param == "probes" else None
-    walker.debugger.prober = walker.prober
+    walker.debugger.search_with(walker.prober)
     assert walker.run(3000) is None
     return walker
 

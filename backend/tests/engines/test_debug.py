@@ -430,14 +430,14 @@ def test_what_a_hook_raises_ends_the_scan(make: Make) -> None:
 
 @engines
 def test_to_halt_behind_an_access(make: Make) -> None:
-    """As the contract says: every statement from there on, and a knock for where none comes any more."""
+    """As the contract says: every statement from there on, and an interrupt for where none comes any more."""
     program = check(LOOP)
     memory = bytearray(program.initial_image)
     engine = make(program, memory)
 
     def access(offset: int) -> None:
         engine.listen(Listen(every=True))
-        engine.knock()
+        engine.interrupt()
 
     engine.hook(Calling(lambda site, count: True, access))
     engine.listen(Listen(bytes={at(program, "Main.n").start: WRITE}))
@@ -445,7 +445,7 @@ def test_to_halt_behind_an_access(make: Make) -> None:
     assert (engine.count, value(program, "Main.n", memory)) == (3, 1)
     memory[:] = engine.begin
     engine.listen(Listen(bytes={at(program, "Main.x").start: WRITE}))
-    assert engine.run(5) == Stop(Reason.KNOCKED)
+    assert engine.run(5) == Stop(Reason.INTERRUPTED)
     assert (memory[Layout.SCAN], value(program, "Main.x", memory)) == (1, 56)
 
 
@@ -464,11 +464,11 @@ def test_it_runs_as_any_engine(make: Make) -> None:
     pace = Pace(1, 0)
     assert engine.run(4, pace) == Stop(Reason.DONE)
     assert pace.scans == 4
-    engine.knock()
-    assert engine.run(4) == Stop(Reason.KNOCKED)
-    thread = threading.Timer(0.05, engine.knock)
+    engine.interrupt()
+    assert engine.run(4) == Stop(Reason.INTERRUPTED)
+    thread = threading.Timer(0.05, engine.interrupt)
     thread.start()
-    assert engine.run(1 << 40) == Stop(Reason.KNOCKED)
+    assert engine.run(1 << 40) == Stop(Reason.INTERRUPTED)
     thread.join()
 
 

@@ -102,9 +102,9 @@ def test_a_full_ring_ends_the_run_and_nothing_is_lost(make: Callable[[Program, b
     engine = make(program, memory)
     sampling = Sampling(program, [signal(program, "Main.n")], rows=7)
     engine.sample(sampling)
-    assert engine.run(30) == Stop(Reason.KNOCKED)
+    assert engine.run(30) == Stop(Reason.INTERRUPTED)
     assert sampling.full
-    assert engine.run(30) == Stop(Reason.KNOCKED)  # still full: no scan runs
+    assert engine.run(30) == Stop(Reason.INTERRUPTED)  # still full: no scan runs
     seen = sampling.take().tolist()
     while len(seen) < 30:
         engine.run(30 - len(seen))

@@ -99,12 +99,12 @@ def test_at_a_pace_and_measured_as_a_whole(make: Callable[[Program, bytearray], 
 
 
 @engines
-def test_a_knock_comes_back_once(make: Callable[[Program, bytearray], Engine]) -> None:
+def test_an_interrupt_comes_back_once(make: Callable[[Program, bytearray], Engine]) -> None:
     program = check(COUNT)
     memory = bytearray(program.initial_image)
     engine = make(program, memory)
-    engine.knock()
-    assert (engine.run(5), scan(memory)) == (Stop(Reason.KNOCKED), 0)
+    engine.interrupt()
+    assert (engine.run(5), scan(memory)) == (Stop(Reason.INTERRUPTED), 0)
     assert (engine.run(5), scan(memory)) == (Stop(Reason.DONE), 5)
 
 
@@ -201,7 +201,7 @@ class Woken(Exception):
 
 
 def test_a_long_native_run_lets_signals_through() -> None:
-    """Nobody knocks: the handler of a signal is called all the same, in the thread that runs."""
+    """Nobody interrupts: the handler of a signal is called all the same, in the thread that runs."""
     program = check(COUNT)
     memory = bytearray(program.initial_image)
     engine = NativeEngine(program, memory)

@@ -13,7 +13,7 @@ import pytest
 from scanbench.host.link import Link
 from scanbench.host.traces import Traces
 from scanbench.recording.timeline import Timeline
-from scanbench.session.tracing import Tracing
+from scanbench.session.tracing import A, Tracing
 from scanbench.store.records import Json
 from scanbench.taps.spool import Spool, read_pages, write_pages
 from scanbench.taps.trace import Trace, TraceDefinition
@@ -42,10 +42,12 @@ def status(generation: int) -> TraceStatus:
 
 
 def tracing(answer: Callable[[ReadTrace], TraceRead]) -> Tracing:
-    async def ask(make: Callable[[int], object]) -> object:
+    async def ask(make: Callable[[int], object], kind: type[A]) -> A:
         asked = make(7)
         assert isinstance(asked, ReadTrace)
-        return answer(asked)
+        answered = answer(asked)
+        assert isinstance(answered, kind)
+        return answered
 
     return Tracing(ask, lambda event: None, lambda kept: None, KEPT)
 

@@ -135,7 +135,7 @@ def test_a_killed_host_is_noticed_and_the_only_one(tmp_path: Path) -> None:
         assert again.process.wait(PATIENCE_S) == 0
 
 
-def test_hosts_survive_their_nursery(tmp_path: Path) -> None:
+def test_hosts_survive_their_zygote(tmp_path: Path) -> None:
     with hosts(tmp_path, 2) as (zygote, talks):
         killed = zygote.pid
         assert killed is not None
@@ -151,7 +151,7 @@ def test_hosts_survive_their_nursery(tmp_path: Path) -> None:
         born_later.sock.close()
 
 
-def test_a_frozen_nursery_is_given_up(tmp_path: Path) -> None:
+def test_a_frozen_zygote_is_given_up(tmp_path: Path) -> None:
     zygote = Zygote(grace_s=0.1)
     zygote.start()
     Talk(zygote, tmp_path).sock.close()
@@ -214,7 +214,7 @@ def test_siblings_share_no_socket(tmp_path: Path) -> None:
         assert len(set().union(of_zygote, *of_hosts)) == 4
 
 
-def test_a_nursery_that_cannot_start_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_zygote_that_cannot_start_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     zygote = Zygote()
     monkeypatch.setattr(sys, "executable", str(tmp_path / "no python"))
     ours, theirs = socket.socketpair()

@@ -1,10 +1,11 @@
 """How long an answer of a job process is waited for."""
 
 import asyncio
+from pathlib import Path
 
 import pytest
 
-from scanbench.jobs.client import answered
+from scanbench.jobs.client import Job, answered
 
 
 def test_a_question_behind_others_waits_for_them() -> None:
@@ -30,3 +31,14 @@ def test_where_nothing_is_answered_it_ends() -> None:
 
     with pytest.raises(TimeoutError):
         asyncio.run(ask())
+
+
+def test_a_process_that_says_nothing_is_ended(tmp_path: Path) -> None:
+    async def story() -> bool:
+        ended: asyncio.Future[Job] = asyncio.get_running_loop().create_future()
+        job = Job(tmp_path, lambda message: None, ended.set_result, silent_s=0.0)
+        found = await ended is job
+        await job.end()
+        return found
+
+    assert asyncio.run(story())

@@ -36,7 +36,9 @@ def failure(source: str, seed: int) -> str:
         except Exception as error:
             return f"{type(error).__name__} at O{level}: {error}\n{traceback.format_exc(limit=-4)}"
     try:
-        conditions.compare(source, condition_of(seed))
+        program = checked(source)
+        if program is not None:
+            conditions.compare(program, condition_of(seed))
     except Exception as error:
         return f"condition, {type(error).__name__}: {error}"
     return ""

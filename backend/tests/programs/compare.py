@@ -1,5 +1,6 @@
 """Runs a random program on both engines: whole images after every scan, and the same traps."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -49,10 +50,10 @@ def limited(program: Program) -> bytearray:
     return image
 
 
-def difference(program: Program, opt_level: int) -> str:
-    """What the engines disagree about, or ''."""
+def difference(program: Program, opt_level: int, objects: Sequence[bytes] | None = None) -> str:
+    """What the engines disagree about, or ''. The machine code may be there already."""
     images = [limited(program) for _ in range(2)]
-    engines = [ReferenceEngine(program, images[0]), NativeEngine(program, images[1], opt_level)]
+    engines = [ReferenceEngine(program, images[0]), NativeEngine(program, images[1], opt_level, objects)]
     for scan in range(SCANS):
         stops = [engine.run(1) for engine in engines]
         if stops[0] != stops[1]:

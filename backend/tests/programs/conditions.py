@@ -1,11 +1,13 @@
 """Random conditions on random programs: both engines must come back after the same scans."""
 
+from collections.abc import Sequence
+
 from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.program import Program
 from scanbench.symbols.symbols import members
-from tests.programs.compare import SCANS, checked, limited
+from tests.programs.compare import SCANS, limited
 from tests.programs.expressions import expression
 from tests.programs.scope import TYPES, Draw, Scope
 
@@ -21,10 +23,10 @@ def text(seed: int, program: Program) -> str:
     return expression(Draw(seed), scope, "BOOL", DEPTH)
 
 
-def difference(program: Program, condition: Condition) -> str:
-    """The first scan after which only one engine finds that it holds, or ''."""
+def difference(program: Program, condition: Condition, objects: Sequence[bytes] | None = None) -> str:
+    """The first scan after which only one engine finds that it holds, or ''. The machine code may be there already."""
     images = [limited(program) for _ in range(2)]
-    engines = [ReferenceEngine(program, images[0]), NativeEngine(program, images[1], 0)]
+    engines = [ReferenceEngine(program, images[0]), NativeEngine(program, images[1], 0, objects)]
     for engine in engines:
         engine.stop_when(condition)
     for scan in range(SCANS):
@@ -34,14 +36,11 @@ def difference(program: Program, condition: Condition) -> str:
     return ""
 
 
-def compare(source: str, words: str) -> bool | None:
-    """Whether the condition could be compared, and None where the program could not; a difference is an AssertionError."""
-    program = checked(source)
-    if program is None:
-        return None
+def compare(program: Program, words: str, objects: Sequence[bytes] | None = None) -> bool:
+    """Whether the condition could be compared; a difference is an AssertionError."""
     condition = compile_condition(program, words)
     if not isinstance(condition, Condition):
         return False
-    found = difference(program, condition)
+    found = difference(program, condition, objects)
     assert not found, found
     return True

@@ -162,7 +162,7 @@ def test_what_is_made_when_a_recording_ends_is_taken_away(tmp_path: Path, monkey
     assert [each.name for each in tmp_path.iterdir()] == ["run"]
 
 
-def test_errands_are_done_in_order_and_synced_in_the_end() -> None:
+def test_work_is_done_in_order_and_synced_in_the_end() -> None:
     done: list[object] = []
     worker = Worker("test", lambda: done.append("sync"))
     worker.wait()

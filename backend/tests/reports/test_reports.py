@@ -13,7 +13,8 @@ from scanbench.reports.report import CONTEXT, MAX_ROWS, Collected, Report, Repor
 from scanbench.reports.report_html import DIFFERENCES, to_html
 from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
-from scanbench.reports.value_text import Format, differing_bits, value_text
+from scanbench.reports.value_text import differing_bits, value_text
+from scanbench.symbols.values import Format
 from scanbench.verify.contract import Column, Input, Mismatch, Output, Place, Row, ScanVerified
 
 SPEED = Column("speed", "INT", "int", 2)

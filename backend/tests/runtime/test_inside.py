@@ -27,7 +27,7 @@ def halt(timeline: Timeline, count: int) -> None:
     """In front of the statement of this count of the scan that is next."""
     resource = timeline.resource
     resource.listening.attach(HaltAt(count), Listen(count=count))
-    while (stop := timeline.run(1)).reason is Reason.KNOCKED:
+    while (stop := timeline.run(1)).reason is Reason.INTERRUPTED:
         pass
     resource.listening.attach(None)
     assert stop.reason is Reason.HALTED

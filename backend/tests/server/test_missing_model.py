@@ -37,11 +37,11 @@ def directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def store(tmp_path: Path) -> Iterator[Store]:
     """One PLC that is on, with a run and a history."""
     opened = Store(f"sqlite:///{tmp_path / 'bench.db'}")
-    project = opened.create_project("line", "CJ1M-CPU63").id
-    opened.save_file(project, "main.st", SOURCE, 0, "Ada")
-    opened.accept_build(project, {"main.st": SOURCE}, "Ada")
-    instance = opened.create_instance(project, "line-1").id
-    opened.keep_history(instance, [ROW])
+    project = opened.projects.create("line", "CJ1M-CPU63").id
+    opened.files.save(project, "main.st", SOURCE, 0, "Ada")
+    opened.builds.accept(project, {"main.st": SOURCE}, "Ada")
+    instance = opened.instances.create(project, "line-1").id
+    opened.errors.keep(instance, [ROW])
     runs = tmp_path / "runs"
     runs.mkdir()
     run_path(runs, instance).write_bytes(b"the run")
@@ -80,9 +80,9 @@ def test_it_stays_with_the_reason_and_nothing_of_it_is_lost(store: Store, direct
             await bench.close()
 
     asyncio.run(main())
-    [row] = store.instances()
+    [row] = store.instances.all()
     assert row.powered
-    assert store.history(row.id) == [ROW]
+    assert store.errors.history(row.id) == [ROW]
     path = run_path(tmp_path / "runs", row.id)
     assert path.read_bytes() == b"the run"
     assert path.with_suffix(".run.previous").read_bytes() == b"the run before"
@@ -91,8 +91,8 @@ def test_it_stays_with_the_reason_and_nothing_of_it_is_lost(store: Store, direct
 def test_it_lives_again_when_the_file_is_back(
     store: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, directory: Path
 ) -> None:
-    [row] = store.instances()
-    store.change_instance(row.id, powered=False)  # so that no process is needed
+    [row] = store.instances.all()
+    store.instances.change(row.id, powered=False)  # so that no process is needed
 
     async def shown() -> tuple[str, str]:
         bench = Workbench(store, tmp_path)
@@ -109,7 +109,7 @@ def test_it_lives_again_when_the_file_is_back(
     assert message.startswith("the model CJ1M-CPU63 cannot be used: omron/CJ1M-CPU63.xml:1:")
     monkeypatch.delenv("SCANBENCH_MODELS")
     assert asyncio.run(shown())[0] == "off"
-    assert store.history(row.id) == [ROW]
+    assert store.errors.history(row.id) == [ROW]
 
 
 def test_it_can_be_deleted(store: Store, directory: Path, tmp_path: Path) -> None:
@@ -126,5 +126,5 @@ def test_it_can_be_deleted(store: Store, directory: Path, tmp_path: Path) -> Non
             await bench.close()
 
     asyncio.run(main())
-    assert not store.instances()
+    assert not store.instances.all()
     assert not list((tmp_path / "runs").iterdir())

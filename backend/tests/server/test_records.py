@@ -37,12 +37,20 @@ class Plc:
     project_id: int
     model: Model
     name: str = "line-1"
-    history_version: int = 1
+    version: int = 1
     why_not: str = ""
     threads: set[int] = field(default_factory=set)
 
     @property
-    def history_versions(self) -> list[int]:
+    def errors(self) -> "Plc":
+        return self
+
+    @property
+    def instance(self) -> "Plc":
+        return self
+
+    @property
+    def versions(self) -> list[int]:
         return [1]
 
     def rows_of(self, version: int, of: Model) -> list[ErrorRow]:
@@ -59,8 +67,8 @@ def store(tmp_path: Path) -> Iterator[Store]:
 
 @pytest.fixture
 def plc(store: Store) -> Plc:
-    project = store.create_project("p", "CJ1M-CPU63").id
-    return Plc(store.create_instance(project, "line-1").id, project, model())
+    project = store.projects.create("p", "CJ1M-CPU63").id
+    return Plc(store.instances.create(project, "line-1").id, project, model())
 
 
 @asynccontextmanager
@@ -86,17 +94,17 @@ def test_a_record_has_the_last_lines_and_the_newest_sweeps(
     monkeypatch.setattr(records, "LOG_LINES", 3)
     monkeypatch.setattr(records, "SWEEPS", 2)
     kinds = ["error", "recover", "write", "error"] * 3
-    store.add_log(
+    store.log.add(
         plc.id, [LogRow(NOON + timedelta(seconds=n), n, "Ada", kind, f"line {n}", 1) for n, kind in enumerate(kinds)]
     )
-    store.add_log(plc.id, [LogRow(NOON, 99, "Ada", "error", "of another version", 2)])
+    store.log.add(plc.id, [LogRow(NOON, 99, "Ada", "error", "of another version", 2)])
     for window in (10, 20, 30, 40):
-        sweep = store.create_sweep(
+        sweep = store.sweeps.create(
             plc.project_id, instance_id=plc.id, instance=plc.name, model=plc.model.name, program_version=1, by="Ada",
             window=window, states=["A"], errors=[BATTERY],
         )  # fmt: skip
         if window != 40:  # it has not begun yet
-            store.add_cells(sweep.id, [CellRow("battery-error", "A", 5, "reacted")])
+            store.sweeps.add_cells(sweep.id, [CellRow("battery-error", "A", 5, "reacted")])
     record = made(store, plc)
     assert [line.text for line in record.log] == ["line 8", "line 9", "line 11"]
     assert [sweep.window for sweep in record.sweeps] == [30, 20]
@@ -133,6 +141,6 @@ def test_a_project_keeps_so_many_records_from_elsewhere(
     asyncio.run(bring())
     with pytest.raises(Refused, match="the project has 2 records already, delete one of them first"):
         asyncio.run(bring())
-    store.delete_record(store.records(plc.project_id)[0].id)
+    store.records.delete(store.records.all(plc.project_id)[0].id)
     asyncio.run(bring())
-    assert len(store.records(plc.project_id)) == 2
+    assert len(store.records.all(plc.project_id)) == 2

@@ -21,10 +21,11 @@ class Plc:
     id, name = 1, "line"
 
     def __init__(self) -> None:
-        self.log: list[str] = []
+        self.lines: list[str] = []
+        self.log = self
 
-    def told(self, _author: str, text: str) -> None:
-        self.log.append(text)
+    def add(self, _author: str, text: str) -> None:
+        self.lines.append(text)
 
     def tell(self, _event: Event) -> None:
         pass
@@ -73,6 +74,6 @@ def test_those_that_are_over_give_way_to_new_ones(monkeypatch: pytest.MonkeyPatc
         assert sum(each.runs for each in made.values()) == verifications.MOST
         await begin()
         assert 3 not in made
-        assert "verification 3 is forgotten, as others began: whole" in plc.log
+        assert "verification 3 is forgotten, as others began: whole" in plc.lines
 
     asyncio.run(run())

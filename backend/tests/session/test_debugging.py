@@ -9,7 +9,6 @@ from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
 from scanbench.wire import host as protocol
 from scanbench.wire.debugging import BreakpointsAre, DebugAnswer, DebugRequest, SetBreakpoints
-from scanbench.wire.refused import Unavailable
 
 
 class Host:
@@ -21,7 +20,7 @@ class Host:
 
     async def ask(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
         if self.away:
-            raise Unavailable("the PLC is off: switch it on first")
+            return protocol.Ack(0, False, "the PLC is off: switch it on first", 0)
         request = make(7)
         assert isinstance(request, SetBreakpoints)
         self.told.append(request)

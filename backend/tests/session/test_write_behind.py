@@ -12,6 +12,8 @@ import pytest
 
 from scanbench.faults.history import ErrorRow
 from scanbench.session.write_behind import LOG_KEPT, LOG_TRIMMED_EVERY, WriteBehind
+from scanbench.store.errors import Errors
+from scanbench.store.instances import Logs
 from scanbench.store.records import HistoryRow, LogRow, StoreError
 from scanbench.store.store import Store
 from scanbench.wire.events import LogEntry
@@ -32,16 +34,29 @@ class Slow(Store):
         self.may.set()
         self.rows: list[int] = []
         self.lines: list[int] = []
+        self.errors, self.log = _Errors(self), _Logs(self)
 
-    def keep_history(self, instance: int, errors: Sequence[HistoryRow]) -> None:
-        self.rows.append(len(errors))
-        self.begun.set()
-        self.may.wait(60)
-        super().keep_history(instance, errors)
 
-    def add_log(self, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
-        self.lines.append(len(lines))
-        super().add_log(instance, lines, keep)
+class _Errors(Errors):
+    def __init__(self, slow: Slow) -> None:
+        super().__init__(slow._database)
+        self._slow = slow
+
+    def keep(self, instance: int, errors: Sequence[HistoryRow]) -> None:
+        self._slow.rows.append(len(errors))
+        self._slow.begun.set()
+        self._slow.may.wait(60)
+        super().keep(instance, errors)
+
+
+class _Logs(Logs):
+    def __init__(self, slow: Slow) -> None:
+        super().__init__(slow._database)
+        self._slow = slow
+
+    def add(self, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
+        self._slow.lines.append(len(lines))
+        super().add(instance, lines, keep)
 
 
 @pytest.fixture
@@ -53,7 +68,7 @@ def store(tmp_path: Path) -> Iterator[Slow]:
 
 @pytest.fixture
 def instance(store: Slow) -> int:
-    return store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
+    return store.instances.create(store.projects.create("p", "CJ1M-CPU63").id, "i").id
 
 
 @asynccontextmanager
@@ -71,7 +86,7 @@ def line(text: str) -> LogEntry:
 
 
 def texts(store: Store, instance: int) -> list[str]:
-    return [each.text for each in store.log(instance, 10 * LOG_KEPT)]
+    return [each.text for each in store.log.last(instance, 10 * LOG_KEPT)]
 
 
 def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: int) -> None:
@@ -88,7 +103,7 @@ def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: 
             await write_behind.flush()
             assert store.rows == [1, 3]
             assert store.lines == [LOG_KEPT]
-            told = {(row.error, row.program_version): row.count for row in store.history(instance)}
+            told = {(row.error, row.program_version): row.count for row in store.errors.history(instance)}
             assert told == {("battery-error", 3): 30_000, ("fal", 3): 2, ("battery-error", 4): 1}
             assert texts(store, instance) == [f"line {count}" for count in range(30_001 - LOG_KEPT, 30_001)]
 
@@ -122,7 +137,7 @@ def test_the_end_writes_the_rest(store: Slow, instance: int) -> None:
             write_behind.keep_rows(instance, [ROW])
             write_behind.keep_line(instance, line("last"), 3)
         assert texts(store, instance) == ["last"]
-        assert [row.count for row in store.history(instance)] == [1]
+        assert [row.count for row in store.errors.history(instance)] == [1]
         await write_behind.flush()  # nothing writes any more, and nobody waits for it
 
     asyncio.run(story())
@@ -130,7 +145,7 @@ def test_the_end_writes_the_rest(store: Slow, instance: int) -> None:
 
 def test_old_lines_go(store: Slow, instance: int) -> None:
     async def story() -> None:
-        store.add_log(instance, [LogRow(NOON, 1, "ada", "error", f"old {number}") for number in range(LOG_KEPT)])
+        store.log.add(instance, [LogRow(NOON, 1, "ada", "error", f"old {number}") for number in range(LOG_KEPT)])
         async with keeping(store) as write_behind:
             write_behind.keep_line(instance, line("first"), 3)
             await write_behind.flush()
@@ -148,15 +163,15 @@ def test_an_instance_that_is_gone_takes_nothing_with_it(
     store: Slow, instance: int, caplog: pytest.LogCaptureFixture
 ) -> None:
     async def story() -> None:
-        gone = store.create_instance(store.create_project("q", "CJ1M-CPU63").id, "j").id
-        store.delete_instance(gone)
+        gone = store.instances.create(store.projects.create("q", "CJ1M-CPU63").id, "j").id
+        store.instances.delete(gone)
         async with keeping(store) as write_behind:
             for id in (gone, instance):
                 write_behind.keep_rows(id, [ROW])
                 write_behind.keep_line(id, line("here"), 3)
             await write_behind.flush()
         assert texts(store, instance) == ["here"]
-        assert len(store.history(instance)) == 1
+        assert len(store.errors.history(instance)) == 1
         said = [record.getMessage() for record in caplog.records]
         assert said == [
             f"{what} of instance {gone} could not be written, 1 of it: there is no instance {gone}"
@@ -175,7 +190,7 @@ def test_a_row_that_cannot_be_written_takes_nothing_with_it(
         async with keeping(store) as write_behind:
             write_behind.keep_rows(instance, rows)
             await write_behind.flush()
-        assert [row.error for row in store.history(instance)] == [
+        assert [row.error for row in store.errors.history(instance)] == [
             f"error-{number}" for number in range(9) if number != 5
         ]
         (said,) = caplog.records
@@ -188,15 +203,15 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
     store: Slow, instance: int, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("scanbench.session.write_behind.AGAIN_S", 0.01)
-    add, full, written = Store.add_log, True, threading.Event()
+    add, full, written = Logs.add, True, threading.Event()
 
-    def refuse(self: Store, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
+    def refuse(self: Logs, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
         if full:
             raise StoreError("the database cannot be used now: database or disk is full")
         add(self, instance, lines, keep)
         written.set()
 
-    monkeypatch.setattr(Store, "add_log", refuse)
+    monkeypatch.setattr(Logs, "add", refuse)
 
     async def story() -> None:
         nonlocal full
@@ -209,7 +224,7 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
             full = False
             await asyncio.to_thread(written.wait, 60)  # nobody asks for it
             assert texts(store, instance) == ["line 0", "line 1", "line 2"]
-            assert [row.count for row in store.history(instance)] == [2]
+            assert [row.count for row in store.errors.history(instance)] == [2]
 
     asyncio.run(story())
     (said,) = caplog.records
@@ -220,9 +235,9 @@ def test_what_was_written_before_the_database_refused_is_not_written_again(
     store: Slow, instance: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("scanbench.session.write_behind.AGAIN_S", 0.01)
-    add, batches, whole = Store.add_log, 0, threading.Event()
+    add, batches, whole = Logs.add, 0, threading.Event()
 
-    def refuse(self: Store, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
+    def refuse(self: Logs, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
         nonlocal batches
         batches += 1
         if batches == 3:  # all of them, the first half, the rest
@@ -231,7 +246,7 @@ def test_what_was_written_before_the_database_refused_is_not_written_again(
         if lines[-1].text == "line 7":
             whole.set()
 
-    monkeypatch.setattr(Store, "add_log", refuse)
+    monkeypatch.setattr(Logs, "add", refuse)
 
     async def story() -> None:
         async with keeping(store) as write_behind:

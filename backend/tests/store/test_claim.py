@@ -18,7 +18,7 @@ def test_the_second_server_is_refused_and_told_who_is_there(url: str) -> None:
     with pytest.raises(InUse, match=r"another server \(desk, process 7\).*SCANBENCH_DATABASE"):
         Store(url, "lab, process 8")
     Store(url).close()  # a migration, say: it runs no PLC
-    first.projects()
+    first.projects.all()
     first.close()
     Store(url, "lab, process 8").close()
 
@@ -80,8 +80,8 @@ def test_a_claim_whose_connection_ended_is_taken_again_before_a_write(
         down.setattr("scanbench.store.claim._PostgresClaim._claimed", _unreachable)
         for _ in range(2):
             with pytest.raises(StoreError, match="no answer"):
-                first.create_project("p", "CJ1M-CPU63")
-    first.create_project("p", "CJ1M-CPU63")
+                first.projects.create("p", "CJ1M-CPU63")
+    first.projects.create("p", "CJ1M-CPU63")
     with pytest.raises(InUse, match="desk, process 7"):
         Store(url, "lab, process 8")
     first.close()
@@ -109,10 +109,10 @@ def test_where_another_server_was_faster_nothing_is_written_any_more(
     second = Store(url, "lab, process 8")
     for _ in range(2):
         with pytest.raises(InUse, match=r"another server took the database: lab, process 8\. Nothing is written here"):
-            first.create_project("p", "CJ1M-CPU63")
-    assert first.projects() == []
+            first.projects.create("p", "CJ1M-CPU63")
+    assert first.projects.all() == []
     second.close()
     with pytest.raises(InUse):  # what it knows may be old
-        first.create_project("p", "CJ1M-CPU63")
+        first.projects.create("p", "CJ1M-CPU63")
     first.close()
     assert [record.levelname for record in caplog.records] == ["CRITICAL"]

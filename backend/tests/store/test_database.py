@@ -1,25 +1,22 @@
 """Opening, migrating, and many at once."""
 
 import multiprocessing
+import sqlite3
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import pytest
-from alembic import command
 from alembic.autogenerate import compare_metadata
-from alembic.config import Config
 from alembic.migration import MigrationContext
 from sqlalchemy import text
 
-import scanbench.store
 from scanbench.store.__main__ import main
 from scanbench.store.database import database_url, open_database, writing
 from scanbench.store.records import Conflict, StoreError
 from scanbench.store.store import Store
 from scanbench.store.tables import Base
-
-MIGRATIONS = Path(scanbench.store.__file__).parent / "migrations"
 
 
 def test_the_migrations_make_exactly_the_tables(url: str) -> None:
@@ -32,41 +29,33 @@ def test_the_migrations_make_exactly_the_tables(url: str) -> None:
 
 def test_a_second_opening_finds_everything(url: str) -> None:
     first = Store(url)
-    project = first.create_project("conveyor", "CJ1M-CPU63")
-    first.save_file(project.id, "main.st", "text", 0, "ada")
+    project = first.projects.create("conveyor", "CJ1M-CPU63")
+    first.files.save(project.id, "main.st", "text", 0, "ada")
     first.close()
     second = Store(url)
-    assert second.projects() == [project]
-    assert second.sources(project.id) == {"main.st": "text"}
+    assert second.projects.all() == [project]
+    assert second.files.sources(project.id) == {"main.st": "text"}
     second.close()
 
 
-def test_a_history_of_before_its_versions_is_kept(url: str) -> None:
-    """What a server of issue 4's tables wrote is there behind the migration, with its version."""
-    engine = open_database(url)
-    with writing(engine) as connection:
-        config = Config()
-        config.set_main_option("script_location", str(MIGRATIONS))
-        config.attributes["connection"] = connection
-        command.downgrade(config, "0002")
-        moment = "2026-11-21 12:00:00+00:00" if engine.dialect.name == "postgresql" else "2026-11-21 12:00:00"
-        for line in (
-            f"INSERT INTO project VALUES (1, 'p', 'CJ1M-CPU63', '[]', 7, '{moment}')",
-            f"INSERT INTO instance (id, project_id, name, created) VALUES (1, 1, 'i', '{moment}')",
-            "INSERT INTO error_history VALUES"
-            f" (1, 'battery-error', 7, 'generated', '00F7', '', '{moment}', NULL, 5, NULL, 'ada', 'simulator', 3)",
-        ):
-            connection.execute(text(line))
-    engine.dispose()
-    store = Store(url)
-    (row,) = store.history(1)
+def test_a_database_of_release_0_1_0_is_read(tmp_path: Path) -> None:
+    """The format is a promise: this file is never written again, and every later version opens what it holds."""
+    path = tmp_path / "scanbench.db"
+    with closing(sqlite3.connect(path)) as connection:
+        connection.executescript((Path(__file__).parent / "golden" / "0.1.0.sql").read_text("utf-8"))
+    store = Store(f"sqlite:///{path}")
+    (project,) = store.projects.all()
+    assert (project.name, project.model) == ("conveyor", "CJ1M-CPU63")
+    assert store.files.sources(project.id) == {"main.st": "PROGRAM Main END_PROGRAM"}
+    assert [(each.name, each.powered) for each in store.instances.all()] == [("line 1", True)]
+    (row,) = store.errors.history(1)
     assert (row.error, row.program_version, row.count, row.reaction_state) == ("battery-error", 7, 3, None)
     store.close()
 
 
 def _open_and_count(url: str) -> int:
     store = Store(url)
-    count = len(store.projects())
+    count = len(store.projects.all())
     store.close()
     return count
 
@@ -78,11 +67,11 @@ def test_servers_that_start_at_once_migrate_once(url: str) -> None:
 
 def test_of_savers_at_once_exactly_one_wins_each_round(url: str) -> None:
     stores = [Store(url) for _ in range(4)]
-    project = stores[0].create_project("conveyor", "CJ1M-CPU63").id
+    project = stores[0].projects.create("conveyor", "CJ1M-CPU63").id
 
     def save(number: int, version: int) -> bool:
         try:
-            stores[number].save_file(project, "main.st", f"{number} from {version}", version, f"author {number}")
+            stores[number].files.save(project, "main.st", f"{number} from {version}", version, f"author {number}")
         except Conflict:
             return False
         return True
@@ -91,7 +80,7 @@ def test_of_savers_at_once_exactly_one_wins_each_round(url: str) -> None:
         for version in range(12):
             won = list(pool.map(save, range(4), [version] * 4))
             assert won.count(True) == 1
-            kept = stores[0].file(project, "main.st")
+            kept = stores[0].files.get(project, "main.st")
             assert kept.version == version + 1
             assert (kept.text, kept.author) == (f"{won.index(True)} from {version}", f"author {won.index(True)}")
     for store in stores:
@@ -100,12 +89,12 @@ def test_of_savers_at_once_exactly_one_wins_each_round(url: str) -> None:
 
 def test_builds_at_once_all_get_a_number_of_their_own(url: str) -> None:
     stores = [Store(url) for _ in range(4)]
-    project = stores[0].create_project("conveyor", "CJ1M-CPU63").id
+    project = stores[0].projects.create("conveyor", "CJ1M-CPU63").id
     with ThreadPoolExecutor(4) as pool:
-        versions = list(pool.map(lambda n: stores[n % 4].accept_build(project, {"n": str(n)}, "ada"), range(20)))
+        versions = list(pool.map(lambda n: stores[n % 4].builds.accept(project, {"n": str(n)}, "ada"), range(20)))
     assert sorted(versions) == list(range(1, 21))
     for number, version in enumerate(versions):
-        build = stores[0].build(project, version)
+        build = stores[0].builds.get(project, version)
         assert build is not None
         assert build.sources == {"n": str(number)}
     for store in stores:

@@ -4,7 +4,8 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.program.program import Program
-from scanbench.symbols.symbols import UnknownPath, at_offset, complete, members, resolve
+from scanbench.symbols.names import names_of
+from scanbench.symbols.symbols import UnknownPath, complete, members, resolve
 from scanbench.symbols.values import format_value, parse_value
 from tests.caseformat import MODELS
 
@@ -78,7 +79,7 @@ def test_a_byte_of_the_image_has_a_name(program: Program) -> None:
     symbol = resolve(program, "Main.zones[3,1].rate")
     place = symbol.locate(program.initial_image)
     assert place is not None
-    assert at_offset(program, place[0] + 2) == "Main.zones[3,1].rate"
+    assert names_of(program).path(place[0] + 2) == "Main.zones[3,1].rate"
 
 
 @pytest.mark.parametrize(

@@ -40,7 +40,7 @@ class Bench:
         """So many scans, drained as often as the host does it or more seldom."""
         end = self.scan + scans
         while self.scan < end:
-            assert self.plc.run(min(at_once, end - self.scan)).reason in (Reason.DONE, Reason.KNOCKED)
+            assert self.plc.run(min(at_once, end - self.scan)).reason in (Reason.DONE, Reason.INTERRUPTED)
             self.trace.drain(self.scan)
             self.plc.waiting.samplings = self.trace.samplings
 

@@ -20,7 +20,8 @@ from scanbench.runtime.command import Command, Entry, Freed, Held, Patch
 from scanbench.runtime.header import Mode, fresh_image
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.write import Write
-from scanbench.symbols.symbols import at_offset, resolve
+from scanbench.symbols.names import names_of
+from scanbench.symbols.symbols import resolve
 from scanbench.verify.contract import Mismatch, Range
 from scanbench.verify.engines import native, reference
 from scanbench.verify.verifier import Verifier
@@ -203,7 +204,7 @@ def test_every_one_is_found_and_nothing_else(tmp_path: Path, engine: EngineFacto
             wanted = expected.bytes.get(scan, set())
             assert bool(differences) == bool(wanted), about
             missing = {at for at in wanted if at < size} - found_at(differences, result.resource.memory)
-            assert not missing, f"{about}: {[at_offset(checked, at) for at in missing]}"
+            assert not missing, f"{about}: {[names_of(checked).path(at) for at in missing]}"
             said = {text for row in rows for text in row.disturbances}
             begun = {told(each) for each in entries if told(each)}
             assert begun <= said, about

@@ -1,10 +1,9 @@
 """Disturbances of a live PLC: journaled, found by verification, and replayed elsewhere byte for byte."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
+from tests.cli.calling import scanbench
 from tests.web.server import Message, Server
 from tests.web.test_verify import MODEL, begin, disturb, ended, paused, rows, scans
 
@@ -55,12 +54,11 @@ def test_every_kind_is_found_and_replayed(server: Server, tmp_path: Path) -> Non
         assert "Main.n" in refused.json()["near"]
     file = tmp_path / "disturbed.scanrun"
     file.write_bytes(server.http.get(f"/api/instances/{instance}/export").content)
-    scanbench = str(Path(sys.executable).parent / "scanbench")
     for engine in ("native", "reference"):
-        command = [scanbench, "replay", str(file), "--json", "--engine", engine]
-        replayed = subprocess.run(command, capture_output=True, text=True, check=True)
+        replayed = scanbench("replay", str(file), "--json", "--engine", engine)
+        assert replayed.returncode == 0, replayed.stderr
         assert json.loads(replayed.stdout)["scan"] == scan + 12
-    verified = subprocess.run([scanbench, "verify", str(file), "--json"], capture_output=True, text=True, check=False)
+    verified = scanbench("verify", str(file), "--json")
     assert verified.returncode == 1, verified.stderr
 
 

@@ -46,7 +46,7 @@ def test_a_plc_that_dies_goes_on_with_the_same_steps(server: Server) -> None:
         browser.wait(lambda: bool(armed(browser)))
         os.kill(server.state(instance)["pid"], signal.SIGKILL)
         browser.wait(lambda: server.state(instance)["restarts"] == 1)
-        browser.wait(lambda: (browser.number("Main.seen") or 0) >= 60, timeout=20)
+        browser.wait(lambda: (browser.number("Main.seen") or 0) >= 60)
         browser.wait(lambda: armed(browser) == [])
     found = marks(server, instance)
     begin = found[0][0]

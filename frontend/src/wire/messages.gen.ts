@@ -8,10 +8,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On App
+         * What there is, and who you are
          * @description What there is, and who you are.
          */
-        get: operations["on_app_api_get"];
+        get: operations["get_server"];
         put?: never;
         post?: never;
         delete?: never;
@@ -31,10 +31,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete Comparison
-         * @description Cancels a comparison, or forgets what came of it.
+         * Cancels a comparison, or deletes its result
+         * @description Cancels a comparison, or deletes its result.
          */
-        delete: operations["on_delete_comparison_api_comparisons__comparison__delete"];
+        delete: operations["delete_comparison"];
         options?: never;
         head?: never;
         patch?: never;
@@ -51,10 +51,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Cancel Flight
-         * @description Gives a record up that is under way.
+         * Cancels a retrospective trace that is being made
+         * @description Cancels a retrospective trace that is being made.
          */
-        delete: operations["on_cancel_flight_api_flights__flight__delete"];
+        delete: operations["delete_flight"];
         options?: never;
         head?: never;
         patch?: never;
@@ -68,16 +68,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Instances
+         * Every instance, with what it costs
          * @description Every instance, with what it costs.
          */
-        get: operations["on_instances_api_instances_get"];
+        get: operations["list_instances"];
         put?: never;
         /**
-         * On New Instance
+         * A new PLC that runs a project's last accepted build
          * @description A new PLC that runs a project's last accepted build.
          */
-        post: operations["on_new_instance_api_instances_post"];
+        post: operations["create_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -92,24 +92,24 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Instance
+         * One instance
          * @description One instance.
          */
-        get: operations["on_instance_api_instances__instance__get"];
+        get: operations["get_instance"];
         put?: never;
         post?: never;
         /**
-         * On Delete Instance
-         * @description Ends a PLC, and forgets it.
+         * Ends a PLC and deletes it
+         * @description Ends a PLC and deletes it.
          */
-        delete: operations["on_delete_instance_api_instances__instance__delete"];
+        delete: operations["delete_instance"];
         options?: never;
         head?: never;
         /**
-         * On Change Instance
+         * Renames it, switches it on or off, limits what it may cost
          * @description Renames it, switches it on or off, limits what it may cost.
          */
-        patch: operations["on_change_instance_api_instances__instance__patch"];
+        patch: operations["change_instance"];
         trace?: never;
     };
     "/api/instances/{instance}/binding": {
@@ -120,11 +120,11 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Binding
+         * What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other calls pass
          * @description What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other
          *     calls pass.
          */
-        get: operations["on_binding_api_instances__instance__binding_get"];
+        get: operations["get_instance_binding"];
         put?: never;
         post?: never;
         delete?: never;
@@ -143,10 +143,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Branch
+         * A new PLC that begins as this one was before a scan, or is now
          * @description A new PLC that begins as this one was before a scan, or is now.
          */
-        post: operations["on_branch_api_instances__instance__branch_post"];
+        post: operations["branch_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -161,10 +161,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Changes
-         * @description What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`.
+         * The variables that differ between the beginnings of scans `first` and `last`; with `other`, in that instance at `last`
+         * @description The variables that differ between the beginnings of scans `first` and `last`; with `other`, in that instance at `last`.
          */
-        get: operations["on_changes_api_instances__instance__changes_get"];
+        get: operations["get_instance_changes"];
         put?: never;
         post?: never;
         delete?: never;
@@ -181,16 +181,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Comparisons
+         * The comparisons of this run with others, the newest first
          * @description The comparisons of this run with others, the newest first.
          */
-        get: operations["on_comparisons_api_instances__instance__comparisons_get"];
+        get: operations["list_instance_comparisons"];
         put?: never;
         /**
-         * On Compare
-         * @description Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket.
+         * Compares this run (A) with a second one (B), scan by scan; progress comes by A's WebSocket
+         * @description Compares this run (A) with a second one (B), scan by scan; progress comes by A's WebSocket.
          */
-        post: operations["on_compare_api_instances__instance__comparisons_post"];
+        post: operations["create_instance_comparison"];
         delete?: never;
         options?: never;
         head?: never;
@@ -205,10 +205,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Complete
+         * At most 50 symbols whose path begins with the text
          * @description At most 50 symbols whose path begins with the text.
          */
-        get: operations["on_complete_api_instances__instance__complete_get"];
+        get: operations["complete_symbol"];
         put?: never;
         post?: never;
         delete?: never;
@@ -225,10 +225,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Coverage
+         * Statements and branches that were reached since coverage was switched on
          * @description Statements and branches that were reached since coverage was switched on.
          */
-        get: operations["on_coverage_api_instances__instance__coverage_get"];
+        get: operations["get_instance_coverage"];
         put?: never;
         post?: never;
         delete?: never;
@@ -245,10 +245,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Lcov
+         * The same as LCOV, for genhtml and CI
          * @description The same as LCOV, for genhtml and CI.
          */
-        get: operations["on_lcov_api_instances__instance__coverage_lcov_get"];
+        get: operations["get_instance_coverage_lcov"];
         put?: never;
         post?: never;
         delete?: never;
@@ -265,21 +265,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Disturbances
-         * @description Those that are not over, and those that never came about.
+         * Disturbances that are not over, and those that never took effect
+         * @description Disturbances that are not over, and those that never took effect.
          */
-        get: operations["on_disturbances_api_instances__instance__disturbances_get"];
+        get: operations["list_instance_disturbances"];
         put?: never;
         /**
-         * On Disturb
+         * Disturbs the PLC, now or when its time comes; the journal keeps it
          * @description Disturbs the PLC, now or when its time comes; the journal keeps it.
          */
-        post: operations["on_disturb_api_instances__instance__disturbances_post"];
+        post: operations["create_instance_disturbance"];
         /**
-         * On Calm All
-         * @description Takes all of them back.
+         * Withdraws all disturbances
+         * @description Withdraws all disturbances.
          */
-        delete: operations["on_calm_all_api_instances__instance__disturbances_delete"];
+        delete: operations["delete_instance_disturbances"];
         options?: never;
         head?: never;
         patch?: never;
@@ -296,10 +296,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Calm
-         * @description Takes one back.
+         * Withdraws a disturbance
+         * @description Withdraws a disturbance.
          */
-        delete: operations["on_calm_api_instances__instance__disturbances__disturbance__delete"];
+        delete: operations["delete_instance_disturbance"];
         options?: never;
         head?: never;
         patch?: never;
@@ -313,10 +313,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Errors
+         * The error history, in the order of the catalogue
          * @description The error history, in the order of the catalogue.
          */
-        get: operations["on_errors_api_instances__instance__errors_get"];
+        get: operations["list_instance_errors"];
         put?: never;
         post?: never;
         delete?: never;
@@ -333,10 +333,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Reaction
+         * How the program reacted to an error the last time it was raised here
          * @description How the program reacted to an error the last time it was raised here.
          */
-        get: operations["on_reaction_api_instances__instance__errors__error__reaction_get"];
+        get: operations["get_instance_error_reaction"];
         put?: never;
         post?: never;
         delete?: never;
@@ -355,10 +355,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Arm
+         * Errors that begin later, or come and go; the message begins with `armed N`, N is what `disarm` takes
          * @description Errors that begin later, or come and go; the message begins with `armed N`, N is what `disarm` takes.
          */
-        post: operations["on_arm_api_instances__instance__errors_arm_post"];
+        post: operations["arm_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -373,10 +373,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Armed
+         * The faults that are armed and not over
          * @description The faults that are armed and not over.
          */
-        get: operations["on_armed_api_instances__instance__errors_armed_get"];
+        get: operations["list_instance_errors_armed"];
         put?: never;
         post?: never;
         delete?: never;
@@ -395,10 +395,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Clear
+         * Clears errors as a tool does it on the device (FINS 2101)
          * @description Clears errors as a tool does it on the device (FINS 2101).
          */
-        post: operations["on_clear_api_instances__instance__errors_clear_post"];
+        post: operations["clear_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -415,10 +415,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Disarm
-         * @description Takes these faults back, or all; what they raised is recovered.
+         * Disarms these faults, or all; what they raised is recovered
+         * @description Disarms these faults, or all; what they raised is recovered.
          */
-        post: operations["on_disarm_api_instances__instance__errors_disarm_post"];
+        post: operations["disarm_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -435,10 +435,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Generate
+         * Raises errors, all in one seam, or none of them
          * @description Raises errors, all in one seam, or none of them.
          */
-        post: operations["on_generate_api_instances__instance__errors_generate_post"];
+        post: operations["generate_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -455,10 +455,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Clear Log
+         * Empties the PLC's own error log, as a tool does it on the device (FINS 2103)
          * @description Empties the PLC's own error log, as a tool does it on the device (FINS 2103).
          */
-        post: operations["on_clear_log_api_instances__instance__errors_log_clear_post"];
+        post: operations["clear_instance_error_log"];
         delete?: never;
         options?: never;
         head?: never;
@@ -475,10 +475,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Preview
+         * What raising these would write now; nothing is changed
          * @description What raising these would write now; nothing is changed.
          */
-        post: operations["on_preview_api_instances__instance__errors_preview_post"];
+        post: operations["preview_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -495,10 +495,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Recover
+         * Recovers these errors, or all that are generated
          * @description Recovers these errors, or all that are generated.
          */
-        post: operations["on_recover_api_instances__instance__errors_recover_post"];
+        post: operations["recover_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -513,10 +513,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export
+         * The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now
          * @description The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now.
          */
-        get: operations["on_export_api_instances__instance__export_get"];
+        get: operations["export_instance"];
         put?: never;
         post?: never;
         delete?: never;
@@ -535,10 +535,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New Flight
-         * @description Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket.
+         * Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket
+         * @description Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket.
          */
-        post: operations["on_new_flight_api_instances__instance__flights_post"];
+        post: operations["create_instance_flight"];
         delete?: never;
         options?: never;
         head?: never;
@@ -555,10 +555,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Force
+         * Holds a variable or an address at a value until it is released
          * @description Holds a variable or an address at a value until it is released.
          */
-        post: operations["on_force_api_instances__instance__force_post"];
+        post: operations["force_value"];
         delete?: never;
         options?: never;
         head?: never;
@@ -573,10 +573,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Forces
+         * The forces that hold
          * @description The forces that hold.
          */
-        get: operations["on_forces_api_instances__instance__forces_get"];
+        get: operations["list_instance_forces"];
         put?: never;
         post?: never;
         delete?: never;
@@ -593,10 +593,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On History
+         * The error history of a version, or of the one that runs
          * @description The error history of a version, or of the one that runs.
          */
-        get: operations["on_history_api_instances__instance__history_get"];
+        get: operations["get_instance_history"];
         put?: never;
         post?: never;
         delete?: never;
@@ -613,10 +613,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Versions
+         * The versions of the program that have an error history here, the newest first
          * @description The versions of the program that have an error history here, the newest first.
          */
-        get: operations["on_versions_api_instances__instance__history_versions_get"];
+        get: operations["list_instance_history_versions"];
         put?: never;
         post?: never;
         delete?: never;
@@ -633,10 +633,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Instances Of
+         * The instances of a POU in the running program, at most 1,000
          * @description The instances of a POU in the running program, at most 1,000.
          */
-        get: operations["on_instances_of_api_instances__instance__instances_of_get"];
+        get: operations["list_block_instances"];
         put?: never;
         post?: never;
         delete?: never;
@@ -653,10 +653,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Last Write
+         * Who last wrote a variable before `scan` began, or before what is shown now
          * @description Who last wrote a variable before `scan` began, or before what is shown now.
          */
-        get: operations["on_last_write_api_instances__instance__last_write_get"];
+        get: operations["get_instance_last_write"];
         put?: never;
         post?: never;
         delete?: never;
@@ -675,10 +675,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Mode
+         * Changes the mode
          * @description Changes the mode. MONITOR and RUN are refused while a fatal error is present.
          */
-        post: operations["on_mode_api_instances__instance__mode_post"];
+        post: operations["set_instance_mode"];
         delete?: never;
         options?: never;
         head?: never;
@@ -693,10 +693,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Model
+         * The model with the errors that the project added, as the program that runs knows it
          * @description The model with the errors that the project added, as the program that runs knows it.
          */
-        get: operations["on_model_api_instances__instance__model_get"];
+        get: operations["get_instance_model"];
         put?: never;
         post?: never;
         delete?: never;
@@ -713,10 +713,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Program
+         * The text of a program version that ran here: in the past the text is that of the scan
          * @description The text of a program version that ran here: in the past the text is that of the scan.
          */
-        get: operations["on_program_api_instances__instance__program_get"];
+        get: operations["get_instance_program"];
         put?: never;
         post?: never;
         delete?: never;
@@ -733,10 +733,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record
+         * The test record of a version, or of the one that runs: as a file, or as JSON
          * @description The test record of a version, or of the one that runs: as a file, or as JSON.
          */
-        get: operations["on_record_api_instances__instance__record_get"];
+        get: operations["get_instance_record"];
         put?: never;
         post?: never;
         delete?: never;
@@ -755,10 +755,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Release
+         * Ends a force, or all
          * @description Ends a force, or all.
          */
-        post: operations["on_release_api_instances__instance__release_post"];
+        post: operations["release_forces"];
         delete?: never;
         options?: never;
         head?: never;
@@ -775,10 +775,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Rerun
-         * @description The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket.
+         * Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket
+         * @description Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket.
          */
-        post: operations["on_rerun_api_instances__instance__reruns_post"];
+        post: operations["create_instance_rerun"];
         delete?: never;
         options?: never;
         head?: never;
@@ -795,10 +795,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Restart
-         * @description The program begins anew, in every mode; afterwards it runs.
+         * Restarts the program, in every mode; afterwards it runs
+         * @description Restarts the program, in every mode; afterwards it runs.
          */
-        post: operations["on_restart_api_instances__instance__restart_post"];
+        post: operations["restart_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -815,10 +815,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Run
+         * Lets the PLC run, pauses it, runs one scan
          * @description Lets the PLC run, pauses it, runs one scan. The answer comes when it is under way, not when it is done.
          */
-        post: operations["on_run_api_instances__instance__run_post"];
+        post: operations["run_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -835,10 +835,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New State
+         * Keeps the PLC as it was before a scan, or is now
          * @description Keeps the PLC as it was before a scan, or is now.
          */
-        post: operations["on_new_state_api_instances__instance__states_post"];
+        post: operations["create_instance_state"];
         delete?: never;
         options?: never;
         head?: never;
@@ -855,10 +855,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New Sweep
+         * Begins a sweep; progress comes by the WebSockets of the project's PLCs
          * @description Begins a sweep; progress comes by the WebSockets of the project's PLCs.
          */
-        post: operations["on_new_sweep_api_instances__instance__sweeps_post"];
+        post: operations["create_instance_sweep"];
         delete?: never;
         options?: never;
         head?: never;
@@ -873,11 +873,11 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Symbols
+         * The members below a path; programs and globals below ''
          * @description The members below a path; programs and globals below ''. With `offer` a path that is no variable (it is being typed)
          *     has none, instead of being refused.
          */
-        get: operations["on_symbols_api_instances__instance__symbols_get"];
+        get: operations["list_instance_symbols"];
         put?: never;
         post?: never;
         delete?: never;
@@ -896,10 +896,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Check Mapping
-         * @description Whether a trace file can be verified with this mapping, and if not, where it cannot.
+         * Whether a trace file can be verified with this mapping; if not, the places at which it cannot
+         * @description Whether a trace file can be verified with this mapping; if not, the places at which it cannot.
          */
-        post: operations["on_check_mapping_api_instances__instance__trace_check_post"];
+        post: operations["check_trace_mapping"];
         delete?: never;
         options?: never;
         head?: never;
@@ -916,10 +916,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New Trace Verification
-         * @description Verifies the trace of a real controller with the program that runs.
+         * Verifies a controller log with the program that runs
+         * @description Verifies a controller log with the program that runs.
          */
-        post: operations["on_new_trace_verification_api_instances__instance__trace_verifications_post"];
+        post: operations["create_instance_trace_verification"];
         delete?: never;
         options?: never;
         head?: never;
@@ -934,16 +934,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Traces
+         * The traces of an instance
          * @description The traces of an instance.
          */
-        get: operations["on_traces_api_instances__instance__traces_get"];
+        get: operations["list_instance_traces"];
         put?: never;
         /**
-         * On New Trace
+         * A new trace
          * @description A new trace.
          */
-        post: operations["on_new_trace_api_instances__instance__traces_post"];
+        post: operations["create_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -959,17 +959,17 @@ export interface paths {
         };
         get?: never;
         /**
-         * On Define Trace
-         * @description Another definition for a trace; what was recorded is forgotten. Without `start`, other signals leave what was recorded
+         * Changes the definition of a trace, and discards what it recorded
+         * @description Changes the definition of a trace, and discards what it recorded. Without `start`, other signals leave what was recorded
          *     of those that stay, and another name leaves everything.
          */
-        put: operations["on_define_trace_api_instances__instance__traces__trace__put"];
+        put: operations["save_instance_trace"];
         post?: never;
         /**
-         * On Delete Trace
-         * @description Forgets a trace and what it recorded.
+         * Deletes a trace and what it recorded
+         * @description Deletes a trace and what it recorded.
          */
-        delete: operations["on_delete_trace_api_instances__instance__traces__trace__delete"];
+        delete: operations["delete_instance_trace"];
         options?: never;
         head?: never;
         patch?: never;
@@ -983,10 +983,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Csv
+         * Every sample of these scans, as CSV
          * @description Every sample of these scans, as CSV.
          */
-        get: operations["on_csv_api_instances__instance__traces__trace__csv_get"];
+        get: operations["get_instance_trace_csv"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1005,10 +1005,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Keep
+         * Keeps what a trace has recorded until now, in the project
          * @description Keeps what a trace has recorded until now, in the project.
          */
-        post: operations["on_keep_api_instances__instance__traces__trace__keep_post"];
+        post: operations["keep_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1023,10 +1023,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Samples
+         * Samples of scans `first` to `last`, as bytes; where there are more than `points`, the least and greatest of stretches
          * @description Samples of scans `first` to `last`, as bytes; where there are more than `points`, the least and greatest of stretches.
          */
-        get: operations["on_samples_api_instances__instance__traces__trace__samples_get"];
+        get: operations["get_instance_trace_samples"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1045,10 +1045,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Start Trace
-         * @description Records anew; arms a trace with a trigger again.
+         * Starts recording again; arms a trace that has a trigger
+         * @description Starts recording again; arms a trace that has a trigger.
          */
-        post: operations["on_start_trace_api_instances__instance__traces__trace__start_post"];
+        post: operations["start_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1065,10 +1065,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Stop Trace
-         * @description Records no more; what was recorded stays.
+         * Stops recording; what was recorded is kept
+         * @description Stops recording; what was recorded is kept.
          */
-        post: operations["on_stop_trace_api_instances__instance__traces__trace__stop_post"];
+        post: operations["stop_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1083,10 +1083,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Read
+         * The value of a variable, an address or an expression: `Main.level`, `D100`, `Main.level > 3 AND motor`
          * @description The value of a variable, an address or an expression: `Main.level`, `D100`, `Main.level > 3 AND motor`.
          */
-        get: operations["on_read_api_instances__instance__value_get"];
+        get: operations["get_instance_value"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1103,16 +1103,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Verifications
+         * The verifications of an instance, the oldest first
          * @description The verifications of an instance, the oldest first.
          */
-        get: operations["on_verifications_api_instances__instance__verifications_get"];
+        get: operations["list_instance_verifications"];
         put?: never;
         /**
-         * On New Verification
-         * @description Begins to verify, live or a stretch of the past; how it goes on comes by the instance's WebSocket.
+         * Begins to verify, live or a stretch of the past; progress comes by the instance's WebSocket
+         * @description Begins to verify, live or a stretch of the past; progress comes by the instance's WebSocket.
          */
-        post: operations["on_new_verification_api_instances__instance__verifications_post"];
+        post: operations["create_instance_verification"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1129,10 +1129,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Write
+         * Writes a variable or an address, with the rights of a tool: error memory is read-only here
          * @description Writes a variable or an address, with the rights of a tool: error memory is read-only here.
          */
-        post: operations["on_write_api_instances__instance__write_post"];
+        post: operations["write_value"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1149,11 +1149,11 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Import
+         * A new PLC, with a project of the same name, that goes on with an exported run; the body is the file
          * @description A new PLC, with a project of the same name, that goes on with an exported run; the body is the file. Of a damaged file
          *     what comes before the damage is taken, and `damage` says what is lost.
          */
-        post: operations["on_import_api_instances_import_post"];
+        post: operations["import_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1168,10 +1168,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Models
+         * Every model
          * @description Every model.
          */
-        get: operations["on_models_api_models_get"];
+        get: operations["list_models"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1188,10 +1188,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Model
+         * Memory areas and error catalogue of a model
          * @description Memory areas and error catalogue of a model.
          */
-        get: operations["on_model_api_models__name__get"];
+        get: operations["get_model"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1208,16 +1208,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Projects
+         * Every project, by name
          * @description Every project, by name.
          */
-        get: operations["on_projects_api_projects_get"];
+        get: operations["list_projects"];
         put?: never;
         /**
-         * On New Project
+         * An empty project on a model
          * @description An empty project on a model.
          */
-        post: operations["on_new_project_api_projects_post"];
+        post: operations["create_project"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1235,10 +1235,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete Project
+         * Deletes a project that no instance runs
          * @description Deletes a project that no instance runs.
          */
-        delete: operations["on_delete_project_api_projects__project__delete"];
+        delete: operations["delete_project"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1254,10 +1254,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Build
-         * @description Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew.
+         * Builds what is saved, and swaps it into the project's instances; asks first where variables would be reset
+         * @description Builds what is saved, and swaps it into the project's instances; asks first where variables would be reset.
          */
-        post: operations["on_build_api_projects__project__build_post"];
+        post: operations["build_project"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1274,10 +1274,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Check
+         * Checks the project with texts that are not saved yet; stores nothing
          * @description Checks the project with texts that are not saved yet; stores nothing.
          */
-        post: operations["on_check_api_projects__project__check_post"];
+        post: operations["check_project"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1292,10 +1292,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Files
+         * The files of a project
          * @description The files of a project.
          */
-        get: operations["on_files_api_projects__project__files_get"];
+        get: operations["list_project_files"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1312,21 +1312,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On File
+         * One file with its text
          * @description One file with its text.
          */
-        get: operations["on_file_api_projects__project__files__path__get"];
+        get: operations["get_project_file"];
         /**
-         * On Save File
+         * Saves a file, if nobody else did since it was read
          * @description Saves a file, if nobody else did since it was read.
          */
-        put: operations["on_save_file_api_projects__project__files__path__put"];
+        put: operations["save_project_file"];
         post?: never;
         /**
-         * On Delete File
+         * Deletes a file
          * @description Deletes a file.
          */
-        delete: operations["on_delete_file_api_projects__project__files__path__delete"];
+        delete: operations["delete_project_file"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1340,16 +1340,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Records
-         * @description The test records that were brought in, the newest first.
+         * The imported test records, the newest first
+         * @description The imported test records, the newest first.
          */
-        get: operations["on_records_api_projects__project__records_get"];
+        get: operations["list_project_records"];
         put?: never;
         /**
-         * On Import
-         * @description Keeps a test record from elsewhere; the body is its XML.
+         * Imports a test record; the body is its XML
+         * @description Imports a test record; the body is its XML.
          */
-        post: operations["on_import_api_projects__project__records_post"];
+        post: operations["import_project_record"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1364,17 +1364,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Imported
-         * @description A test record that was brought in: as a file, or as JSON.
+         * An imported test record: as a file, or as JSON
+         * @description An imported test record: as a file, or as JSON.
          */
-        get: operations["on_imported_api_projects__project__records__record__get"];
+        get: operations["get_project_record"];
         put?: never;
         post?: never;
         /**
-         * On Delete
-         * @description Forgets a test record that was brought in.
+         * Deletes an imported test record
+         * @description Deletes an imported test record.
          */
-        delete: operations["on_delete_api_projects__project__records__record__delete"];
+        delete: operations["delete_project_record"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1388,10 +1388,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On States
+         * The states that somebody kept
          * @description The states that somebody kept.
          */
-        get: operations["on_states_api_projects__project__states_get"];
+        get: operations["list_project_states"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1408,10 +1408,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Sweeps
+         * The sweeps of a project, the newest first
          * @description The sweeps of a project, the newest first.
          */
-        get: operations["on_sweeps_api_projects__project__sweeps_get"];
+        get: operations["list_project_sweeps"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1428,16 +1428,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Mappings
+         * The mappings that were saved in a project
          * @description The mappings that were saved in a project.
          */
-        get: operations["on_mappings_api_projects__project__trace_mappings_get"];
+        get: operations["list_project_trace_mappings"];
         put?: never;
         /**
-         * On Save Mapping
+         * Saves a mapping under a name; one of the same name is replaced
          * @description Saves a mapping under a name; one of the same name is replaced.
          */
-        post: operations["on_save_mapping_api_projects__project__trace_mappings_post"];
+        post: operations["save_project_trace_mapping"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1452,10 +1452,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Records
+         * The kept records of a project, the newest first
          * @description The kept records of a project, the newest first.
          */
-        get: operations["on_records_api_projects__project__trace_records_get"];
+        get: operations["list_project_trace_records"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1474,10 +1474,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Upload
+         * A trace file (see docs/trace-format.md); the body is the file
          * @description A trace file (see docs/trace-format.md); the body is the file.
          */
-        post: operations["on_upload_api_projects__project__traces_post"];
+        post: operations["upload_project_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1492,15 +1492,15 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On User Errors
+         * The project's own errors
          * @description The project's own errors.
          */
-        get: operations["on_user_errors_api_projects__project__user_errors_get"];
+        get: operations["get_project_user_errors"];
         /**
-         * On Save User Errors
+         * Writes them all to errors.xml, if nothing is wrong with them and nobody else saved since they were read
          * @description Writes them all to errors.xml, if nothing is wrong with them and nobody else saved since they were read.
          */
-        put: operations["on_save_user_errors_api_projects__project__user_errors_put"];
+        put: operations["save_project_user_errors"];
         post?: never;
         delete?: never;
         options?: never;
@@ -1518,10 +1518,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Check User Errors
+         * What is wrong with errors that are being edited; stores nothing
          * @description What is wrong with errors that are being edited; stores nothing.
          */
-        post: operations["on_check_user_errors_api_projects__project__user_errors_check_post"];
+        post: operations["check_project_user_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1536,10 +1536,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export User Errors
+         * The file errors.xml
          * @description The file errors.xml.
          */
-        get: operations["on_export_user_errors_api_projects__project__user_errors_export_get"];
+        get: operations["export_project_user_errors"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1558,10 +1558,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Import User Errors
+         * Takes the errors of a file, which is the body, in place of the project's own or in addition to them
          * @description Takes the errors of a file, which is the body, in place of the project's own or in addition to them.
          */
-        post: operations["on_import_user_errors_api_projects__project__user_errors_import_post"];
+        post: operations["import_project_user_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1576,10 +1576,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Records
-         * @description What was kept in a project, the newest first.
+         * The kept verifications of a project, the newest first
+         * @description The kept verifications of a project, the newest first.
          */
-        get: operations["on_records_api_projects__project__verification_records_get"];
+        get: operations["list_project_verification_records"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1596,16 +1596,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Watch Lists
-         * @description The lists that this user sees: shared ones and the user's own, by name.
+         * The lists that the user sees: shared ones and the user's own, by name
+         * @description The lists that the user sees: shared ones and the user's own, by name.
          */
-        get: operations["on_watch_lists_api_projects__project__watch_lists_get"];
+        get: operations["list_project_watch_lists"];
         put?: never;
         /**
-         * On New Watch List
+         * A new list
          * @description A new list.
          */
-        post: operations["on_new_watch_list_api_projects__project__watch_lists_post"];
+        post: operations["create_project_watch_list"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1623,10 +1623,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Cancel Rerun
-         * @description Cancels a replay that is under way.
+         * Cancels a replay
+         * @description Cancels a replay.
          */
-        delete: operations["on_cancel_rerun_api_reruns__rerun__delete"];
+        delete: operations["delete_rerun"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1643,10 +1643,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete State
-         * @description Forgets a state; sweeps that began there keep their results.
+         * Deletes a state; sweeps that began there keep their results
+         * @description Deletes a state; sweeps that began there keep their results.
          */
-        delete: operations["on_delete_state_api_states__state__delete"];
+        delete: operations["delete_state"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1660,10 +1660,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Compare
-         * @description What became better or worse from one sweep to another: of two versions, or of two models.
+         * What became better or worse from one sweep to the next: of two versions, or of two models
+         * @description What became better or worse from one sweep to the next: of two versions, or of two models.
          */
-        get: operations["on_compare_api_sweeps__before__compare__after__get"];
+        get: operations["compare_sweeps"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1680,17 +1680,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Sweep
+         * A sweep with all its cells
          * @description A sweep with all its cells.
          */
-        get: operations["on_sweep_api_sweeps__sweep__get"];
+        get: operations["get_sweep"];
         put?: never;
         post?: never;
         /**
-         * On Delete Sweep
-         * @description Forgets a sweep; one that runs is cancelled.
+         * Deletes a sweep; one that is running is cancelled
+         * @description Deletes a sweep; one that is running is cancelled.
          */
-        delete: operations["on_delete_sweep_api_sweeps__sweep__delete"];
+        delete: operations["delete_sweep"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1706,10 +1706,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Accept
-         * @description Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record.
+         * Accepts a finding with a reason, for this and later sweeps of the project; the test record lists it
+         * @description Accepts a finding with a reason, for this and later sweeps of the project; the test record lists it.
          */
-        post: operations["on_accept_api_sweeps__sweep__accept_post"];
+        post: operations["accept_sweep_finding"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1726,10 +1726,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Cancel
+         * Stops a sweep; what it found is kept, and it can be resumed
          * @description Stops a sweep; what it found is kept, and it can be resumed.
          */
-        post: operations["on_cancel_api_sweeps__sweep__cancel_post"];
+        post: operations["cancel_sweep"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1746,10 +1746,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Open
+         * A new PLC in this state with this error raised, paused: to look at what the sweep saw
          * @description A new PLC in this state with this error raised, paused: to look at what the sweep saw.
          */
-        post: operations["on_open_api_sweeps__sweep__open_post"];
+        post: operations["open_sweep_case"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1766,10 +1766,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Cell
-         * @description All that was found out about one cell.
+         * The whole result of one cell
+         * @description The whole result of one cell.
          */
-        post: operations["on_cell_api_sweeps__sweep__reaction_post"];
+        post: operations["get_sweep_reaction"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1786,10 +1786,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Resume
-         * @description Goes on with the cells that are missing.
+         * Continues with the cells that are missing
+         * @description Continues with the cells that are missing.
          */
-        post: operations["on_resume_api_sweeps__sweep__resume_post"];
+        post: operations["resume_sweep"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1806,10 +1806,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Withdraw
-         * @description The finding is accepted no more.
+         * Withdraws the acceptance of a finding
+         * @description Withdraws the acceptance of a finding.
          */
-        post: operations["on_withdraw_api_sweeps__sweep__withdraw_post"];
+        post: operations["withdraw_sweep_finding"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1827,10 +1827,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete Mapping
-         * @description Forgets a mapping.
+         * Deletes a mapping
+         * @description Deletes a mapping.
          */
-        delete: operations["on_delete_mapping_api_trace_mappings__mapping__delete"];
+        delete: operations["delete_trace_mapping"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1844,17 +1844,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record
+         * A kept record
          * @description A kept record.
          */
-        get: operations["on_record_api_trace_records__record__get"];
+        get: operations["get_trace_record"];
         put?: never;
         post?: never;
         /**
-         * On Delete Record
-         * @description Forgets a kept record.
+         * Deletes a kept record
+         * @description Deletes a kept record.
          */
-        delete: operations["on_delete_record_api_trace_records__record__delete"];
+        delete: operations["delete_trace_record"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1868,10 +1868,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record Csv
+         * Every sample of these scans of a kept record, as CSV
          * @description Every sample of these scans of a kept record, as CSV.
          */
-        get: operations["on_record_csv_api_trace_records__record__csv_get"];
+        get: operations["get_trace_record_csv"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1888,10 +1888,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record Samples
+         * Samples of a kept record, as those of a trace
          * @description Samples of a kept record, as those of a trace.
          */
-        get: operations["on_record_samples_api_trace_records__record__samples_get"];
+        get: operations["get_trace_record_samples"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1908,17 +1908,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record
-         * @description One that was kept.
+         * A kept verification
+         * @description A kept verification.
          */
-        get: operations["on_record_api_verification_records__record__get"];
+        get: operations["get_verification_record"];
         put?: never;
         post?: never;
         /**
-         * On Delete Record
-         * @description Forgets one that was kept.
+         * Deletes a kept verification
+         * @description Deletes a kept verification.
          */
-        delete: operations["on_delete_record_api_verification_records__record__delete"];
+        delete: operations["delete_verification_record"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1932,10 +1932,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export Record
+         * Its rows as a file
          * @description Its rows as a file.
          */
-        get: operations["on_export_record_api_verification_records__record__export_get"];
+        get: operations["export_verification_record"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1952,10 +1952,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record Rows
+         * Its rows, as those of a verification
          * @description Its rows, as those of a verification.
          */
-        get: operations["on_record_rows_api_verification_records__record__rows_get"];
+        get: operations["get_verification_record_rows"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1975,17 +1975,17 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete
-         * @description Ends a verification, and forgets its rows.
+         * Ends a verification and deletes its rows
+         * @description Ends a verification and deletes its rows.
          */
-        delete: operations["on_delete_api_verifications__verification__delete"];
+        delete: operations["delete_verification"];
         options?: never;
         head?: never;
         /**
-         * On Drive
-         * @description Another pace or memory; one further; stopped, or resumed.
+         * Changes pace or memory of a verification; steps, pauses or resumes it
+         * @description Changes pace or memory of a verification; steps, pauses or resumes it.
          */
-        patch: operations["on_drive_api_verifications__verification__patch"];
+        patch: operations["drive_verification"];
         trace?: never;
     };
     "/api/verifications/{verification}/cells": {
@@ -1998,10 +1998,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Cells
+         * Edits inputs of the set data; the monitor runs those passes again
          * @description Edits inputs of the set data; the monitor runs those passes again.
          */
-        post: operations["on_cells_api_verifications__verification__cells_post"];
+        post: operations["get_verification_cells"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2016,10 +2016,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export
+         * All rows that are kept, as a file
          * @description All rows that are kept, as a file.
          */
-        get: operations["on_export_api_verifications__verification__export_get"];
+        get: operations["export_verification"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2038,10 +2038,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Keep
+         * Keeps a verification in the project, as it is now
          * @description Keeps a verification in the project, as it is now.
          */
-        post: operations["on_keep_api_verifications__verification__keep_post"];
+        post: operations["keep_verification"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2056,10 +2056,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Rows
+         * Rows from index `first` on; with `differing` only those that differ count
          * @description Rows from index `first` on; with `differing` only those that differ count.
          */
-        get: operations["on_rows_api_verifications__verification__rows_get"];
+        get: operations["get_verification_rows"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2076,10 +2076,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Uses
+         * The used-variable record of one row, in the order of use
          * @description The used-variable record of one row, in the order of use.
          */
-        get: operations["on_uses_api_verifications__verification__uses_get"];
+        get: operations["list_verification_uses"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2096,21 +2096,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Watch List
+         * One list
          * @description One list.
          */
-        get: operations["on_watch_list_api_watch_lists__id__get"];
+        get: operations["get_watch_list"];
         /**
-         * On Save Watch List
+         * Saves it whole, if nobody else saved since it was read
          * @description Saves it whole, if nobody else saved since it was read.
          */
-        put: operations["on_save_watch_list_api_watch_lists__id__put"];
+        put: operations["save_watch_list"];
         post?: never;
         /**
-         * On Delete Watch List
-         * @description Forgets it.
+         * Deletes a list
+         * @description Deletes a list.
          */
-        delete: operations["on_delete_watch_list_api_watch_lists__id__delete"];
+        delete: operations["delete_watch_list"];
         options?: never;
         head?: never;
         patch?: never;
@@ -6782,7 +6782,7 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
-    on_app_api_get: {
+    get_server: {
         parameters: {
             query?: never;
             header?: never;
@@ -6811,7 +6811,7 @@ export interface operations {
             };
         };
     };
-    on_delete_comparison_api_comparisons__comparison__delete: {
+    delete_comparison: {
         parameters: {
             query?: never;
             header?: never;
@@ -6840,7 +6840,7 @@ export interface operations {
             };
         };
     };
-    on_cancel_flight_api_flights__flight__delete: {
+    delete_flight: {
         parameters: {
             query?: never;
             header?: never;
@@ -6869,7 +6869,7 @@ export interface operations {
             };
         };
     };
-    on_instances_api_instances_get: {
+    list_instances: {
         parameters: {
             query?: never;
             header?: never;
@@ -6898,7 +6898,7 @@ export interface operations {
             };
         };
     };
-    on_new_instance_api_instances_post: {
+    create_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6931,7 +6931,7 @@ export interface operations {
             };
         };
     };
-    on_instance_api_instances__instance__get: {
+    get_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6962,7 +6962,7 @@ export interface operations {
             };
         };
     };
-    on_delete_instance_api_instances__instance__delete: {
+    delete_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6991,7 +6991,7 @@ export interface operations {
             };
         };
     };
-    on_change_instance_api_instances__instance__patch: {
+    change_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -7026,7 +7026,7 @@ export interface operations {
             };
         };
     };
-    on_binding_api_instances__instance__binding_get: {
+    get_instance_binding: {
         parameters: {
             query: {
                 path: string;
@@ -7059,7 +7059,7 @@ export interface operations {
             };
         };
     };
-    on_branch_api_instances__instance__branch_post: {
+    branch_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -7094,7 +7094,7 @@ export interface operations {
             };
         };
     };
-    on_changes_api_instances__instance__changes_get: {
+    get_instance_changes: {
         parameters: {
             query: {
                 first: number;
@@ -7129,7 +7129,7 @@ export interface operations {
             };
         };
     };
-    on_comparisons_api_instances__instance__comparisons_get: {
+    list_instance_comparisons: {
         parameters: {
             query?: never;
             header?: never;
@@ -7160,7 +7160,7 @@ export interface operations {
             };
         };
     };
-    on_compare_api_instances__instance__comparisons_post: {
+    create_instance_comparison: {
         parameters: {
             query?: never;
             header?: never;
@@ -7195,7 +7195,7 @@ export interface operations {
             };
         };
     };
-    on_complete_api_instances__instance__complete_get: {
+    complete_symbol: {
         parameters: {
             query?: {
                 text?: string;
@@ -7228,7 +7228,7 @@ export interface operations {
             };
         };
     };
-    on_coverage_api_instances__instance__coverage_get: {
+    get_instance_coverage: {
         parameters: {
             query?: never;
             header?: never;
@@ -7259,7 +7259,7 @@ export interface operations {
             };
         };
     };
-    on_lcov_api_instances__instance__coverage_lcov_get: {
+    get_instance_coverage_lcov: {
         parameters: {
             query?: never;
             header?: never;
@@ -7290,7 +7290,7 @@ export interface operations {
             };
         };
     };
-    on_disturbances_api_instances__instance__disturbances_get: {
+    list_instance_disturbances: {
         parameters: {
             query?: never;
             header?: never;
@@ -7321,7 +7321,7 @@ export interface operations {
             };
         };
     };
-    on_disturb_api_instances__instance__disturbances_post: {
+    create_instance_disturbance: {
         parameters: {
             query?: never;
             header?: never;
@@ -7356,7 +7356,7 @@ export interface operations {
             };
         };
     };
-    on_calm_all_api_instances__instance__disturbances_delete: {
+    delete_instance_disturbances: {
         parameters: {
             query?: never;
             header?: never;
@@ -7387,7 +7387,7 @@ export interface operations {
             };
         };
     };
-    on_calm_api_instances__instance__disturbances__disturbance__delete: {
+    delete_instance_disturbance: {
         parameters: {
             query?: never;
             header?: never;
@@ -7419,7 +7419,7 @@ export interface operations {
             };
         };
     };
-    on_errors_api_instances__instance__errors_get: {
+    list_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7450,7 +7450,7 @@ export interface operations {
             };
         };
     };
-    on_reaction_api_instances__instance__errors__error__reaction_get: {
+    get_instance_error_reaction: {
         parameters: {
             query?: never;
             header?: never;
@@ -7482,7 +7482,7 @@ export interface operations {
             };
         };
     };
-    on_arm_api_instances__instance__errors_arm_post: {
+    arm_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7517,7 +7517,7 @@ export interface operations {
             };
         };
     };
-    on_armed_api_instances__instance__errors_armed_get: {
+    list_instance_errors_armed: {
         parameters: {
             query?: never;
             header?: never;
@@ -7548,7 +7548,7 @@ export interface operations {
             };
         };
     };
-    on_clear_api_instances__instance__errors_clear_post: {
+    clear_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7583,7 +7583,7 @@ export interface operations {
             };
         };
     };
-    on_disarm_api_instances__instance__errors_disarm_post: {
+    disarm_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7618,7 +7618,7 @@ export interface operations {
             };
         };
     };
-    on_generate_api_instances__instance__errors_generate_post: {
+    generate_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7653,7 +7653,7 @@ export interface operations {
             };
         };
     };
-    on_clear_log_api_instances__instance__errors_log_clear_post: {
+    clear_instance_error_log: {
         parameters: {
             query?: never;
             header?: never;
@@ -7684,7 +7684,7 @@ export interface operations {
             };
         };
     };
-    on_preview_api_instances__instance__errors_preview_post: {
+    preview_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7719,7 +7719,7 @@ export interface operations {
             };
         };
     };
-    on_recover_api_instances__instance__errors_recover_post: {
+    recover_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7754,7 +7754,7 @@ export interface operations {
             };
         };
     };
-    on_export_api_instances__instance__export_get: {
+    export_instance: {
         parameters: {
             query?: {
                 scan?: number | null;
@@ -7785,7 +7785,7 @@ export interface operations {
             };
         };
     };
-    on_new_flight_api_instances__instance__flights_post: {
+    create_instance_flight: {
         parameters: {
             query?: never;
             header?: never;
@@ -7820,7 +7820,7 @@ export interface operations {
             };
         };
     };
-    on_force_api_instances__instance__force_post: {
+    force_value: {
         parameters: {
             query?: never;
             header?: never;
@@ -7855,7 +7855,7 @@ export interface operations {
             };
         };
     };
-    on_forces_api_instances__instance__forces_get: {
+    list_instance_forces: {
         parameters: {
             query?: never;
             header?: never;
@@ -7886,7 +7886,7 @@ export interface operations {
             };
         };
     };
-    on_history_api_instances__instance__history_get: {
+    get_instance_history: {
         parameters: {
             query?: {
                 version?: number | null;
@@ -7919,7 +7919,7 @@ export interface operations {
             };
         };
     };
-    on_versions_api_instances__instance__history_versions_get: {
+    list_instance_history_versions: {
         parameters: {
             query?: never;
             header?: never;
@@ -7950,7 +7950,7 @@ export interface operations {
             };
         };
     };
-    on_instances_of_api_instances__instance__instances_of_get: {
+    list_block_instances: {
         parameters: {
             query: {
                 pou: string;
@@ -7983,7 +7983,7 @@ export interface operations {
             };
         };
     };
-    on_last_write_api_instances__instance__last_write_get: {
+    get_instance_last_write: {
         parameters: {
             query: {
                 path: string;
@@ -8017,7 +8017,7 @@ export interface operations {
             };
         };
     };
-    on_mode_api_instances__instance__mode_post: {
+    set_instance_mode: {
         parameters: {
             query?: never;
             header?: never;
@@ -8052,7 +8052,7 @@ export interface operations {
             };
         };
     };
-    on_model_api_instances__instance__model_get: {
+    get_instance_model: {
         parameters: {
             query?: never;
             header?: never;
@@ -8083,7 +8083,7 @@ export interface operations {
             };
         };
     };
-    on_program_api_instances__instance__program_get: {
+    get_instance_program: {
         parameters: {
             query: {
                 version: number;
@@ -8116,7 +8116,7 @@ export interface operations {
             };
         };
     };
-    on_record_api_instances__instance__record_get: {
+    get_instance_record: {
         parameters: {
             query?: {
                 format?: "csv" | "xml" | "html" | "json";
@@ -8151,7 +8151,7 @@ export interface operations {
             };
         };
     };
-    on_release_api_instances__instance__release_post: {
+    release_forces: {
         parameters: {
             query?: never;
             header?: never;
@@ -8186,7 +8186,7 @@ export interface operations {
             };
         };
     };
-    on_rerun_api_instances__instance__reruns_post: {
+    create_instance_rerun: {
         parameters: {
             query?: never;
             header?: never;
@@ -8221,7 +8221,7 @@ export interface operations {
             };
         };
     };
-    on_restart_api_instances__instance__restart_post: {
+    restart_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -8256,7 +8256,7 @@ export interface operations {
             };
         };
     };
-    on_run_api_instances__instance__run_post: {
+    run_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -8291,7 +8291,7 @@ export interface operations {
             };
         };
     };
-    on_new_state_api_instances__instance__states_post: {
+    create_instance_state: {
         parameters: {
             query?: never;
             header?: never;
@@ -8326,7 +8326,7 @@ export interface operations {
             };
         };
     };
-    on_new_sweep_api_instances__instance__sweeps_post: {
+    create_instance_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -8361,7 +8361,7 @@ export interface operations {
             };
         };
     };
-    on_symbols_api_instances__instance__symbols_get: {
+    list_instance_symbols: {
         parameters: {
             query?: {
                 offer?: boolean;
@@ -8395,7 +8395,7 @@ export interface operations {
             };
         };
     };
-    on_check_mapping_api_instances__instance__trace_check_post: {
+    check_trace_mapping: {
         parameters: {
             query?: never;
             header?: never;
@@ -8430,7 +8430,7 @@ export interface operations {
             };
         };
     };
-    on_new_trace_verification_api_instances__instance__trace_verifications_post: {
+    create_instance_trace_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -8465,7 +8465,7 @@ export interface operations {
             };
         };
     };
-    on_traces_api_instances__instance__traces_get: {
+    list_instance_traces: {
         parameters: {
             query?: never;
             header?: never;
@@ -8496,7 +8496,7 @@ export interface operations {
             };
         };
     };
-    on_new_trace_api_instances__instance__traces_post: {
+    create_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8531,7 +8531,7 @@ export interface operations {
             };
         };
     };
-    on_define_trace_api_instances__instance__traces__trace__put: {
+    save_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8567,7 +8567,7 @@ export interface operations {
             };
         };
     };
-    on_delete_trace_api_instances__instance__traces__trace__delete: {
+    delete_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8597,7 +8597,7 @@ export interface operations {
             };
         };
     };
-    on_csv_api_instances__instance__traces__trace__csv_get: {
+    get_instance_trace_csv: {
         parameters: {
             query?: {
                 first?: number;
@@ -8630,7 +8630,7 @@ export interface operations {
             };
         };
     };
-    on_keep_api_instances__instance__traces__trace__keep_post: {
+    keep_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8666,7 +8666,7 @@ export interface operations {
             };
         };
     };
-    on_samples_api_instances__instance__traces__trace__samples_get: {
+    get_instance_trace_samples: {
         parameters: {
             query?: {
                 first?: number;
@@ -8700,7 +8700,7 @@ export interface operations {
             };
         };
     };
-    on_start_trace_api_instances__instance__traces__trace__start_post: {
+    start_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8732,7 +8732,7 @@ export interface operations {
             };
         };
     };
-    on_stop_trace_api_instances__instance__traces__trace__stop_post: {
+    stop_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8764,7 +8764,7 @@ export interface operations {
             };
         };
     };
-    on_read_api_instances__instance__value_get: {
+    get_instance_value: {
         parameters: {
             query: {
                 path: string;
@@ -8797,7 +8797,7 @@ export interface operations {
             };
         };
     };
-    on_verifications_api_instances__instance__verifications_get: {
+    list_instance_verifications: {
         parameters: {
             query?: never;
             header?: never;
@@ -8828,7 +8828,7 @@ export interface operations {
             };
         };
     };
-    on_new_verification_api_instances__instance__verifications_post: {
+    create_instance_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -8863,7 +8863,7 @@ export interface operations {
             };
         };
     };
-    on_write_api_instances__instance__write_post: {
+    write_value: {
         parameters: {
             query?: never;
             header?: never;
@@ -8898,7 +8898,7 @@ export interface operations {
             };
         };
     };
-    on_import_api_instances_import_post: {
+    import_instance: {
         parameters: {
             query: {
                 name: string;
@@ -8929,7 +8929,7 @@ export interface operations {
             };
         };
     };
-    on_models_api_models_get: {
+    list_models: {
         parameters: {
             query?: never;
             header?: never;
@@ -8958,7 +8958,7 @@ export interface operations {
             };
         };
     };
-    on_model_api_models__name__get: {
+    get_model: {
         parameters: {
             query?: never;
             header?: never;
@@ -8989,7 +8989,7 @@ export interface operations {
             };
         };
     };
-    on_projects_api_projects_get: {
+    list_projects: {
         parameters: {
             query?: never;
             header?: never;
@@ -9018,7 +9018,7 @@ export interface operations {
             };
         };
     };
-    on_new_project_api_projects_post: {
+    create_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -9051,7 +9051,7 @@ export interface operations {
             };
         };
     };
-    on_delete_project_api_projects__project__delete: {
+    delete_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -9080,7 +9080,7 @@ export interface operations {
             };
         };
     };
-    on_build_api_projects__project__build_post: {
+    build_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -9115,7 +9115,7 @@ export interface operations {
             };
         };
     };
-    on_check_api_projects__project__check_post: {
+    check_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -9150,7 +9150,7 @@ export interface operations {
             };
         };
     };
-    on_files_api_projects__project__files_get: {
+    list_project_files: {
         parameters: {
             query?: never;
             header?: never;
@@ -9181,7 +9181,7 @@ export interface operations {
             };
         };
     };
-    on_file_api_projects__project__files__path__get: {
+    get_project_file: {
         parameters: {
             query?: never;
             header?: never;
@@ -9213,7 +9213,7 @@ export interface operations {
             };
         };
     };
-    on_save_file_api_projects__project__files__path__put: {
+    save_project_file: {
         parameters: {
             query?: never;
             header?: never;
@@ -9258,7 +9258,7 @@ export interface operations {
             };
         };
     };
-    on_delete_file_api_projects__project__files__path__delete: {
+    delete_project_file: {
         parameters: {
             query?: never;
             header?: never;
@@ -9288,7 +9288,7 @@ export interface operations {
             };
         };
     };
-    on_records_api_projects__project__records_get: {
+    list_project_records: {
         parameters: {
             query?: never;
             header?: never;
@@ -9319,7 +9319,7 @@ export interface operations {
             };
         };
     };
-    on_import_api_projects__project__records_post: {
+    import_project_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -9350,7 +9350,7 @@ export interface operations {
             };
         };
     };
-    on_imported_api_projects__project__records__record__get: {
+    get_project_record: {
         parameters: {
             query?: {
                 format?: "csv" | "xml" | "html" | "json";
@@ -9385,7 +9385,7 @@ export interface operations {
             };
         };
     };
-    on_delete_api_projects__project__records__record__delete: {
+    delete_project_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -9415,7 +9415,7 @@ export interface operations {
             };
         };
     };
-    on_states_api_projects__project__states_get: {
+    list_project_states: {
         parameters: {
             query?: never;
             header?: never;
@@ -9446,7 +9446,7 @@ export interface operations {
             };
         };
     };
-    on_sweeps_api_projects__project__sweeps_get: {
+    list_project_sweeps: {
         parameters: {
             query?: never;
             header?: never;
@@ -9477,7 +9477,7 @@ export interface operations {
             };
         };
     };
-    on_mappings_api_projects__project__trace_mappings_get: {
+    list_project_trace_mappings: {
         parameters: {
             query?: never;
             header?: never;
@@ -9508,7 +9508,7 @@ export interface operations {
             };
         };
     };
-    on_save_mapping_api_projects__project__trace_mappings_post: {
+    save_project_trace_mapping: {
         parameters: {
             query?: never;
             header?: never;
@@ -9543,7 +9543,7 @@ export interface operations {
             };
         };
     };
-    on_records_api_projects__project__trace_records_get: {
+    list_project_trace_records: {
         parameters: {
             query?: never;
             header?: never;
@@ -9574,7 +9574,7 @@ export interface operations {
             };
         };
     };
-    on_upload_api_projects__project__traces_post: {
+    upload_project_trace: {
         parameters: {
             query: {
                 name: string;
@@ -9607,7 +9607,7 @@ export interface operations {
             };
         };
     };
-    on_user_errors_api_projects__project__user_errors_get: {
+    get_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9638,7 +9638,7 @@ export interface operations {
             };
         };
     };
-    on_save_user_errors_api_projects__project__user_errors_put: {
+    save_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9682,7 +9682,7 @@ export interface operations {
             };
         };
     };
-    on_check_user_errors_api_projects__project__user_errors_check_post: {
+    check_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9717,7 +9717,7 @@ export interface operations {
             };
         };
     };
-    on_export_user_errors_api_projects__project__user_errors_export_get: {
+    export_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9746,7 +9746,7 @@ export interface operations {
             };
         };
     };
-    on_import_user_errors_api_projects__project__user_errors_import_post: {
+    import_project_user_errors: {
         parameters: {
             query: {
                 how?: "replace" | "add";
@@ -9789,7 +9789,7 @@ export interface operations {
             };
         };
     };
-    on_records_api_projects__project__verification_records_get: {
+    list_project_verification_records: {
         parameters: {
             query?: never;
             header?: never;
@@ -9820,7 +9820,7 @@ export interface operations {
             };
         };
     };
-    on_watch_lists_api_projects__project__watch_lists_get: {
+    list_project_watch_lists: {
         parameters: {
             query?: never;
             header?: never;
@@ -9851,7 +9851,7 @@ export interface operations {
             };
         };
     };
-    on_new_watch_list_api_projects__project__watch_lists_post: {
+    create_project_watch_list: {
         parameters: {
             query?: never;
             header?: never;
@@ -9886,7 +9886,7 @@ export interface operations {
             };
         };
     };
-    on_cancel_rerun_api_reruns__rerun__delete: {
+    delete_rerun: {
         parameters: {
             query?: never;
             header?: never;
@@ -9915,7 +9915,7 @@ export interface operations {
             };
         };
     };
-    on_delete_state_api_states__state__delete: {
+    delete_state: {
         parameters: {
             query?: never;
             header?: never;
@@ -9944,7 +9944,7 @@ export interface operations {
             };
         };
     };
-    on_compare_api_sweeps__before__compare__after__get: {
+    compare_sweeps: {
         parameters: {
             query?: never;
             header?: never;
@@ -9976,7 +9976,7 @@ export interface operations {
             };
         };
     };
-    on_sweep_api_sweeps__sweep__get: {
+    get_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -10007,7 +10007,7 @@ export interface operations {
             };
         };
     };
-    on_delete_sweep_api_sweeps__sweep__delete: {
+    delete_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -10036,7 +10036,7 @@ export interface operations {
             };
         };
     };
-    on_accept_api_sweeps__sweep__accept_post: {
+    accept_sweep_finding: {
         parameters: {
             query?: never;
             header?: never;
@@ -10071,7 +10071,7 @@ export interface operations {
             };
         };
     };
-    on_cancel_api_sweeps__sweep__cancel_post: {
+    cancel_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -10102,7 +10102,7 @@ export interface operations {
             };
         };
     };
-    on_open_api_sweeps__sweep__open_post: {
+    open_sweep_case: {
         parameters: {
             query?: never;
             header?: never;
@@ -10137,7 +10137,7 @@ export interface operations {
             };
         };
     };
-    on_cell_api_sweeps__sweep__reaction_post: {
+    get_sweep_reaction: {
         parameters: {
             query?: never;
             header?: never;
@@ -10172,7 +10172,7 @@ export interface operations {
             };
         };
     };
-    on_resume_api_sweeps__sweep__resume_post: {
+    resume_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -10203,7 +10203,7 @@ export interface operations {
             };
         };
     };
-    on_withdraw_api_sweeps__sweep__withdraw_post: {
+    withdraw_sweep_finding: {
         parameters: {
             query?: never;
             header?: never;
@@ -10236,7 +10236,7 @@ export interface operations {
             };
         };
     };
-    on_delete_mapping_api_trace_mappings__mapping__delete: {
+    delete_trace_mapping: {
         parameters: {
             query?: never;
             header?: never;
@@ -10265,7 +10265,7 @@ export interface operations {
             };
         };
     };
-    on_record_api_trace_records__record__get: {
+    get_trace_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10296,7 +10296,7 @@ export interface operations {
             };
         };
     };
-    on_delete_record_api_trace_records__record__delete: {
+    delete_trace_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10325,7 +10325,7 @@ export interface operations {
             };
         };
     };
-    on_record_csv_api_trace_records__record__csv_get: {
+    get_trace_record_csv: {
         parameters: {
             query?: {
                 first?: number;
@@ -10357,7 +10357,7 @@ export interface operations {
             };
         };
     };
-    on_record_samples_api_trace_records__record__samples_get: {
+    get_trace_record_samples: {
         parameters: {
             query?: {
                 first?: number;
@@ -10390,7 +10390,7 @@ export interface operations {
             };
         };
     };
-    on_record_api_verification_records__record__get: {
+    get_verification_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10421,7 +10421,7 @@ export interface operations {
             };
         };
     };
-    on_delete_record_api_verification_records__record__delete: {
+    delete_verification_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10450,7 +10450,7 @@ export interface operations {
             };
         };
     };
-    on_export_record_api_verification_records__record__export_get: {
+    export_verification_record: {
         parameters: {
             query?: {
                 format?: "csv" | "json" | "html";
@@ -10481,7 +10481,7 @@ export interface operations {
             };
         };
     };
-    on_record_rows_api_verification_records__record__rows_get: {
+    get_verification_record_rows: {
         parameters: {
             query?: {
                 count?: number;
@@ -10516,7 +10516,7 @@ export interface operations {
             };
         };
     };
-    on_delete_api_verifications__verification__delete: {
+    delete_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -10545,7 +10545,7 @@ export interface operations {
             };
         };
     };
-    on_drive_api_verifications__verification__patch: {
+    drive_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -10580,7 +10580,7 @@ export interface operations {
             };
         };
     };
-    on_cells_api_verifications__verification__cells_post: {
+    get_verification_cells: {
         parameters: {
             query?: never;
             header?: never;
@@ -10615,7 +10615,7 @@ export interface operations {
             };
         };
     };
-    on_export_api_verifications__verification__export_get: {
+    export_verification: {
         parameters: {
             query?: {
                 format?: "csv" | "json" | "html";
@@ -10646,7 +10646,7 @@ export interface operations {
             };
         };
     };
-    on_keep_api_verifications__verification__keep_post: {
+    keep_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -10681,7 +10681,7 @@ export interface operations {
             };
         };
     };
-    on_rows_api_verifications__verification__rows_get: {
+    get_verification_rows: {
         parameters: {
             query?: {
                 count?: number;
@@ -10716,7 +10716,7 @@ export interface operations {
             };
         };
     };
-    on_uses_api_verifications__verification__uses_get: {
+    list_verification_uses: {
         parameters: {
             query: {
                 call?: number;
@@ -10750,7 +10750,7 @@ export interface operations {
             };
         };
     };
-    on_watch_list_api_watch_lists__id__get: {
+    get_watch_list: {
         parameters: {
             query?: never;
             header?: never;
@@ -10781,7 +10781,7 @@ export interface operations {
             };
         };
     };
-    on_save_watch_list_api_watch_lists__id__put: {
+    save_watch_list: {
         parameters: {
             query?: never;
             header?: never;
@@ -10825,7 +10825,7 @@ export interface operations {
             };
         };
     };
-    on_delete_watch_list_api_watch_lists__id__delete: {
+    delete_watch_list: {
         parameters: {
             query?: never;
             header?: never;

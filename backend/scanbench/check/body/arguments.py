@@ -30,9 +30,9 @@ from scanbench.program.program import (
     Sequence,
     SetBytes,
     Stmt,
-    TrapKind,
 )
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     INT,

@@ -17,8 +17,9 @@ from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
 from scanbench.check.declare.scopes import place_of
 from scanbench.problems import Span
-from scanbench.program.program import Assign, Base, CallBlock, Const, Expr, If, Load, Place, Pou, Stmt, TrapKind
+from scanbench.program.program import Assign, Base, CallBlock, Const, Expr, If, Load, Place, Pou, Stmt
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import BOOL, ULINT, Member, Record, Reference, Section, Subrange, actual_of, base_of
 from scanbench.syntax import tree
 

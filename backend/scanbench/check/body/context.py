@@ -12,7 +12,8 @@ from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.problems import Span
-from scanbench.program.program import Const, Expr, Place, Pou, TrapKind
+from scanbench.program.program import Const, Expr, Place, Pou
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Record, Type
 from scanbench.syntax import tree
 

@@ -20,8 +20,8 @@ from scanbench.program.program import (
     Place,
     Pou,
     Stmt,
-    TrapKind,
 )
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import BOOL, NULL, UDINT, Kind, Member, Record, Section
 
 

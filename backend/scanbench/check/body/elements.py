@@ -6,8 +6,9 @@ from scanbench.check.body import fold
 from scanbench.check.body.context import Body, Found
 from scanbench.check.body.harmless import harmless
 from scanbench.check.body.references import behind, moved
-from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place, TrapKind
+from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     CHAR,
     LINT,

@@ -20,8 +20,9 @@ from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import decode
 from scanbench.problems import Span
 from scanbench.program.own_variables import SYSTEM
-from scanbench.program.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, RefOf, Sequence, TrapKind
+from scanbench.program.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, RefOf, Sequence
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     LINT,

@@ -8,8 +8,9 @@ from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.references import reference_type
 from scanbench.check.body.subrange_checks import as_written
 from scanbench.check.body.targets import writable
-from scanbench.program.program import Base, CheckSite, Const, Expr, Load, RefOf, Violates
+from scanbench.program.program import Base, Const, Expr, Load, RefOf, Violates
 from scanbench.program.shown import shown
+from scanbench.program.sites import CheckSite
 from scanbench.program.types import BOOL, DINT, LINT, NULL, UDINT, ArrayType, OpenArray, Reference, Subrange
 from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree

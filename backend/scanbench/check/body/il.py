@@ -16,7 +16,8 @@ from scanbench.check.body.il_operands import BINARY, callee, hidden, literal, ne
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.problems import Span
-from scanbench.program.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt, TrapKind
+from scanbench.program.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     Kind,

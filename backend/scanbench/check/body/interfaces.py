@@ -7,7 +7,8 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.dispatch import type_number
 from scanbench.check.body.receivers import is_variable
 from scanbench.check.body.references import reference_type
-from scanbench.program.program import Assign, Base, Case, Compare, Const, Expr, If, Load, Place, RefOf, Stmt, TrapKind
+from scanbench.program.program import Assign, Base, Case, Compare, Const, Expr, If, Load, Place, RefOf, Stmt
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import BOOL, NULL, Record, Reference
 from scanbench.syntax import tree
 

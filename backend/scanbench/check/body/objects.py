@@ -7,7 +7,8 @@ from scanbench.check.body.variables import declared, is_broken, no_member, undec
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
 from scanbench.problems import Span
-from scanbench.program.program import Base, Place, TrapKind, TrapSite
+from scanbench.program.program import Base, Place
+from scanbench.program.sites import TrapKind, TrapSite
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
 

@@ -8,20 +8,9 @@ from scanbench.check.body.references import compare_references, pointer_arithmet
 from scanbench.check.body.subrange_checks import plain
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
-from scanbench.program.program import (
-    Assign,
-    Binary,
-    Compare,
-    Const,
-    Convert,
-    Expr,
-    If,
-    Intrinsic,
-    Load,
-    Sequence,
-    TrapKind,
-)
+from scanbench.program.program import Assign, Binary, Compare, Const, Convert, Expr, If, Intrinsic, Load, Sequence
 from scanbench.program.shown import OPERATORS
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     ELEMENTARY,

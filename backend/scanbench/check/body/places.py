@@ -10,8 +10,9 @@ from scanbench.check.body.references import behind
 from scanbench.check.body.variables import INSTANCE, no_member
 from scanbench.check.declare.addresses import offset_of
 from scanbench.problems import Span
-from scanbench.program.program import Base, Load, Place, TrapKind
+from scanbench.program.program import Base, Load, Place
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     ELEMENTARY,

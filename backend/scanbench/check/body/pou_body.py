@@ -10,7 +10,8 @@ from scanbench.check.body.notes import SUFFIX as NOTE
 from scanbench.check.body.redundant_checks import without_needless
 from scanbench.check.body.statements import block
 from scanbench.check.declare.scopes import decode, place_of
-from scanbench.program.program import Assign, Base, SetBytes, Stmt, TrapKind
+from scanbench.program.program import Assign, Base, SetBytes, Stmt
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Section, StringType
 from scanbench.syntax import tree
 

@@ -7,7 +7,8 @@ from scanbench.check.body.objects import dotted, named_itself, own_class
 from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.classes import Class, Method
-from scanbench.program.program import Base, Expr, Load, Place, TrapKind
+from scanbench.program.program import Base, Expr, Load, Place
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import Record, Reference, Section
 from scanbench.syntax import tree
 

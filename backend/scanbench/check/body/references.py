@@ -4,7 +4,8 @@ from scanbench.check.body import fold
 from scanbench.check.body.context import Body
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
-from scanbench.program.program import Base, Const, Expr, Load, Place, RefOf, TrapKind
+from scanbench.program.program import Base, Const, Expr, Load, Place, RefOf
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     LINT,

@@ -10,22 +10,9 @@ from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.context import Rejected
-from scanbench.program.program import (
-    Case,
-    Const,
-    Continue,
-    Exit,
-    Expr,
-    For,
-    If,
-    Limit,
-    Repeat,
-    Return,
-    Stmt,
-    TrapKind,
-    While,
-)
+from scanbench.program.program import Case, Const, Continue, Exit, Expr, For, If, Limit, Repeat, Return, Stmt, While
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import Elementary, Enumeration, Kind, Subrange, base_of
 from scanbench.program.untyped import bounds, settle
 from scanbench.syntax import tree

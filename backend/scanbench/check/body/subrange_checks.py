@@ -16,7 +16,6 @@ from scanbench.program.program import (
     Assign,
     Binary,
     CallFunction,
-    CheckSite,
     Compare,
     Const,
     Convert,
@@ -27,6 +26,7 @@ from scanbench.program.program import (
     Place,
     Sequence,
 )
+from scanbench.program.sites import CheckSite
 from scanbench.program.types import BOOL, Elementary, Kind, Member, Subrange, base_of
 from scanbench.program.untyped import bounds
 from scanbench.syntax import tree

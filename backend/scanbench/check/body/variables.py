@@ -4,7 +4,8 @@ from scanbench.check.body.context import Body, Found
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.scopes import place_of
 from scanbench.problems import Span
-from scanbench.program.program import Base, Place, TrapKind
+from scanbench.program.program import Base, Place
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
 

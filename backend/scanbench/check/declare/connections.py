@@ -7,20 +7,9 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.problems import Span
-from scanbench.program.program import (
-    Assign,
-    CallBlock,
-    Case,
-    For,
-    If,
-    Load,
-    Place,
-    ProgramInstance,
-    Repeat,
-    Stmt,
-    While,
-)
+from scanbench.program.program import Assign, CallBlock, Case, For, If, Load, Place, Repeat, Stmt, While
 from scanbench.program.shown import shown
+from scanbench.program.tasks import ProgramInstance
 from scanbench.program.types import BOOL, Kind, Member, Record, Section
 from scanbench.syntax import tree
 

@@ -10,7 +10,8 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image
 from scanbench.check.declare.members import own_memory
 from scanbench.problems import Span, perhaps
-from scanbench.program.program import AccessPath, Program
+from scanbench.program.program import Program
+from scanbench.program.tasks import AccessPath
 from scanbench.program.types import SLOT_BYTES, ArrayType, Member, Record, Section, Type
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.syntax import tree

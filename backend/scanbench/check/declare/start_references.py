@@ -5,7 +5,8 @@ from collections.abc import Iterable, Iterator
 from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.problems import Span
-from scanbench.program.program import Base, Place, ProgramInstance, RefOf
+from scanbench.program.program import Base, Place, RefOf
+from scanbench.program.tasks import ProgramInstance
 from scanbench.program.types import SLOT_BYTES, ArrayType, Record, Reference
 
 

@@ -30,9 +30,9 @@ from scanbench.program.program import (
     Place,
     Pou,
     Stmt,
-    TrapKind,
     While,
 )
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     ELEMENTARY,
@@ -51,8 +51,8 @@ from scanbench.program.types import (
 )
 from scanbench.symbols.values import parse_value
 from scanbench.syntax import tree
-from scanbench.syntax.cursor import Unexpected
-from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.cursor import Cursor, Unexpected
+from scanbench.syntax.parse_expression import expression
 from scanbench.syntax.parse_stimulus import cell_span
 from scanbench.syntax.source import Source
 
@@ -162,9 +162,9 @@ class StimulusChecker:
     def _parsed(self, text: str, span: Span) -> tree.Expression:
         # as if the heading were a line of ST, so that its spans are right
         source = Source(self.stimulus.file, " " * (span.column - 1) + text, span.line - 1)
-        parser = StParser(source)
+        parser = Cursor(source)
         try:
-            node = parser.expression()
+            node = expression(parser)
             if parser.ended():
                 return node
         except Unexpected:

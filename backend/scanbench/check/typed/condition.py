@@ -46,8 +46,8 @@ from scanbench.program.untyped import settle
 from scanbench.symbols.call_sites import Calls
 from scanbench.symbols.symbols import RAW_TYPES, UnknownPath, resolve
 from scanbench.syntax import tree
-from scanbench.syntax.cursor import Unexpected
-from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.cursor import Cursor, Unexpected
+from scanbench.syntax.parse_expression import expression
 from scanbench.syntax.source import Source
 
 MAX_LENGTH = 2000
@@ -163,9 +163,9 @@ def joined(program: Program, text: str) -> str:
 
 def parsed(text: str, what: str = "condition") -> tree.Expression | BadCondition:
     """The tree of an expression, and of nothing but that. `what` it is to be, for people."""
-    parser = StParser(Source(NOWHERE.file, text))
+    parser = Cursor(Source(NOWHERE.file, text))
     try:
-        node = parser.expression()
+        node = expression(parser)
         if parser.is_(":="):
             column = parser.here().column
             article = "an" if what[0] in "aeiou" else "a"

@@ -35,13 +35,14 @@ from scanbench.check.typed.looking import NOWHERE
 from scanbench.check.typed.passed_on import Unclear
 from scanbench.problems import Span
 from scanbench.program.origin import in_library, is_system
-from scanbench.program.program import Assign, Base, Const, Expr, If, Load, Place, Pou, Program, TrapKind, TrapSite
+from scanbench.program.program import Assign, Base, Const, Expr, If, Load, Place, Pou, Program
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind, TrapSite
 from scanbench.program.types import BOOL, Member, Record, Type
 from scanbench.program.untyped import settle
 from scanbench.syntax import tree
-from scanbench.syntax.cursor import Unexpected
-from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.cursor import Cursor, Unexpected
+from scanbench.syntax.parse_statement import statements
 from scanbench.syntax.source import Source
 
 Bad = BadCondition
@@ -169,9 +170,9 @@ class Locals:
         if bad is not None:
             return bad
         text = joined(self.program, text).rstrip()
-        parser = StParser(Source(NOWHERE.file, text if text.endswith(";") else f"{text};"))
+        parser = Cursor(Source(NOWHERE.file, text if text.endswith(";") else f"{text};"))
         try:
-            found = parser.statements()
+            found = statements(parser)
             if not parser.ended() and not parser.problems:
                 raise parser.fail("an assignment expected, `a := 1;`")
         except Unexpected:

@@ -8,7 +8,9 @@ from scanbench.engines.interpreter.memory import Value, putter
 from scanbench.engines.interpreter.observer import ALL, ObservedPlaces, ReferenceObserver
 from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Places, Read, Write
 from scanbench.engines.observe import Seen
-from scanbench.program.program import Expr, Place, Pou, Program, ProgramInstance, Stmt
+from scanbench.program.copies import makes_copies
+from scanbench.program.program import Expr, Place, Pou, Program, Stmt
+from scanbench.program.tasks import ProgramInstance
 
 Run = Callable[[int], int]
 
@@ -82,7 +84,7 @@ class DebugObserver(ReferenceObserver):
         """The body of a POU of the user's, which has a frame."""
         if pou not in self.sites.bodies:
             return run
-        frames, copies = self._frames, pou.copies
+        frames, copies = self._frames, makes_copies(pou.instance)
 
         def body(instance: int) -> int:
             caller = self._site

@@ -5,7 +5,8 @@ from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.debug_observer import DebugObserver, Halted
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.expressions import Body
-from scanbench.program.program import Program, ProgramInstance
+from scanbench.program.program import Program
+from scanbench.program.tasks import ProgramInstance
 
 
 class ReferenceDebugEngine(ReferenceEngine, DebugEngine):
@@ -47,7 +48,7 @@ class ReferenceDebugEngine(ReferenceEngine, DebugEngine):
         try:
             return super().run(scans, pace)
         finally:
-            self._knock.clear()  # also when the hook raises
+            self._interrupt.clear()  # also when the hook raises
 
     def _run(self, scans: int, pace: Pace | None) -> Stop:
         try:

@@ -16,7 +16,8 @@ from scanbench.engines.interpreter.violations import recorder
 from scanbench.engines.sample import Sampling
 from scanbench.problems import Span
 from scanbench.program.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
-from scanbench.program.program import Expr, Pou, Program, ProgramInstance, Task
+from scanbench.program.program import Expr, Pou, Program
+from scanbench.program.tasks import ProgramInstance, Task
 from scanbench.program.types import Kind, Record
 
 LOST_NS = 100_000_000
@@ -40,7 +41,7 @@ class ReferenceEngine(Engine):
         self._common = [self._silent(self._program(each)) for each in program.common]
         self._plant = [self._silent(self._program(each)) for each in program.plant]
         self._tasks = [(self._due(task), [self._program(each) for each in task.programs]) for task in program.tasks]
-        self._knock = threading.Event()
+        self._interrupt = threading.Event()
         self._condition: Callable[[], bool] | None = None
         self._samplers: list[Sampler] = []
 
@@ -97,8 +98,8 @@ class ReferenceEngine(Engine):
     def _no_indices(self, expr: Expr) -> Read:
         raise AssertionError(f"the place of a task computes nothing, but {expr}")
 
-    def knock(self) -> None:
-        self._knock.set()
+    def interrupt(self) -> None:
+        self._interrupt.set()
 
     def stop_when(self, condition: Condition | None, *others: Condition) -> None:
         conditions = others if condition is None else (condition, *others)
@@ -134,16 +135,16 @@ class ReferenceEngine(Engine):
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         stop = self._run(scans, pace)
-        self._knock.clear()
+        self._interrupt.clear()
         return stop
 
     def _run(self, scans: int, pace: Pace | None) -> Stop:
         if any(each.full for each in self._samplers):
-            return Stop(Reason.KNOCKED)
+            return Stop(Reason.INTERRUPTED)
         for _ in range(scans):
             paced = pace is not None and pace.period_ns > 0
-            if self._knock.is_set() or (pace is not None and paced and not self._wait(pace)):
-                return Stop(Reason.KNOCKED)
+            if self._interrupt.is_set() or (pace is not None and paced and not self._wait(pace)):
+                return Stop(Reason.INTERRUPTED)
             begin = time.monotonic_ns()
             try:
                 self._scan()
@@ -154,17 +155,17 @@ class ReferenceEngine(Engine):
                 pace.scans += 1
                 pace.deadline_ns += pace.period_ns
             if not all([each.sample() for each in self._samplers]):  # noqa: C419 - each of them has to sample
-                self._knock.set()
+                self._interrupt.set()
             if self._condition is not None and self._condition():
                 return Stop(Reason.CONDITION)
             if any(self.memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4]):
                 return Stop(Reason.ASKED)
-        return Stop(Reason.KNOCKED if self._knock.is_set() else Reason.DONE)
+        return Stop(Reason.INTERRUPTED if self._interrupt.is_set() else Reason.DONE)
 
     def _wait(self, pace: Pace) -> bool:
-        """Sleeps to the deadline; False when somebody knocked meanwhile."""
+        """Sleeps to the deadline; False when somebody interrupted meanwhile."""
         while (left := pace.deadline_ns - time.monotonic_ns()) > 0:
-            if self._knock.wait(left / 1e9):
+            if self._interrupt.wait(left / 1e9):
                 return False
         late = -left
         pace.late_scans += late > pace.period_ns

@@ -15,7 +15,8 @@ from scanbench.engines.interpreter.violations import recorder
 from scanbench.problems import Span
 from scanbench.program.copies import Spot
 from scanbench.program.layout import Layout
-from scanbench.program.program import Expr, Place, Pou, Program, TrapSite
+from scanbench.program.program import Expr, Place, Pou, Program
+from scanbench.program.sites import TrapSite
 from scanbench.program.types import Elementary, Kind, Record, StringType, Subrange, Type
 from scanbench.symbols.values import format_value
 

@@ -10,6 +10,7 @@ from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.expressions import SLOT, Body, Expressions
 from scanbench.engines.interpreter.memory import putter
 from scanbench.engines.interpreter.places import Trapped
+from scanbench.program.bodies import keeps_bits
 from scanbench.program.layout import Layout
 from scanbench.program.program import (
     Assign,
@@ -88,7 +89,7 @@ class Statements(Expressions):
                 return self._leave(node)
 
     def _assign(self, node: Assign) -> Body:
-        if node.keeps_bits and isinstance(node.value, Load):
+        if keeps_bits(node) and isinstance(node.value, Load):
             bits = BITS[node.target.type.size]
             source, copied = replace(node.value.place, type=bits), replace(node.target, type=bits)
             return self._assign(replace(node, target=copied, value=Load(source)))

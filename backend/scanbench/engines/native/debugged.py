@@ -210,4 +210,4 @@ class NativeDebugEngine(NativeEngine, DebugEngine):
         """Leaves the scan in front of the next statement, or behind it; `run` raises the error."""
         self._error = error
         self._state.every = 1
-        self.knock()
+        self.interrupt()

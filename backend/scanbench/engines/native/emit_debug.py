@@ -12,7 +12,8 @@ from scanbench.engines.native import emit_observed
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address
 from scanbench.engines.native.emit_observed import Observing, site
-from scanbench.program.program import Base, For, Place, Pou, Program, ProgramInstance, Stmt, While
+from scanbench.program.program import Base, For, Place, Pou, Program, Stmt, While
+from scanbench.program.tasks import ProgramInstance
 from scanbench.program.types import Kind
 
 STATE = "@debugged"

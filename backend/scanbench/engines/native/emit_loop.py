@@ -1,6 +1,6 @@
 """The loop that runs scans at a pace, in IR.
 
-It sleeps once for each scan: until the deadline, or until somebody knocks. On Linux that is one wait on the knock itself
+It sleeps once for each scan: until the deadline, or until somebody interrupts. On Linux that is one wait on the interrupt itself
 (a futex); elsewhere it sleeps in slices, and looks.
 """
 
@@ -10,11 +10,11 @@ import sys
 from scanbench.engines.native.emit_body import Unit
 from scanbench.program.layout import Layout
 
-DONE, KNOCKED, TRAP, ASKED, CONDITION = 0, 1, 2, 3, 4
+DONE, INTERRUPTED, TRAP, ASKED, CONDITION = 0, 1, 2, 3, 4
 """What `@run` returns."""
 
 SLICE_NS = 2_000_000
-"""Longest sleep between two looks at the knock, where nothing can wake the loop."""
+"""Longest sleep between two looks at the interrupt, where nothing can wake the loop."""
 LATE_PERIODS = 10
 LATE_NS = 100_000_000
 """A deadline that is more than both of these in the past is moved to now."""
@@ -27,7 +27,7 @@ _FUTEX_WAIT_BITSET_PRIVATE = 9 | 128
 _ANY_BIT = 0xFFFF_FFFF
 _PR_SET_TIMERSLACK = 29
 
-SLEEP_ON_KNOCK = """\
+SLEEP_ON_INTERRUPT = """\
 declare i64 @syscall(i64, ...) nounwind
 declare i32 @prctl(i32, ...) nounwind
 
@@ -38,7 +38,7 @@ define internal void @prepare() noinline cold #0 {{
 }}
 
 define internal void @sleep(ptr %ctl, i64 %now, i64 %deadline) noinline #0 {{
-; until the deadline, unless there is a knock, or one comes; a signal may end it, too
+; until the deadline, unless there is an interrupt, or one comes; a signal may end it, too
   %time = alloca {{ i64, i64 }}, align 8
   %s = sdiv i64 %deadline, 1000000000
   %scaled = mul i64 %s, 1000000000
@@ -59,7 +59,7 @@ define internal void @prepare() #0 {{
 }}
 
 define internal void @sleep(ptr %ctl, i64 %now, i64 %deadline) noinline #0 {{
-; until the deadline, but not for long: the caller looks whether somebody knocked
+; until the deadline, but not for long: the caller looks whether somebody interrupted
   %time = alloca {{ i64, i64 }}, align 8
   %slice = add i64 %now, {slice}
   %until = call i64 @llvm.smin.i64(i64 %slice, i64 %deadline)
@@ -92,16 +92,16 @@ define internal i64 @now() noinline #0 {{
 }}
 
 define internal i64 @waitfor(ptr %ctl, ptr noalias %pace) noinline #0 {{
-; sleeps until the deadline; gives the time, or -1 when somebody knocked. Notes how late it is
+; sleeps until the deadline; gives the time, or -1 when somebody interrupted. Notes how late it is
 entry:
   %period = load i64, ptr %pace, align 8
   %deadlineat = getelementptr i8, ptr %pace, i64 8
   %deadline = load i64, ptr %deadlineat, align 8
   br label %look
 look:
-  %knock = load volatile i32, ptr %ctl, align 8
-  %knocked = icmp ne i32 %knock, 0
-  br i1 %knocked, label %leave, label %time
+  %interrupt = load volatile i32, ptr %ctl, align 8
+  %interrupted = icmp ne i32 %interrupt, 0
+  br i1 %interrupted, label %leave, label %time
 time:
   %now = call i64 @now()
   %early = icmp slt i64 %now, %deadline
@@ -158,7 +158,7 @@ define internal void @note(ptr noalias %pace, i64 %began, i64 %counted) noinline
 }}
 
 define i32 @run(ptr noalias nonnull noundef align 8 dereferenceable({size}) %img, ptr %ctl, i64 %scans, ptr noalias %pace) #0 {{
-; %ctl: u32 knock, +8 i64 trap, +16 the condition: i32 (ptr image), or null,
+; %ctl: u32 interrupt, +8 i64 trap, +16 the condition: i32 (ptr image), or null,
 ; +24 what samples: void (ptr image, ptr table, ptr ctl), or null, +32 its table
 ; %pace: i64 period, deadline, late, worst, busy, scans, misses; null when nothing is to be measured
 entry:
@@ -187,9 +187,9 @@ head:
   %around = phi i1 [ false, %entry ], [ false, %prepared ], [ true, %whole ], [ %around, %on ]
   %since = phi i64 [ 0, %entry ], [ 0, %prepared ], [ %began, %whole ], [ %since, %on ]
   %k = phi i64 [ 0, %entry ], [ 0, %prepared ], [ 0, %whole ], [ %k1, %on ]
-  %knock = load volatile i32, ptr %ctl, align 8
-  %knocked = icmp ne i32 %knock, 0
-  br i1 %knocked, label %leave, label %look, !prof !0
+  %interrupt = load volatile i32, ptr %ctl, align 8
+  %interrupted = icmp ne i32 %interrupt, 0
+  br i1 %interrupted, label %leave, label %look, !prof !0
 look:
   %more = icmp slt i64 %k, %scans
   br i1 %more, label %ready, label %leave
@@ -237,7 +237,7 @@ notedtrap:
   call void @note(ptr %pace, i64 %at, i64 0)
   br label %leave
 leave:
-  %reason = phi i32 [ {knocked}, %head ], [ {done}, %look ], [ {knocked}, %wait ], [ {asked}, %requests ], \
+  %reason = phi i32 [ {interrupted}, %head ], [ {done}, %look ], [ {interrupted}, %wait ], [ {asked}, %requests ], \
 [ {condition}, %evaluate ], [ {trap}, %trapped ], [ {trap}, %notedtrap ]
   %ran = phi i64 [ %k, %head ], [ %k, %look ], [ %k, %wait ], [ %k1, %requests ], [ %k1, %evaluate ], [ %k, %trapped ], \
 [ %k, %notedtrap ]
@@ -260,7 +260,7 @@ def emit(unit: Unit, size: int) -> None:
         late_ns=LATE_NS,
         asked_count=Layout.ASKED_COUNT,
         done=DONE,
-        knocked=KNOCKED,
+        interrupted=INTERRUPTED,
         trap=TRAP,
         asked=ASKED,
         condition=CONDITION,
@@ -271,6 +271,6 @@ def emit(unit: Unit, size: int) -> None:
 def _sleep() -> str:
     if FUTEX is None:
         return SLEEP_IN_SLICES.format(slice=SLICE_NS)
-    return SLEEP_ON_KNOCK.format(
+    return SLEEP_ON_INTERRUPT.format(
         futex=FUTEX, wait=_FUTEX_WAIT_BITSET_PRIVATE, any_bit=_ANY_BIT, timer_slack=_PR_SET_TIMERSLACK
     )

@@ -12,6 +12,7 @@ from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address
 from scanbench.engines.native.flavour import Flavour
 from scanbench.engines.observe import LIMIT, areas_end
+from scanbench.program.copies import makes_copies
 from scanbench.program.layout import Layout
 from scanbench.program.origin import is_system
 from scanbench.program.program import Base, Place, Pou, Program, Stmt
@@ -176,7 +177,7 @@ class Observing(Flavour):
 
     def calls(self, body: Body, callee: Pou) -> None:
         # what has no statements of its own is told on whose behalf it runs
-        if body.site is not None and (not self.has_sites(callee) or callee.copies):
+        if body.site is not None and (not self.has_sites(callee) or makes_copies(callee.instance)):
             body.text.do(f"store i32 {body.site}, ptr {field(SITE)}, align 8")
 
     # ---- accesses ---------------------------------------------------------------------------------------------
@@ -184,7 +185,7 @@ class Observing(Flavour):
     def unheard(self, body: Body) -> bool:
         """What is read or written here is not the user's program's: what looks whether a task is due, the start of a
         body, what was made from the model. In-outs by value are copied by the statement that calls."""
-        started = self.has_sites(body.pou) and not body.pou.copies
+        started = self.has_sites(body.pou) and not makes_copies(body.pou.instance)
         nobody = body.site is None and (started or not body.unit.has(body.pou))
         return nobody or is_system(body.pou.span)
 

@@ -7,7 +7,8 @@ from scanbench.engines.native.emit_memory import store
 from scanbench.engines.native.emit_places import address, load
 from scanbench.problems import Span
 from scanbench.program.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
-from scanbench.program.program import Pou, Program, ProgramInstance, Stmt, Task
+from scanbench.program.program import Pou, Program, Stmt
+from scanbench.program.tasks import ProgramInstance, Task
 from scanbench.program.types import BOOL, Kind, Record
 
 SCRATCH = '@"t.scan"'

@@ -11,6 +11,7 @@ from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import elementary, integer, is_real, value_type
 from scanbench.engines.native.emit_values import put as put_value
 from scanbench.engines.native.speculate import to_selects
+from scanbench.program.bodies import keeps_bits
 from scanbench.program.program import (
     Assign,
     Blocks,
@@ -114,7 +115,7 @@ def assign(body: Body, statement: Assign) -> None:
     """Evaluates the value, then the target's address, then stores."""
     target = statement.target
     held = emit_calls.value(body, statement.value, walk.address_disturbs(target))
-    if statement.keeps_bits and isinstance(held, Value):
+    if keeps_bits(statement) and isinstance(held, Value):
         held = replace(held, clean=True)
     put_value(body, target, held)
 
@@ -160,7 +161,7 @@ def _guarded(body: Body, guard: str, statements: tuple[Stmt, ...]) -> None:
 def _store_if(body: Body, guard: str, target: Place, statement: Assign) -> None:
     type = elementary(target.type)
     value = body.scalar(statement.value)
-    ssa = canonical(body, type, value) if is_real(type) and not statement.keeps_bits else value.ssa
+    ssa = canonical(body, type, value) if is_real(type) and not keeps_bits(statement) else value.ssa
     where = address(body, target)
     if type.kind is Kind.BOOL and not where.bit:  # the whole byte is kept, also the bits that mean nothing
         whole = body.text.op(f"load i8, ptr {where.pointer}, align 1{where.tag}")

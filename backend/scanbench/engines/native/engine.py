@@ -9,7 +9,7 @@ from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Compiler
 from scanbench.engines.native.condition_code import link_condition
-from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FUTEX_WAKE_PRIVATE, KNOCKED, TRAP
+from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FUTEX_WAKE_PRIVATE, INTERRUPTED, TRAP
 from scanbench.engines.native.observer import NativeObserver
 from scanbench.engines.native.sample_code import link_samplings
 from scanbench.engines.sample import Sampling
@@ -25,7 +25,7 @@ class _Control(ctypes.Structure):
     """What the loop shares with other threads; see `emit_loop.RUN`."""
 
     _fields_ = [
-        ("knock", ctypes.c_uint32), ("trap", ctypes.c_int64), ("condition", ctypes.c_void_p),
+        ("interrupt", ctypes.c_uint32), ("trap", ctypes.c_int64), ("condition", ctypes.c_void_p),
         ("sample", ctypes.c_void_p), ("table", ctypes.c_void_p),
     ]  # fmt: skip
 
@@ -39,7 +39,7 @@ class _Pace(ctypes.Structure):
 
 
 _REASONS = {
-    DONE: Reason.DONE, KNOCKED: Reason.KNOCKED, TRAP: Reason.TRAP, ASKED: Reason.ASKED, CONDITION: Reason.CONDITION
+    DONE: Reason.DONE, INTERRUPTED: Reason.INTERRUPTED, TRAP: Reason.TRAP, ASKED: Reason.ASKED, CONDITION: Reason.CONDITION
 }  # fmt: skip
 _LIBC = ctypes.PyDLL(None)
 """Keeps the GIL: waking somebody takes less than giving it away and getting it back."""
@@ -90,7 +90,7 @@ class NativeEngine(Engine):
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """See `Engine.run`. A pace with period 0 runs as fast as possible, and measures the whole run at once."""
         if any(each.full for each in self._samplings):
-            return Stop(Reason.KNOCKED)
+            return Stop(Reason.INTERRUPTED)
         if pace is not None:
             return self._call(scans, pace)
         while scans > self._slice:
@@ -142,8 +142,8 @@ class NativeEngine(Engine):
         self._control.table = None if sampler is None else ctypes.addressof(sampler[1])
         self._sampler, self._samplings = sampler, samplings
 
-    def knock(self) -> None:
-        """See `Engine.knock`."""
-        self._control.knock = 1
+    def interrupt(self) -> None:
+        """See `Engine.interrupt`."""
+        self._control.interrupt = 1
         if FUTEX is not None:
             _LIBC.syscall(FUTEX, ctypes.byref(self._control), FUTEX_WAKE_PRIVATE, 1)

@@ -3,7 +3,8 @@
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
-from scanbench.program.program import Expr, If, Place, Pou, ProgramInstance, Stmt
+from scanbench.program.program import Expr, If, Place, Pou, Stmt
+from scanbench.program.tasks import ProgramInstance
 
 if TYPE_CHECKING:
     from scanbench.engines.native.emit_body import Body, Unit

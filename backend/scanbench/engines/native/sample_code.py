@@ -19,7 +19,7 @@ KEPT = 32
 
 HEAD = """\
 define void @sample(ptr {image}, ptr %table, ptr %ctl) #0 {{
-; %table: of each sampling the address of its control block; %ctl: u32 knock, set where a ring is full
+; %table: of each sampling the address of its control block; %ctl: u32 interrupt, set where a ring is full
 entry:
   %scanat = getelementptr inbounds i8, ptr %img, i64 {scan}
   %after = load i64, ptr %scanat, align 8
@@ -61,8 +61,8 @@ keep{n}:
   store i64 %more{n}, ptr %writtenat{n}, align 8
   %held{n} = sub i64 %more{n}, %taken{n}
   %full{n} = icmp uge i64 %held{n}, %capacity{n}
-  br i1 %full{n}, label %full{n}.knock, label %look{m}
-full{n}.knock:
+  br i1 %full{n}, label %full{n}.interrupt, label %look{m}
+full{n}.interrupt:
   store volatile i32 1, ptr %ctl, align 8
   br label %look{m}
 """

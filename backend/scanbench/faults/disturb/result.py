@@ -9,8 +9,8 @@ from scanbench.faults.disturb.fire import Corrupt
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, ArrayType, Elementary, Record, StringType, Type
 from scanbench.runtime.command import Command
-from scanbench.symbols.named import temporary_at
-from scanbench.symbols.symbols import UnknownPath, at_offset, resolve
+from scanbench.symbols.names import names_of
+from scanbench.symbols.symbols import UnknownPath, resolve
 
 _WHOLE = 0xFF
 
@@ -99,7 +99,7 @@ def _value_at(program: Program, offset: int) -> tuple[str, int] | None:
 
 
 def _variable(program: Program, offset: int) -> tuple[str, Type] | None:
-    path = at_offset(program, offset)
+    path = names_of(program).path(offset)
     try:
         symbol = resolve(program, path)
     except UnknownPath:
@@ -108,7 +108,7 @@ def _variable(program: Program, offset: int) -> tuple[str, Type] | None:
 
 
 def _temporary(program: Program, offset: int) -> tuple[str, Type] | None:
-    found = temporary_at(program, offset)
+    found = names_of(program).temporary(offset)
     if found is None or not found[1]:
         return None
     pou, name = found

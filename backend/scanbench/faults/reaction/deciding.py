@@ -14,7 +14,8 @@ from scanbench.program.layout import Layout
 from scanbench.program.origin import in_library
 from scanbench.program.program import Base, Pou, Program
 from scanbench.program.types import ArrayType, Kind, Record, Type, has_instance
-from scanbench.symbols.symbols import Symbol, resolve
+from scanbench.symbols.leaves import Leaf
+from scanbench.symbols.symbols import resolve
 
 _EDGES = ("R_TRIG", "F_TRIG")
 _STEPS = 100_000
@@ -202,12 +203,12 @@ class Deciding:
 
     # ---- questions ------------------------------------------------------------------------------------------------
 
-    def acts(self, symbol: Symbol) -> bool:
+    def acts(self, leaf: Leaf) -> bool:
         """Whether this is where something comes out: an output, what the PLC shows of itself, the plant, a VAR_ACCESS."""
-        ref = _ref(symbol)
+        ref = _ref(leaf)
         if self._is_end(ref):
             return True
-        found = self._program.layout.area_at(symbol.offset)
+        found = self._program.layout.area_at(leaf.offset)
         if found is None:
             return False
         area, byte = found
@@ -218,29 +219,29 @@ class Deciding:
             return True
         return any(part.program == "read" for part in area.ranges if part.first <= byte // 2 <= part.last)
 
-    def decides(self, symbol: Symbol) -> bool:
+    def decides(self, leaf: Leaf) -> bool:
         """Whether this is state that something is decided by."""
-        known = self._answers.get(symbol.path)
+        known = self._answers.get(leaf.name)
         if known is None:
-            known = self._answers[symbol.path] = self._decides(symbol)
+            known = self._answers[leaf.name] = self._decides(leaf)
         return known
 
-    def block_of(self, symbol: Symbol) -> str:
+    def block_of(self, leaf: Leaf) -> str:
         """The path of the library's block that it is in; empty where it is in none."""
-        block = self._library_block(_ref(symbol))
+        block = self._library_block(_ref(leaf))
         return "" if block is None else block.path
 
-    def _decides(self, symbol: Symbol) -> bool:
-        ref = _ref(symbol)
+    def _decides(self, leaf: Leaf) -> bool:
+        ref = _ref(leaf)
         block = self._library_block(ref)
         if block is not None:
             if block.record.name.upper() in _EDGES:
                 return False
             return self._reaches(Node(None, Ref(Base.IMAGE, block.begin, block.end)))
         node = Node(None, ref)
-        return self._is_state(node, symbol) and self._reaches(node)
+        return self._is_state(node, leaf) and self._reaches(node)
 
-    def _is_state(self, node: Node, symbol: Symbol) -> bool:
+    def _is_state(self, node: Node, leaf: Leaf) -> bool:
         """Whether it depends on what was before: not where it is worked out anew whenever its body runs, nor a copy."""
         if self._reaches(node, itself=True):
             return True
@@ -250,7 +251,7 @@ class Deciding:
         if all(flow.constant or flow.source is not None for flow, _ in writers):
             copies = [(flow, here) for flow, here in writers if not flow.constant]
             return not copies or (
-                symbol.type.kind is Kind.BOOL and any(_holds_itself(flow, here) for flow, here in copies)
+                leaf.type.kind is Kind.BOOL and any(_holds_itself(flow, here) for flow, here in copies)
             )
         return True
 
@@ -351,9 +352,8 @@ class Deciding:
         return ref.base is Base.IMAGE and any(_meet(each, ref) for each in self._ends)
 
 
-def _ref(symbol: Symbol) -> Ref:
-    mask = 0xFF if symbol.bit is None else 1 << symbol.bit
-    return Ref(Base.IMAGE, symbol.offset, symbol.offset + max(1, symbol.type.size), mask)
+def _ref(leaf: Leaf) -> Ref:
+    return Ref(Base.IMAGE, leaf.offset, leaf.offset + max(1, leaf.type.size), leaf.bits)
 
 
 def _meet(one: Ref, other: Ref) -> bool:

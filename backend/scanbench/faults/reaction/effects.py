@@ -12,8 +12,8 @@ from scanbench.faults.reaction.deciding import Deciding
 from scanbench.faults.reaction.error_memory import WORD, Words
 from scanbench.faults.reaction.reaction import Difference
 from scanbench.program.program import Program
-from scanbench.symbols.holding import Held, Holders
-from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.kept import KeptNames
+from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.values import format_value
 
 SHOWN = 200
@@ -21,12 +21,12 @@ _NAMED = 5_000
 """More variables are not named: somebody who cleared an area knows it by then."""
 
 
-class Names:
-    """How the variables of one program are called, which are outputs of the PLC, and which decide something."""
+class Variables:
+    """Of one program: how they are called, which are outputs of the PLC, and which decide something."""
 
     def __init__(self, program: Program) -> None:
         layout, model = program.layout, program.layout.model
-        self.holders = Holders(program)
+        self.names = KeptNames(program)
         self.deciding = Deciding(program)
         self._outputs = [(layout.areas[each.area.name], each.first, each.last + 1) for each in model.fatal.outputs]
         self._outputs += [
@@ -35,22 +35,22 @@ class Names:
             if each.letter == "Q"
         ]
 
-    def is_output(self, symbol: Symbol) -> bool:
+    def is_output(self, leaf: Leaf) -> bool:
         """Whether it stands where outputs are."""
-        end = symbol.offset + symbol.type.size
-        return any(base + 2 * first < end and symbol.offset < base + 2 * last for base, first, last in self._outputs)
+        end = leaf.offset + leaf.type.size
+        return any(base + 2 * first < end and leaf.offset < base + 2 * last for base, first, last in self._outputs)
 
 
 class Effects:
     """Collects what differs. States are compared in the bits of `kept` only."""
 
-    def __init__(self, names: Names, kept: Words) -> None:
-        self._names = names
+    def __init__(self, variables: Variables, kept: Words) -> None:
+        self._variables = variables
         self._fresh = kept.copy()
         """Bits that never differed until now."""
         self._buffer = np.empty_like(kept)
         self._found: dict[str, Difference] = {}
-        self._symbols: dict[str, Symbol] = {}
+        self._leaves: dict[str, Leaf] = {}
         self._words: set[int] = set()
         """Offsets of words of the model that were named as a whole."""
         self._last: tuple[Words, Words] | None = None
@@ -67,16 +67,14 @@ class Effects:
             return
         where = np.flatnonzero(buffer)
         self._fresh[where] &= ~buffer[where]
-        for held in self._named(where.tolist(), buffer[where].tolist()):
-            symbol = held.symbol
-            raw = symbol.section == "address"
-            if symbol.path in self._found or (raw and symbol.offset & ~1 in self._words) or not self.complete:
+        for leaf in self._named(where.tolist(), buffer[where].tolist()):
+            if leaf.name in self._found or (leaf.raw and leaf.offset & ~1 in self._words) or not self.complete:
                 continue
-            self._found[symbol.path] = self._difference(scan, symbol, without, value)
-            self._symbols[symbol.path] = symbol
-            if raw and symbol.bit is None:
-                self._words.add(symbol.offset)
-            if self.first is None and self._names.deciding.acts(symbol):
+            self._found[leaf.name] = self._difference(scan, leaf, without, value)
+            self._leaves[leaf.name] = leaf
+            if leaf.raw and leaf.bit is None:
+                self._words.add(leaf.offset)
+            if self.first is None and self._variables.deciding.acts(leaf):
                 self.first = scan
 
     @property
@@ -92,9 +90,9 @@ class Effects:
         found: dict[str, int] = {}
         without, value = self._last
         for each in sorted(self._found.values(), key=lambda each: each.scan):
-            symbol = self._symbols[each.path]
-            if _shown(symbol, without) != _shown(symbol, value) and self._names.deciding.decides(symbol):
-                found.setdefault(self._names.deciding.block_of(symbol) or each.path, each.scan)
+            leaf = self._leaves[each.path]
+            if _shown(leaf, without) != _shown(leaf, value) and self._variables.deciding.decides(leaf):
+                found.setdefault(self._variables.deciding.block_of(leaf) or each.path, each.scan)
         return found
 
     @property
@@ -107,21 +105,19 @@ class Effects:
         ordered = sorted(self._found.values(), key=lambda each: (not each.output, each.scan))
         return tuple(ordered[:SHOWN])
 
-    def _named(self, where: list[int], bits: list[int]) -> Iterator[Held]:
+    def _named(self, where: list[int], bits: list[int]) -> Iterator[Leaf]:
         for index, word in zip(where, bits, strict=True):
             if not self.complete:
                 return
             for half in range(0, WORD, 2):
                 mask = word >> 8 * half & 0xFFFF
                 if mask:
-                    yield from self._names.holders.at(index * WORD + half, mask)
+                    yield from self._variables.names.at(index * WORD + half, mask)
 
-    def _difference(self, scan: int, symbol: Symbol, without: Words, value: Words) -> Difference:
-        return Difference(
-            symbol.path, _shown(symbol, without), _shown(symbol, value), self._names.is_output(symbol), scan
-        )
+    def _difference(self, scan: int, leaf: Leaf, without: Words, value: Words) -> Difference:
+        return Difference(leaf.name, _shown(leaf, without), _shown(leaf, value), self._variables.is_output(leaf), scan)
 
 
-def _shown(symbol: Symbol, state: Words) -> str:
-    data = state.view(np.uint8)[symbol.offset : symbol.offset + symbol.type.size].tobytes()
-    return format_value(symbol.type, data if symbol.bit is None else bytes((data[0] >> symbol.bit & 1,)))
+def _shown(leaf: Leaf, state: Words) -> str:
+    end = leaf.offset + leaf.type.size
+    return format_value(leaf.type, leaf.cut(state.view(np.uint8)[leaf.offset : end].tobytes(), leaf.offset))

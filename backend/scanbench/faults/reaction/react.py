@@ -15,7 +15,7 @@ from scanbench.engines.observe import Observer, ReadAt
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import ACTIVE, Generate, Recover
-from scanbench.faults.reaction.effects import Effects, Names
+from scanbench.faults.reaction.effects import Effects, Variables
 from scanbench.faults.reaction.error_memory import Watched, Words, code_bits, kept_bits, without_patches, words_of
 from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.reaction import FINDINGS, Line, Reaction, Reader, Verdict, What
@@ -117,9 +117,9 @@ class Prepared:
 
     def __init__(self, program: Program) -> None:
         self.program = program
-        self.names = Names(program)
+        self.variables = Variables(program)
         self.kept = kept_bits(program)
-        self.readings = Readings(program, self.names.deciding.instances)
+        self.readings = Readings(program, self.variables.deciding.instances)
 
 
 class Comparison:
@@ -153,7 +153,7 @@ class Comparison:
             return Reaction("stopped", 0, note="" if could_run else "the program did not run before either")
         own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
-        run = _Run(resource, twin, Effects(self._prepared.names, kept), chosen, ref, self._prepared.readings)
+        run = _Run(resource, twin, Effects(self._prepared.variables, kept), chosen, ref, self._prepared.readings)
         found = run.through(self._programs.observer(self._point.version), given)
         if isinstance(found, Refusal) or found.verdict not in FINDINGS or not present:
             return found

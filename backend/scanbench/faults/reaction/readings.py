@@ -10,6 +10,7 @@ from scanbench.faults.reaction.deciding import Instances
 from scanbench.faults.reaction.error_memory import Watched
 from scanbench.faults.reaction.flows import heads, parts, ref_of
 from scanbench.program.bodies import every
+from scanbench.program.copies import makes_copies
 from scanbench.program.program import Base, CallBlock, CallFunction, Place, Pou, Program, Stmt
 from scanbench.program.types import ULINT
 from scanbench.symbols.sites import Sites, sites_of
@@ -92,7 +93,7 @@ class Readings:
             if isinstance(stmt, CallBlock):
                 for slot, actual in stmt.in_outs:
                     self._given.append((pou, stmt.pou, _plain(slot), _with_plain_slot(actual)))
-                    if stmt.pou.copies and number is not None:
+                    if makes_copies(stmt.pou.instance) and number is not None:
                         self._read(number, pou, actual)
 
     def _read(self, number: int, pou: Pou | None, place: Place) -> None:

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from scanbench.faults.reaction.error_memory import Watched
 from scanbench.faults.reaction.reaction import What
 from scanbench.problems import Span
-from scanbench.program.program import Base, Program, Task
+from scanbench.program.program import Base, Program
+from scanbench.program.tasks import Task
 from scanbench.symbols.values import format_time
 
 

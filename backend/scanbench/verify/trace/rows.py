@@ -5,9 +5,10 @@ from dataclasses import replace
 
 from scanbench.engines.debug import Frame, Listen
 from scanbench.runtime.trap import trap_info
+from scanbench.symbols.leaves import Leaf
+from scanbench.symbols.names import ANYWHERE, NamesInside
 from scanbench.symbols.values import format_value
 from scanbench.verify.contract import ENDED, Input, Mismatch, Output, Place, Row, RowKind, Use
-from scanbench.verify.naming import ANYWHERE, Leaf, Names
 from scanbench.verify.ranges import Resolved
 from scanbench.verify.rows import MAX_MISMATCHES, Reader, written_by
 from scanbench.verify.trace.bind import Signal, Trace
@@ -51,7 +52,7 @@ class TraceRows:
 
     def _row(self, kind: RowKind, made: Pass, call: int, ran: Ran, results: Sequence[Result]) -> Row:
         reader = self._reader
-        names = reader.namer.names(made.around)
+        names = reader.names.within(made.inside)
         known = {_leaf(names, each.signal).name: each for each in results}
         written = written_by(reader, made)
         outputs: dict[str, Output] = {}
@@ -77,7 +78,7 @@ class TraceRows:
         )  # fmt: skip
 
     def _differences(
-        self, names: Names, made: Pass, results: Mapping[str, Result], scan: int
+        self, names: NamesInside, made: Pass, results: Mapping[str, Result], scan: int
     ) -> Iterator[Mismatch]:  # fmt: skip
         """In the order in which the statements that wrote them ran; what nobody wrote is behind them."""
         found = [
@@ -109,7 +110,7 @@ class TraceRows:
             place = self._reader.places.of(hook.frames[0].site, hook.frames)
         over = ran is not None and not hook.frames
         results = ran.results if ran is not None and over else monitor.results(monitor.recorded(scan))
-        names = self._reader.namer.names(ANYWHERE)
+        names = self._reader.names.within(ANYWHERE)
         outputs, differences = {}, []
         for each in results:
             leaf = _leaf(names, each.signal)
@@ -132,7 +133,7 @@ class TraceRows:
 
     def uses(self, made: Pass, ran: Ran, passes: Sequence[Pass]) -> tuple[Use, ...]:
         """Every use of a pass. The trace has values of inputs as they were read, and of outputs as they were written last."""
-        names = self._reader.namer.names(made.around)
+        names = self._reader.names.within(made.inside)
         inputs = {(each.symbol.offset, each.symbol.bit) for each in self._trace.inputs}
         written = {
             (result.signal.symbol.offset, result.signal.symbol.bit): (
@@ -144,7 +145,7 @@ class TraceRows:
         found = []
         for index, access in enumerate(made.log):
             place = place_at(self._reader, made, index)
-            for leaf in names.of(access.offset, access.size, access.bits):
+            for leaf in names.at(access.offset, access.size, access.bits):
                 value = leaf.cut(access.value, access.offset)
                 control: bytes | None = None
                 last, result = written.get((leaf.offset, leaf.bit), (None, None))
@@ -161,7 +162,7 @@ class TraceRows:
         """The row with what a run on edited inputs came to."""
         index = max(row.call - 1, 0)
         made = passes[index] if index < len(passes) else Pass(None, 0, 0)
-        names = self._reader.namer.names(made.around)
+        names = self._reader.names.within(made.inside)
         written = written_by(self._reader, made)
         values = _used_last(made, names) | written  # what was not written this time is what it was when it was read
         if row.kind == "scan":
@@ -209,10 +210,10 @@ def place_at(reader: Reader, made: Pass, index: int) -> Place:
 
 
 def _read(reader: Reader, made: Pass) -> dict[str, tuple[Leaf, bytes]]:
-    names = reader.namer.names(made.around)
+    names = reader.names.within(made.inside)
     found: dict[str, tuple[Leaf, bytes]] = {}
     for access, mask in made.fresh():
-        for leaf in names.of(access.offset, access.size, access.bits):
+        for leaf in names.at(access.offset, access.size, access.bits):
             at = leaf.offset - access.offset
             if leaf.passing or (mask is not None and not any(mask[at : at + leaf.type.size])):
                 continue
@@ -220,18 +221,18 @@ def _read(reader: Reader, made: Pass) -> dict[str, tuple[Leaf, bytes]]:
     return found
 
 
-def _used_last(made: Pass, names: Names) -> dict[str, bytes]:
+def _used_last(made: Pass, names: NamesInside) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
     for access in made.log:
-        for leaf in names.of(access.offset, access.size, access.bits):
+        for leaf in names.at(access.offset, access.size, access.bits):
             found[leaf.name] = leaf.cut(access.value, access.offset)
     return found
 
 
-def _leaf(names: Names, signal: Signal) -> Leaf:
+def _leaf(names: NamesInside, signal: Signal) -> Leaf:
     """What a mapped variable is called in a pass."""
     symbol, size = signal.symbol, signal.type.size
-    for leaf in names.of(symbol.offset, size, 0xFF if symbol.bit is None else 1 << symbol.bit):
+    for leaf in names.at(symbol.offset, size, 0xFF if symbol.bit is None else 1 << symbol.bit):
         if (leaf.offset, leaf.bit, leaf.type.size) == (symbol.offset, symbol.bit, size):
             return leaf
     return Leaf(signal.path, signal.type, symbol.offset, symbol.bit)

@@ -6,11 +6,11 @@ from difflib import get_close_matches
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.program.types import StringType
+from scanbench.symbols.names import Names
 from scanbench.symbols.values import parse_value
 from scanbench.verify.contract import DEFAULT_LIMIT, Column, Range, Row, ScanVerified, Use
 from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit, Edit
-from scanbench.verify.naming import Namer
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
 from scanbench.verify.rows import Columns, Reader
@@ -49,7 +49,7 @@ class TraceVerifier:
         self._texts = {file: text.splitlines() for file, text in (sources or {}).items()}
         sites = self._monitor.side.resource.loaded.debugged().sites
         self._sites = sites
-        self._reader = Reader(Namer(program, sites), Places(program, sites, self._line), Columns())
+        self._reader = Reader(Names(program, sites), Places(program, sites, self._line), Columns())
         self._range = Resolved("the whole scan")
         self._limit = DEFAULT_LIMIT
         self._edits: dict[tuple[int, int], dict[str, Edit]] = {}
@@ -149,7 +149,7 @@ class TraceVerifier:
         return rows, recorder, ran
 
     def _recorder(self, detail: bool = False) -> Recorder:
-        return Recorder(self._monitor.side.resource, self._reader.namer, self._range, self._limit, detail)
+        return Recorder(self._monitor.side.resource, self._reader.names, self._range, self._limit, detail)
 
     def _told(self, scan: int, rows: tuple[Row, ...]) -> ScanVerified:
         columns, inputs, outputs = self._reader.columns.take()

@@ -21,7 +21,7 @@ class ForBrowser:
     """The PLC that a browser looks at: breakpoints are everybody's, and stay when it goes."""
 
     def __init__(self, session: Session, author: str) -> None:
-        paths = ProjectPaths(lambda: session.sources.files)
+        paths = ProjectPaths(lambda: session.instance.sources.files)
         self.present: Debuggee | None = Debuggee(session, author, "", paths)
 
     async def launch(self, args: shapes.Launch, say: Send) -> Debuggee:
@@ -62,7 +62,7 @@ class ForTool:
         session = self._session
 
         def files() -> Iterable[str]:
-            return session.sources.files
+            return session.instance.sources.files
 
         paths = FolderPaths(files, args.local_root) if args.local_root else ServerPaths(files)
         return Debuggee(session, self._author, f"debug session {next(_numbers)}", paths)

@@ -96,7 +96,7 @@ def _function(
 async def _first_statements(plc: Debuggee) -> dict[str, tuple[str, host.PlaceInfo]]:
     """POU in small letters -> the file and place of its first statement."""
     found: dict[str, tuple[str, host.PlaceInfo]] = {}
-    for file in plc.session.sources.files:
+    for file in plc.session.instance.sources.files:
         for place in await _places(plc, file, 1, _ALL_LINES):
             found.setdefault(place.pou.casefold(), (file, place))
     return found

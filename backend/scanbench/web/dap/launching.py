@@ -58,7 +58,7 @@ class Launcher:
         cache = await asyncio.to_thread(user_cache)
         self._solo = await Solo.start(found.root.name, found.sources, found.model, args.pace, cache)
         session = self._solo.session
-        paths = FolderPaths(lambda: session.sources.files, str(found.root), found.real)
+        paths = FolderPaths(lambda: session.instance.sources.files, str(found.root), found.real)
         return Debuggee(session, self._author, "launched", paths, breaks=not args.no_debug)
 
     async def attach(self, args: shapes.Attach) -> Debuggee:
@@ -80,7 +80,7 @@ class Launcher:
         found = await asyncio.to_thread(find, self._args)
         await _check(found, say)
         plc.done(await plc.session.drive("pause", None, plc.author))
-        sources = replace(found.sources, version=plc.session.sources.version + 1)
+        sources = replace(found.sources, version=plc.session.instance.sources.version + 1)
         plc.done(await plc.session.begin_anew(plc.author, sources))
         await self._solo.standing()
         await self.begin(plc)

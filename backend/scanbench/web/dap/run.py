@@ -126,7 +126,7 @@ async def _entered(plc: Debuggee, command: Command) -> Body:
 
 async def on_in_out_binding(plc: Debuggee, args: shapes.Path) -> Body:
     """What an in-out is bound to."""
-    return _plain(await plc.session.binding(args.path))
+    return _plain(await plc.session.debugging.binding(args.path))
 
 
 async def on_coverage(plc: Debuggee, args: shapes.Coverage) -> Body:
@@ -134,8 +134,8 @@ async def on_coverage(plc: Debuggee, args: shapes.Coverage) -> Body:
     if args.on is not None or args.reset:
         now = plc.session.debugging.coverage
         on = args.on if args.on is not None else now is not None and now.on
-        plc.done(await plc.session.cover(on, args.reset, plc.author))
-    return _plain(await plc.session.coverage())
+        plc.done(await plc.session.debugging.cover(on, args.reset, plc.author))
+    return _plain(await plc.session.debugging.reached())
 
 
 def _plain(told: Bound | Coverage) -> Body:

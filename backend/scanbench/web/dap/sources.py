@@ -8,7 +8,7 @@ from scanbench.wire.refused import Refused
 
 async def on_loaded_sources(plc: Debuggee, _args: shapes.Nothing) -> Body:
     """All of them."""
-    return {"sources": [plc.paths.source(file) for file in sorted(plc.session.sources.files)]}
+    return {"sources": [plc.paths.source(file) for file in sorted(plc.session.instance.sources.files)]}
 
 
 async def on_source(plc: Debuggee, args: shapes.SourceText) -> Body:
@@ -16,7 +16,7 @@ async def on_source(plc: Debuggee, args: shapes.SourceText) -> Body:
     source = args.source
     if args.source_reference and not source.source_reference:
         source = source.model_copy(update={"source_reference": args.source_reference})
-    text = plc.session.sources.files.get(plc.paths.file(source))
+    text = plc.session.instance.sources.files.get(plc.paths.file(source))
     if text is None:
         raise Refused("the program was changed meanwhile: ask for the sources again")
     return {"content": text, "mimeType": "text/x-iec61131-st"}

@@ -194,7 +194,7 @@ async def on_completions(plc: Debuggee, args: shapes.Completions) -> Body:
             for each in await _quietly(plc, below):
                 if each.name.casefold().startswith(begun.casefold()):
                     found.setdefault(each.name, {"label": each.name, "type": "variable", "detail": each.type})
-    for symbol in (await plc.session.look_up("complete", word)).symbols:
+    for symbol in (await plc.session.instance.look_up("complete", word)).symbols:
         label = symbol.path[len(stem) + 1 :] if dot else symbol.path
         found.setdefault(label, {"label": label, "type": "variable", "detail": symbol.type})
     place: Body = {"start": column - len(begun), "length": len(begun)}

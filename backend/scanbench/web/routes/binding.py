@@ -15,4 +15,4 @@ router = APIRouter(prefix="/api/instances/{instance}", tags=["values"])
 async def on_binding(bench: Bench, instance: Id, path: Annotated[str, Query(max_length=2000)]) -> Bound:
     """What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other
     calls pass."""
-    return await bench.session(instance).binding(path)
+    return await bench.session(instance).debugging.binding(path)

@@ -14,7 +14,7 @@ router = APIRouter(prefix="/api/instances/{instance}", tags=["debug"])
 @router.get("/coverage")
 async def on_coverage(bench: Bench, instance: Id) -> Coverage:
     """Statements and branches that were reached since coverage was switched on."""
-    return await bench.session(instance).coverage()
+    return await bench.session(instance).debugging.reached()
 
 
 @router.get("/coverage.lcov", response_class=PlainTextResponse)
@@ -22,4 +22,4 @@ async def on_lcov(bench: Bench, instance: Id) -> PlainTextResponse:
     """The same as LCOV, for genhtml and CI."""
     session = bench.session(instance)
     name = f"attachment; filename=scanbench-{session.id}.lcov"
-    return PlainTextResponse(lcov((await session.coverage()).files), headers={"Content-Disposition": name})
+    return PlainTextResponse(lcov((await session.debugging.reached()).files), headers={"Content-Disposition": name})

@@ -10,7 +10,7 @@ from scanbench.web import messages_errors, messages_models, translate
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 from scanbench.web.routes.entering import entered
-from scanbench.wire.host import PreviewedErrors
+from scanbench.wire.host import ErrorsPreviewed, PreviewedErrors, PreviewErrors
 from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
@@ -55,7 +55,7 @@ async def on_clear_log(bench: Bench, request: Request, instance: Id) -> messages
 @router.get("/errors/armed")
 async def on_armed(bench: Bench, instance: Id) -> tuple[ArmedInfo, ...]:
     """The faults that are armed and not over."""
-    return bench.session(instance).armed
+    return bench.session(instance).errors.armed
 
 
 @router.post("/errors/arm")
@@ -70,7 +70,7 @@ async def on_arm(
 async def on_disarm(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.DisarmFaults
 ) -> messages_errors.CommandResult:
-    """Takes these faults back, or all; what they raised is recovered."""
+    """Disarms these faults, or all; what they raised is recovered."""
     return await entered(bench, request, instance, "disarm", wanted)
 
 
@@ -78,13 +78,14 @@ async def on_disarm(
 async def on_preview(bench: Bench, instance: Id, wanted: messages_errors.PreviewErrors) -> PreviewedErrors:
     """What raising these would write now; nothing is changed."""
     refs = tuple(make(ErrorRef, one.model_dump()) for one in wanted.errors)
-    return await bench.session(instance).preview_errors(refs, wanted.again)
+    plc = bench.session(instance).instance
+    return (await plc.ask(lambda ref: PreviewErrors(ref, refs, wanted.again), ErrorsPreviewed)).found
 
 
 @router.get("/errors/{error}/reaction")
 async def on_reaction(bench: Bench, instance: Id, error: str) -> Reaction:
     """How the program reacted to an error the last time it was raised here."""
-    found = bench.session(instance).reaction(error)
+    found = bench.session(instance).errors.reaction(error)
     if found is None:
         raise Refused(f"nobody has compared yet how the program reacts to {error}: raise it, and wait for the window")
     return found

@@ -111,7 +111,7 @@ async def on_import(bench: Bench, request: Request, name: str) -> wire.ImportedI
 
 @router.delete("/instances/{instance}", status_code=204)
 async def on_delete_instance(bench: Bench, instance: Id) -> None:
-    """Ends a PLC, and forgets it."""
+    """Ends a PLC and deletes it."""
     await bench.delete_instance(instance)
 
 
@@ -119,7 +119,7 @@ async def on_delete_instance(bench: Bench, instance: Id) -> None:
 async def on_symbols(bench: Bench, instance: Id, path: str = "", offer: bool = False) -> tuple[SymbolInfo, ...]:
     """The members below a path; programs and globals below ''. With `offer` a path that is no variable (it is being typed)
     has none, instead of being refused."""
-    found = await bench.session(instance).look_up("members", path)
+    found = await bench.session(instance).instance.look_up("members", path)
     if found.message and not offer:
         raise Refused(found.message, found.near)
     return found.symbols
@@ -128,21 +128,21 @@ async def on_symbols(bench: Bench, instance: Id, path: str = "", offer: bool = F
 @router.get("/instances/{instance}/complete")
 async def on_complete(bench: Bench, instance: Id, text: str = "") -> tuple[SymbolInfo, ...]:
     """At most 50 symbols whose path begins with the text."""
-    found = await bench.session(instance).look_up("complete", text)
+    found = await bench.session(instance).instance.look_up("complete", text)
     return found.symbols
 
 
 @router.get("/instances/{instance}/instances-of")
 async def on_instances_of(bench: Bench, instance: Id, pou: str) -> tuple[SymbolInfo, ...]:
     """The instances of a POU in the running program, at most 1,000."""
-    found = await bench.session(instance).look_up("instances", pou)
+    found = await bench.session(instance).instance.look_up("instances", pou)
     return found.symbols
 
 
 @router.get("/instances/{instance}/program")
 async def on_program(bench: Bench, instance: Id, version: Version) -> wire.ProgramText:
     """The text of a program version that ran here: in the past the text is that of the scan."""
-    sources = await bench.session(instance).sources_of(version)
+    sources = await bench.session(instance).instance.sources_of(version)
     found = await bench.projects.declared(sources)
     return wire.ProgramText(version=version, files=sources.files, pous=found.pous)
 
@@ -150,7 +150,7 @@ async def on_program(bench: Bench, instance: Id, version: Version) -> wire.Progr
 @router.get("/instances/{instance}/errors")
 async def on_errors(bench: Bench, instance: Id) -> list[ErrorHistoryRow]:
     """The error history, in the order of the catalogue."""
-    return list(map(translate.error_row, bench.session(instance).rows))
+    return list(map(translate.error_row, bench.session(instance).errors.rows))
 
 
 @router.websocket("/instances/{instance}/socket")

@@ -19,43 +19,43 @@ async def on_last_write(
     bench: Bench, instance: Id, path: Annotated[str, Query(min_length=1, max_length=2000)], scan: Scan | None = None
 ) -> Writer:
     """Who last wrote a variable before `scan` began, or before what is shown now."""
-    return await bench.pasts.last_writer(bench.session(instance), path, scan)
+    return await bench.history.last_writer(bench.session(instance), path, scan)
 
 
 @router.get("/instances/{instance}/changes")
 async def on_changes(bench: Bench, instance: Id, first: Scan, last: Scan, other: Id | None = None) -> Changes:
-    """What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`."""
+    """The variables that differ between the beginnings of scans `first` and `last`; with `other`, in that instance at `last`."""
     second = None if other is None else bench.session(other)
-    return await bench.pasts.changes(bench.session(instance), first, last, second)
+    return await bench.history.changes(bench.session(instance), first, last, second)
 
 
 @router.get("/instances/{instance}/comparisons")
 async def on_comparisons(bench: Bench, instance: Id) -> list[Comparison]:
     """The comparisons of this run with others, the newest first."""
-    return bench.pasts.comparisons(bench.session(instance))
+    return bench.history.comparisons(bench.session(instance))
 
 
 @router.post("/instances/{instance}/comparisons", status_code=201)
 async def on_compare(bench: Bench, request: Request, instance: Id, new: wire.NewComparison) -> Comparison:
-    """Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket."""
+    """Compares this run (A) with a second one (B), scan by scan; progress comes by A's WebSocket."""
     a, b = bench.session(instance), bench.session(new.other)
-    return bench.pasts.compare(a, b, user_of(request).name)
+    return bench.history.compare(a, b, user_of(request).name)
 
 
 @router.delete("/comparisons/{comparison}", status_code=204)
 async def on_delete_comparison(bench: Bench, comparison: Id) -> None:
-    """Cancels a comparison, or forgets what came of it."""
-    await bench.pasts.forget(comparison)
+    """Cancels a comparison, or deletes its result."""
+    await bench.history.forget(comparison)
 
 
 @router.post("/instances/{instance}/reruns", status_code=201)
 async def on_rerun(bench: Bench, request: Request, instance: Id, new: wire.NewRerun) -> Rerun:
-    """The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket."""
+    """Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket."""
     change = RerunChange(new.scan, new.error, new.by, new.instead, new.leave_out, new.behind)
-    return await bench.pasts.rerun(bench.session(instance), change, new.name.strip(), user_of(request).name)
+    return await bench.history.rerun(bench.session(instance), change, new.name.strip(), user_of(request).name)
 
 
 @router.delete("/reruns/{rerun}", status_code=204)
 async def on_cancel_rerun(bench: Bench, rerun: Id) -> None:
-    """Cancels a replay that is under way."""
-    await bench.pasts.cancel_rerun(rerun)
+    """Cancels a replay."""
+    await bench.history.cancel_rerun(rerun)

@@ -63,5 +63,5 @@ async def on_check(bench: Bench, project: Id, edited: wire.CheckRequest) -> wire
 
 @router.post("/{project}/build")
 async def on_build(bench: Bench, request: Request, project: Id, how: wire.Build = _PLAIN_BUILD) -> wire.BuildResult:
-    """Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew."""
+    """Builds what is saved, and swaps it into the project's instances; asks first where variables would be reset."""
     return translate.build_result(await bench.projects.build(project, user_of(request).name, how.agreed, how.instances))

@@ -39,9 +39,9 @@ async def on_history(bench: Bench, instance: Id, version: Version | None = None)
     """The error history of a version, or of the one that runs."""
     session = bench.session(instance)
     rows = await bench.records.rows(session, version)
-    of = session.history_version if version is None else version
+    of = session.errors.version if version is None else version
     return wire.HistoryOfVersion(
-        version=of, running=of == session.history_version, rows=list(map(translate.error_row, rows))
+        version=of, running=of == session.errors.version, rows=list(map(translate.error_row, rows))
     )
 
 
@@ -57,13 +57,13 @@ async def on_record(
 
 @router.get("/projects/{project}/records")
 async def on_records(bench: Bench, project: Id) -> list[RecordInfo]:
-    """The test records that were brought in, the newest first."""
+    """The imported test records, the newest first."""
     return await bench.records.imported(project)
 
 
 @router.post("/projects/{project}/records", status_code=201)
 async def on_import(bench: Bench, request: Request, project: Id) -> RecordInfo:
-    """Keeps a test record from elsewhere; the body is its XML."""
+    """Imports a test record; the body is its XML."""
     text = await xml_body(request)
     return await bench.records.bring_in(project, text, user_of(request).name)
 
@@ -72,7 +72,7 @@ async def on_import(bench: Bench, request: Request, project: Id) -> RecordInfo:
 async def on_imported(
     bench: Bench, project: Id, record: Id, format: Format = "json", lang: Language = "en"
 ) -> Response:
-    """A test record that was brought in: as a file, or as JSON."""
+    """An imported test record: as a file, or as JSON."""
     info, found = await bench.records.one(project, record)
 
     def told() -> wire.ImportedRecord:
@@ -83,7 +83,7 @@ async def on_imported(
 
 @router.delete("/projects/{project}/records/{record}", status_code=204)
 async def on_delete(bench: Bench, project: Id, record: Id) -> None:
-    """Forgets a test record that was brought in."""
+    """Deletes an imported test record."""
     await bench.records.delete(project, record)
 
 

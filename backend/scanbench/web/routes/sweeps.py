@@ -28,7 +28,7 @@ async def on_new_state(bench: Bench, request: Request, instance: Id, new: messag
 
 @router.delete("/states/{state}", status_code=204)
 async def on_delete_state(bench: Bench, state: Id) -> None:
-    """Forgets a state; sweeps that began there keep their results."""
+    """Deletes a state; sweeps that began there keep their results."""
     await bench.states.delete(state)
 
 
@@ -56,7 +56,7 @@ async def on_sweep(bench: Bench, sweep: Id) -> messages_errors.Sweep:
 
 @router.delete("/sweeps/{sweep}", status_code=204)
 async def on_delete_sweep(bench: Bench, sweep: Id) -> None:
-    """Forgets a sweep; one that runs is cancelled."""
+    """Deletes a sweep; one that is running is cancelled."""
     await bench.sweeps.delete(sweep)
 
 
@@ -68,13 +68,13 @@ async def on_cancel(bench: Bench, sweep: Id) -> messages_errors.SweepSummary:
 
 @router.post("/sweeps/{sweep}/resume")
 async def on_resume(bench: Bench, sweep: Id) -> messages_errors.SweepSummary:
-    """Goes on with the cells that are missing."""
+    """Continues with the cells that are missing."""
     return translate_sweeps.summary(await bench.sweeps.resume(sweep))
 
 
 @router.post("/sweeps/{sweep}/reaction")
 async def on_cell(bench: Bench, sweep: Id, cell: messages_errors.CellRef) -> Reaction:
-    """All that was found out about one cell."""
+    """The whole result of one cell."""
     return await bench.sweeps.reaction(sweep, cell.error, cell.state)
 
 
@@ -82,14 +82,14 @@ async def on_cell(bench: Bench, sweep: Id, cell: messages_errors.CellRef) -> Rea
 async def on_accept(
     bench: Bench, request: Request, sweep: Id, finding: messages_errors.AcceptFinding
 ) -> messages_errors.Accepted:
-    """Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record."""
+    """Accepts a finding with a reason, for this and later sweeps of the project; the test record lists it."""
     made = await bench.sweeps.accept(sweep, finding.error, finding.state, finding.reason, user_of(request).name)
     return translate_sweeps.accepted(made)
 
 
 @router.post("/sweeps/{sweep}/withdraw", status_code=204)
 async def on_withdraw(bench: Bench, sweep: Id, cell: messages_errors.CellRef) -> None:
-    """The finding is accepted no more."""
+    """Withdraws the acceptance of a finding."""
     await bench.sweeps.withdraw(sweep, cell.error, cell.state)
 
 
@@ -102,5 +102,5 @@ async def on_open(bench: Bench, request: Request, sweep: Id, cell: messages_erro
 
 @router.get("/sweeps/{before}/compare/{after}")
 async def on_compare(bench: Bench, before: Id, after: Id) -> messages_errors.SweepComparison:
-    """What became better or worse from one sweep to another: of two versions, or of two models."""
+    """What became better or worse from one sweep to the next: of two versions, or of two models."""
     return translate_sweeps.comparison(await bench.sweeps.compare(before, after))

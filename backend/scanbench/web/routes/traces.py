@@ -39,7 +39,7 @@ async def on_new_trace(bench: Bench, request: Request, instance: Id, new: wire.D
 async def on_define_trace(
     bench: Bench, request: Request, instance: Id, trace: Id, changed: wire.DefineTrace
 ) -> TraceStatus:
-    """Another definition for a trace; what was recorded is forgotten. Without `start`, other signals leave what was recorded
+    """Changes the definition of a trace, and discards what it recorded. Without `start`, other signals leave what was recorded
     of those that stay, and another name leaves everything."""
     tracing, author = bench.session(instance).tracing, user_of(request).name
     return await tracing.define(trace, translate_trace.wanted(changed), author, changed.start)
@@ -47,19 +47,19 @@ async def on_define_trace(
 
 @router.post("/instances/{instance}/traces/{trace}/start")
 async def on_start_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> TraceStatus:
-    """Records anew; arms a trace with a trigger again."""
+    """Starts recording again; arms a trace that has a trigger."""
     return await bench.session(instance).tracing.drive(trace, "start", user_of(request).name)
 
 
 @router.post("/instances/{instance}/traces/{trace}/stop")
 async def on_stop_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> TraceStatus:
-    """Records no more; what was recorded stays."""
+    """Stops recording; what was recorded is kept."""
     return await bench.session(instance).tracing.drive(trace, "stop", user_of(request).name)
 
 
 @router.delete("/instances/{instance}/traces/{trace}", status_code=204)
 async def on_delete_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> None:
-    """Forgets a trace and what it recorded."""
+    """Deletes a trace and what it recorded."""
     await bench.session(instance).tracing.delete(trace, user_of(request).name)
 
 
@@ -111,7 +111,7 @@ async def on_record(bench: Bench, record: Id) -> wire.TraceRecordInfo:
 
 @router.delete("/trace-records/{record}", status_code=204)
 async def on_delete_record(bench: Bench, record: Id) -> None:
-    """Forgets a kept record."""
+    """Deletes a kept record."""
     await bench.trace_records.delete(record)
 
 
@@ -135,7 +135,7 @@ async def on_record_csv(bench: Bench, record: Id, first: Scan = 0, last: Scan | 
 
 @router.post("/instances/{instance}/flights", status_code=201)
 async def on_new_flight(bench: Bench, request: Request, instance: Id, new: wire.NewFlight) -> FlightChanged:
-    """Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket."""
+    """Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket."""
     signals = tuple(text.strip() for text in new.signals)
     return bench.trace_records.fly(
         bench.session(instance), signals, new.scans, new.last, new.every, user_of(request).name
@@ -144,7 +144,7 @@ async def on_new_flight(bench: Bench, request: Request, instance: Id, new: wire.
 
 @router.delete("/flights/{flight}", status_code=204)
 async def on_cancel_flight(bench: Bench, flight: Id) -> None:
-    """Gives a record up that is under way."""
+    """Cancels a retrospective trace that is being made."""
     await bench.trace_records.cancel(flight)
 
 

@@ -46,7 +46,7 @@ async def on_write(bench: Bench, request: Request, instance: Id, wanted: message
 @router.get("/forces")
 async def on_forces(bench: Bench, instance: Id) -> tuple[ForcedValue, ...]:
     """The forces that hold."""
-    return await bench.session(instance).forces_now()
+    return await bench.session(instance).forces.now()
 
 
 @router.post("/force")
@@ -78,5 +78,5 @@ async def on_mode(bench: Bench, request: Request, instance: Id, wanted: messages
 
 @router.post("/restart")
 async def on_restart(bench: Bench, request: Request, instance: Id, wanted: messages_values.BeginAnew) -> CommandResult:
-    """The program begins anew, in every mode; afterwards it runs."""
+    """Restarts the program, in every mode; afterwards it runs."""
     return await entered(bench, request, instance, "restart", wanted)

@@ -1,4 +1,4 @@
-"""REST: verifications of an instance, their rows, what is kept of them, disturbances, and traces of real controllers."""
+"""REST: verifications of an instance, their rows, what is kept of them, disturbances, and controller logs."""
 
 import re
 from typing import Annotated, Literal
@@ -36,7 +36,7 @@ async def on_verifications(bench: Bench, instance: Id) -> list[wire.Verification
 async def on_new_verification(
     bench: Bench, request: Request, instance: Id, new: wire.NewVerification
 ) -> wire.VerificationInfo:
-    """Begins to verify, live or a stretch of the past; how it goes on comes by the instance's WebSocket."""
+    """Begins to verify, live or a stretch of the past; progress comes by the instance's WebSocket."""
     wanted = translate_verify.wanted(new)
     return translate_verify.info(
         await bench.verifications.begin(bench.session(instance), wanted, user_of(request).name)
@@ -47,7 +47,7 @@ async def on_new_verification(
 async def on_new_trace_verification(
     bench: Bench, request: Request, instance: Id, new: wire.NewTraceVerification
 ) -> wire.VerificationInfo:
-    """Verifies the trace of a real controller with the program that runs."""
+    """Verifies a controller log with the program that runs."""
     file = bench.trace_files.get(new.file)
     return translate_verify.info(
         await bench.verifications.begin_trace(
@@ -61,7 +61,7 @@ async def on_new_trace_verification(
 async def on_drive(
     bench: Bench, request: Request, verification: Id, drive: wire.DriveVerification
 ) -> wire.VerificationInfo:
-    """Another pace or memory; one further; stopped, or resumed."""
+    """Changes pace or memory of a verification; steps, pauses or resumes it."""
     return translate_verify.info(
         await bench.verifications.drive(
             verification, drive.pace, drive.auto, drive.memory, drive.action, user_of(request).name
@@ -71,7 +71,7 @@ async def on_drive(
 
 @router.delete("/verifications/{verification}", status_code=204)
 async def on_delete(bench: Bench, request: Request, verification: Id) -> None:
-    """Ends a verification, and forgets its rows."""
+    """Ends a verification and deletes its rows."""
     await bench.verifications.delete(verification, user_of(request).name)
 
 
@@ -116,19 +116,19 @@ async def on_keep(
 
 @router.get("/projects/{project}/verification-records")
 async def on_records(bench: Bench, project: Id) -> list[wire.VerificationRecord]:
-    """What was kept in a project, the newest first."""
+    """The kept verifications of a project, the newest first."""
     return list(map(translate_verify.record, await bench.verifications.records(project)))
 
 
 @router.get("/verification-records/{record}")
 async def on_record(bench: Bench, record: Id) -> wire.VerificationRecord:
-    """One that was kept."""
+    """A kept verification."""
     return translate_verify.record(await bench.verifications.record(record))
 
 
 @router.delete("/verification-records/{record}", status_code=204)
 async def on_delete_record(bench: Bench, record: Id) -> None:
-    """Forgets one that was kept."""
+    """Deletes a kept verification."""
     await bench.verifications.delete_record(record)
 
 
@@ -151,8 +151,10 @@ async def on_export_record(bench: Bench, record: Id, format: Format = "csv") -> 
 
 @router.get("/instances/{instance}/disturbances")
 async def on_disturbances(bench: Bench, instance: Id) -> tuple[DisturbanceInfo, ...]:
-    """Those that are not over, and those that never came about."""
-    return await bench.session(instance).disturbances_now()
+    """Disturbances that are not over, and those that never took effect."""
+    session = bench.session(instance)
+    await session.forces.now()  # before that is answered, what holds is told
+    return session.errors.disturbances
 
 
 @router.post("/instances/{instance}/disturbances")
@@ -163,17 +165,17 @@ async def on_disturb(bench: Bench, request: Request, instance: Id, new: wire.New
 
 @router.delete("/instances/{instance}/disturbances")
 async def on_calm_all(bench: Bench, request: Request, instance: Id) -> CommandResult:
-    """Takes all of them back."""
+    """Withdraws all disturbances."""
     return await entered(bench, request, instance, "calm", {"ids": None})
 
 
 @router.delete("/instances/{instance}/disturbances/{disturbance}")
 async def on_calm(bench: Bench, request: Request, instance: Id, disturbance: Id) -> CommandResult:
-    """Takes one back."""
+    """Withdraws a disturbance."""
     return await entered(bench, request, instance, "calm", {"ids": [disturbance]})
 
 
-# ---- traces of real controllers --------------------------------------------------------------------------------------
+# ---- controller logs -----------------------------------------------------------------------------------------------
 
 
 @router.post("/projects/{project}/traces", status_code=201)
@@ -188,7 +190,7 @@ async def on_upload(
 
 @router.post("/instances/{instance}/trace-check")
 async def on_check_mapping(bench: Bench, instance: Id, check: wire.CheckTraceMapping) -> Checked:
-    """Whether a trace file can be verified with this mapping, and if not, where it cannot."""
+    """Whether a trace file can be verified with this mapping; if not, the places at which it cannot."""
     file = bench.trace_files.get(check.file)
     mapping = translate_verify.mapping(check.mapping)
     return await bench.trace_files.check(bench.session(instance), file, mapping)
@@ -211,7 +213,7 @@ async def on_save_mapping(bench: Bench, request: Request, project: Id, save: wir
 
 @router.delete("/trace-mappings/{mapping}", status_code=204)
 async def on_delete_mapping(bench: Bench, mapping: Id) -> None:
-    """Forgets a mapping."""
+    """Deletes a mapping."""
     await bench.trace_files.delete_mapping(mapping)
 
 

@@ -14,7 +14,7 @@ router = APIRouter(prefix="/api", tags=["watch lists"])
 
 @router.get("/projects/{project}/watch-lists")
 async def on_watch_lists(bench: Bench, request: Request, project: Id) -> list[wire.WatchListInfo]:
-    """The lists that this user sees: shared ones and the user's own, by name."""
+    """The lists that the user sees: shared ones and the user's own, by name."""
     found = await bench.watch_lists.all(project, user_of(request).name)
     return [wire.WatchListInfo.model_validate(_head(row)) for row in found]
 
@@ -41,7 +41,7 @@ async def on_save_watch_list(bench: Bench, request: Request, id: Id, save: wire.
 
 @router.delete("/watch-lists/{id}", status_code=204)
 async def on_delete_watch_list(bench: Bench, request: Request, id: Id) -> None:
-    """Forgets it."""
+    """Deletes a list."""
     await bench.watch_lists.delete(id, user_of(request).name)
 
 

@@ -119,16 +119,16 @@ class Client:
             you=translate.user(self.user),
             users=list(map(translate.user, self._session.users)),
             instance=instance,
-            errors=list(map(translate.error_row, self._session.rows)),
-            log=self._session.lines,
-            forces=self._session.forces,
-            armed=self._session.armed,
-            diagnostics=translate.diagnostics(self._session.violations),
-            timeline=self._session.timeline,
+            errors=list(map(translate.error_row, self._session.errors.rows)),
+            log=self._session.log.lines,
+            forces=self._session.forces.all,
+            armed=self._session.errors.armed,
+            diagnostics=translate.diagnostics(self._session.log.violations),
+            timeline=self._session.log.timeline,
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
             coverage=self._session.debugging.coverage,
             verifications=list(map(translate_verify.info, verifications)),
-            disturbances=self._session.disturbances,
+            disturbances=self._session.errors.disturbances,
         )
         self._texts.first(_text(hello))
         writer = asyncio.get_running_loop().create_task(self._write())
@@ -167,7 +167,7 @@ class Client:
                 await self._socket.send_bytes(self._frames.popleft())
             if self._stale and not self._asked:
                 self._asked = True
-                self._session.want_snapshot(self._id)
+                self._session.watching.want_snapshot(self._id)
 
     def _answer(self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = ()) -> None:
         self._texts.add(_text(wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near))))
@@ -185,12 +185,12 @@ class Client:
             return
         match message:
             case client.Watch():
-                self._session.watch(self._id, message.ref, message.paths)
+                self._session.watching.watch(self._id, message.ref, message.paths)
             case debugger.DapOut():
                 self._debugger().receive(message.message)
             case client.Unwatch():
                 self._ids.difference_update(message.ids)
-                self._session.unwatch(self._id, message.ids)
+                self._session.watching.unwatch(self._id, message.ids)
             case (
                 client.Travel() | client.NewRun() | client.RollBack()
             ):  # may take a build: the rest must not wait for it
@@ -230,7 +230,7 @@ class Client:
             case client.RollBack():
                 return await session.roll_back(author)
             case debugger.SetCoverage():
-                return await session.cover(message.on, message.reset, author)
+                return await session.debugging.cover(message.on, message.reset, author)
             case _:
                 given = message.model_dump(exclude={"type", "ref"})
                 return await session.submit(read_command(message.type, given, author))

@@ -7,18 +7,8 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
-from scanbench.program.program import (
-    Base,
-    Const,
-    Expr,
-    Load,
-    Place,
-    Pou,
-    Program,
-    Stmt,
-    TrapKind,
-    TrapSite,
-)
+from scanbench.program.program import Base, Const, Expr, Load, Place, Pou, Program, Stmt
+from scanbench.program.sites import TrapKind, TrapSite
 from scanbench.program.types import Kind, Reference, Type
 from tests.caseformat import first_difference
 from tests.engines.native.plc import check

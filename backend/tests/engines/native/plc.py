@@ -7,7 +7,8 @@ from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.layout import Layout
-from scanbench.program.program import Program, TrapSite
+from scanbench.program.program import Program
+from scanbench.program.sites import TrapSite
 from scanbench.symbols.symbols import resolve
 from scanbench.symbols.values import parse_value, python_value
 from tests.caseformat import MODELS, first_difference

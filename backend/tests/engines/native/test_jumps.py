@@ -18,9 +18,9 @@ from scanbench.program.program import (
     Repeat,
     Return,
     Stmt,
-    TrapKind,
     While,
 )
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import BOOL, INT
 from tests.engines.native.hand_made import SPAN, HandMade, const, hand_made, trap
 

@@ -3,7 +3,7 @@
 import pytest
 
 from scanbench.program.layout import Layout
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from tests.engines.native.plc import plc, ran
 
 TYPES = {"SINT": (-128, 127), "USINT": (0, 255), "INT": (-32768, 32767), "UINT": (0, 65535)}

@@ -4,19 +4,8 @@ import pytest
 
 from scanbench.engines.engine import Reason, Stop
 from scanbench.program.layout import Layout
-from scanbench.program.program import (
-    Assign,
-    Base,
-    Binary,
-    CallBlock,
-    Const,
-    Expr,
-    Index,
-    Load,
-    Place,
-    RefOf,
-    TrapKind,
-)
+from scanbench.program.program import Assign, Base, Binary, CallBlock, Const, Expr, Index, Load, Place, RefOf
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import BOOL, BYTE, DINT, INT, LINT, ULINT, WORD, ArrayType
 from tests.engines.native.hand_made import SPAN, HandMade, const, hand_made, reference_to, through, trap
 

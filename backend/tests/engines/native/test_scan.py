@@ -7,7 +7,7 @@ import pytest
 from scanbench.engines.engine import Reason, Stop
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.layout import Layout
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from tests.engines.native.plc import check, plc
 
 COUNT = "PROGRAM Main VAR n : DINT; a AT %MB4 : BYTE; seen : BYTE; END_VAR n := n + 1; seen := a; a := 5; END_PROGRAM"

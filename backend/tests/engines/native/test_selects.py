@@ -6,7 +6,7 @@ import pytest
 
 from scanbench.engines.native import jit
 from scanbench.engines.native.emit_program import emit_program
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from tests.engines.native.plc import check, plc, ran
 
 

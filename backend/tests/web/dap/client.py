@@ -21,7 +21,7 @@ from tests.web.server import Browser, Server
 
 COMMAND = str(Path(sys.executable).parent / "scanbench")
 Message = dict[str, Any]
-PATIENCE_S = 60
+PATIENCE_S = 120
 
 
 class Closed(Exception):

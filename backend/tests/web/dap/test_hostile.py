@@ -107,7 +107,7 @@ def test_a_tool_that_leaves_while_it_is_refused_gets_both_answers() -> None:
         assert not answer["success"]
         assert "write http://HOST:PORT" in answer["message"] or answer["message"] == "cancelled"  # whichever was first
         assert client.response(gone)["success"]
-        assert client.process.wait(30) == 0
+        assert client.process.wait(PATIENCE_S) == 0
 
 
 def test_a_service_that_is_no_server_of_ours_is_refused(mailer: str, nested: str, program: Path) -> None:
@@ -133,7 +133,7 @@ def test_attaching_can_be_cancelled_while_nobody_answers(silent: str) -> None:
         gone = client.send("disconnect")
         assert client.response(seq)["message"] == "cancelled"
         assert client.response(gone)["success"]
-        assert client.process.wait(30) == 0
+        assert client.process.wait(PATIENCE_S) == 0
 
 
 def test_nonsense_between_messages_is_answered(program: Path) -> None:
@@ -164,7 +164,7 @@ def test_a_launch_comes_once_at_a_time_and_can_be_left(program: Path, tmp_path: 
         gone = client.send("disconnect")
         assert client.response(first)["message"] == "cancelled"
         assert client.response(gone)["success"]
-        assert client.process.wait(30) == 0
+        assert client.process.wait(PATIENCE_S) == 0
     assert list(temporary.iterdir()) == []
 
 
@@ -176,7 +176,7 @@ def test_no_process_is_left_when_the_stream_ends_at_a_halt(program: Path) -> Non
         assert len(pids) >= 2  # the PLC, and where it came from
         assert client.process.stdin is not None
         client.process.stdin.close()
-        assert client.process.wait(30) == 0
+        assert client.process.wait(PATIENCE_S) == 0
         wait_until_ended(pids)
 
 

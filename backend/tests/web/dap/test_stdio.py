@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.web.dap.client import Closed, StdioClient
+from tests.web.dap.client import PATIENCE_S, Closed, StdioClient
 from tests.web.dap.test_socket import CALL_A, FIRST, PROGRAM
 from tests.web.server import Server
 
@@ -42,7 +42,7 @@ def test_a_folder_is_launched_and_nothing_is_left_of_it(project: Path, tmp_path:
         assert str(project / "blocks" / "Counter.st") in files
         assert client.value("A400") == "16#0000"  # the model that project.json names
         client.ask("disconnect")
-        assert client.process.wait(30) == 0
+        assert client.process.wait(PATIENCE_S) == 0
     assert list(temporary.iterdir()) == []
 
 
@@ -62,7 +62,7 @@ def test_an_editor_that_ends_the_adapter(project: Path, tmp_path: Path) -> None:
     with StdioClient(temporary=temporary) as client:
         client.launch(project)
         client.process.send_signal(signal.SIGTERM)
-        assert client.process.wait(30) == 0
+        assert client.process.wait(PATIENCE_S) == 0
     assert list(temporary.iterdir()) == []
 
 
@@ -152,7 +152,7 @@ def test_attaching_to_a_server(server: Server) -> None:
             assert stopped["reason"] == "breakpoint"
             assert client.stack()[0]["source"]["path"] == "/my/plant/Main.st"
         client.ask("disconnect")
-        assert client.process.wait(30) == 0
+        assert client.process.wait(PATIENCE_S) == 0
     assert server.state(instance)["state"] == "running"
 
 

@@ -1,7 +1,7 @@
 """From bytes back to names."""
 
 from scanbench.program.program import Program
-from scanbench.symbols.holding import Holders
+from scanbench.symbols.kept import KeptNames
 from scanbench.symbols.symbols import resolve
 from tests.runtime.bench import program
 
@@ -28,7 +28,7 @@ END_PROGRAM
 def at(made: Program, offset: int, bit: int | None = None) -> list[str]:
     """The names for one byte or bit."""
     mask = 0xFF if bit is None else 1 << bit
-    return [each.symbol.path for each in Holders(made).at(offset & ~1, mask << 8 * (offset & 1))]
+    return [each.name for each in KeptNames(made).at(offset & ~1, mask << 8 * (offset & 1))]
 
 
 def test_every_single_value_is_found_by_each_of_its_bytes() -> None:

@@ -1,0 +1,105 @@
+"""Where a server listens, and where its data are: the command line wins over the environment, that over the settings file."""
+
+import os
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from scanbench.cli.inputs import usage, with_near
+
+HERE = Path("data")
+"""The folder of a server that was started here before there was a place for data; it is kept where it is."""
+_MARKS = ("scanbench.db", "token")
+"""What a server leaves in its folder."""
+_LARGEST_PORT = 65535
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What `scanbench serve` needs to begin."""
+
+    host: str
+    port: int | None
+    data: Path
+
+
+def settings(host: str | None, port: int | None, data: Path | None) -> Settings:
+    """What was given (on the command line, or by SCANBENCH_HOST, _PORT, _DATA), else what the file says, else the defaults."""
+    path = config_file(os.environ)
+    known = read_config(path)
+    return Settings(
+        known.get_text("host", "127.0.0.1") if host is None else host,
+        known.get_port() if port is None else port,
+        (known.get_folder() or default_data(os.environ)) if data is None else data,
+    )
+
+
+def config_file(environment: Mapping[str, str]) -> Path:
+    """`$XDG_CONFIG_HOME/scanbench/config.toml`; the file need not be there."""
+    return _base(environment, "XDG_CONFIG_HOME", ".config") / "scanbench" / "config.toml"
+
+
+def default_data(environment: Mapping[str, str]) -> Path:
+    """The same folder wherever one stands, `$XDG_DATA_HOME/scanbench`, unless a server has used `./data`."""
+    if any((HERE / mark).exists() for mark in _MARKS):
+        return HERE
+    return _base(environment, "XDG_DATA_HOME", ".local/share") / "scanbench"
+
+
+def _base(environment: Mapping[str, str], name: str, usual: str) -> Path:
+    """A base directory; one that is not absolute does not count (XDG Base Directory Specification)."""
+    named = environment.get(name, "")
+    return Path(named) if os.path.isabs(named) else Path.home() / usual
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """The settings file as it was read."""
+
+    path: Path
+    values: Mapping[str, object]
+
+    def get_text(self, key: str, default: str) -> str:
+        """A text, `default` where the file has none."""
+        value = self.values.get(key, default)
+        if not isinstance(value, str) or not value:
+            usage(f"{self.path}: {key} = {value!r}: write a text in quotation marks")
+        return value
+
+    def get_port(self) -> int | None:
+        """The port, if one is named."""
+        value = self.values.get("port")
+        if value is None:
+            return None
+        if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= _LARGEST_PORT:
+            usage(f"{self.path}: port = {value!r}: write a number from 0 to {_LARGEST_PORT}")
+        return value
+
+    def get_folder(self) -> Path | None:
+        """The folder of the data, if one is named."""
+        if "data" not in self.values:
+            return None
+        folder = Path(self.get_text("data", "")).expanduser()
+        if not folder.is_absolute():
+            usage(f"{self.path}: data = {str(folder)!r}: write a path that begins with / or ~")
+        return folder
+
+
+KEYS = ("data", "host", "port")
+
+
+def read_config(path: Path) -> Config:
+    """An empty one where there is no file."""
+    try:
+        values = tomllib.loads(path.read_text("utf-8"))
+    except FileNotFoundError:
+        return Config(path, {})
+    except OSError as error:
+        usage(f"{path} cannot be read: {error.strerror}")
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        usage(f"{path}: {error}")
+    for key in values:
+        if key not in KEYS:
+            usage(with_near(f"{path}: there is no setting {key}", KEYS))
+    return Config(path, values)

@@ -1,0 +1,42 @@
+"""Places of the source text that engines name by a number: where a run-time error can happen, and where a subrange is checked."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from scanbench.problems import Span
+
+
+class TrapKind(StrEnum):
+    BOUNDS = "bounds"
+    DIVISION = "division"
+    NULL = "null"
+    STRING = "string"
+    LOOP = "loop"
+    ABSTRACT = "abstract"
+    """A call whose instance has no body for it."""
+    FATAL = "fatal"
+    """The program called an instruction that stops the PLC (FALS and the like): see `Layout.ASKED`."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrapSite:
+    """A place that can trap; engines name it by its index in `Program.traps` plus one."""
+
+    kind: TrapKind
+    span: Span
+    pou: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class CheckSite:
+    """A subrange check that the compiler embedded; engines name it by its index in `Program.checks` plus one."""
+
+    span: Span
+    pou: str
+    variable: str
+    """What is checked, as people write it: `valve.level`, or `EN_CHECK`."""
+    low: int
+    high: int
+    needless: str = ""
+    """Why no check was embedded here, empty when there is one. Shown, never run."""

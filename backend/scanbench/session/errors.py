@@ -1,0 +1,168 @@
+"""The errors of one PLC: their history by version of the program, how the program reacted, what is armed and what disturbs."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.disturb.disturb import DisturbanceInfo
+from scanbench.faults.history import ErrorRow, History, Swept
+from scanbench.faults.reaction.reaction import Reaction
+from scanbench.plcmodel.model import Model
+from scanbench.runtime.clock import wall_time
+from scanbench.runtime.command import Entry
+from scanbench.session.reacting import Raised, Reacting
+from scanbench.wire import events
+from scanbench.wire.events import Event
+from scanbench.wire.host import PlcState, Standing
+
+LIVING = ("running", "paused", "halted", "stopped", "trapped", "fatal", "no_space")
+"""States that a host tells of itself, with the version that runs."""
+
+
+class Errors:
+    """Keeps the rows as the PLC's journal and a sweep make them, and tells what changed."""
+
+    def __init__(
+        self, history: History, reacting: Callable[[Callable[[Raised, Reaction | str], None]], Reacting],
+        publish: Callable[[Event], None], keep: Callable[[Sequence[ErrorRow]], None], state: Callable[[], PlcState],
+    ) -> None:  # fmt: skip
+        """`reacting` makes what finds reactions out, given whom to tell; `keep` keeps rows; `state` is the PLC's."""
+        self._history = history
+        self._reacting = reacting(self._on_reaction)
+        self._publish, self._keep, self._state = publish, keep, state
+        self._past_rows: list[ErrorRow] = []
+        self._armed: tuple[ArmedInfo, ...] = ()
+        self._disturbances: tuple[DisturbanceInfo, ...] = ()
+
+    @property
+    def rows(self) -> list[ErrorRow]:
+        """The error history, in the order of the catalogue; while the past is shown, as it was then."""
+        return [self._history.with_sweep(row) for row in self._past_rows or self._history.rows]
+
+    @property
+    def version(self) -> int:
+        """The version whose rows are written now."""
+        return self._history.version
+
+    @property
+    def versions(self) -> list[int]:
+        """Versions of the program that have an error history, that of the one that runs included."""
+        return self._history.versions
+
+    @property
+    def armed(self) -> tuple[ArmedInfo, ...]:
+        """The faults that are armed."""
+        return self._armed
+
+    @property
+    def disturbances(self) -> tuple[DisturbanceInfo, ...]:
+        """What is to disturb the PLC, or does."""
+        return self._disturbances
+
+    def rows_of(self, version: int, model: Model) -> list[ErrorRow]:
+        """The error history of a version of the program, which ran on this model."""
+        return [self._history.with_sweep(row) for row in self._history.rows_of(version, model)]
+
+    def reaction(self, error: str) -> Reaction | None:
+        """How the program reacted to an error the last time it was raised; None where nobody compared."""
+        row = next((row for row in self._history.rows if row.id == error), None)
+        return None if row is None or row.reaction is None else row.reaction.found
+
+    def take_sweeps(self, swept: Mapping[int, Mapping[str, Swept]]) -> None:
+        """What sweeps of the project found out, by version and error."""
+        self._history.take_sweeps(swept)
+        self._tell(self.rows)
+
+    def compare(self, rows: Sequence[ErrorRow], scan: int | None = None) -> None:
+        """Has the reactions found out that are being recorded; of those that began in front of `scan`, if it is given."""
+        for row in rows:
+            reaction = row.reaction
+            if reaction is not None and reaction.state == "recording" and scan in (None, reaction.scan):
+                self._reacting.raised(Raised(row.id, reaction.scan, row.program_version))
+
+    async def close(self) -> None:
+        """Nobody waits for reactions any more."""
+        await self._reacting.close()
+
+    # ---- from the host --------------------------------------------------------------------------------------------
+
+    def on_state(self, state: PlcState) -> None:
+        """The PLC is in another state."""
+        if state.pid is not None and not state.past_by and state.state in LIVING:
+            self._see_version(state.version, state.scan)
+        if not state.past_by:
+            self._reacting.reached(state.scan, state.state)
+        if self._past_rows and not state.past_by:
+            self._past_rows = []
+            self._tell(self._history.rows)
+
+    def on_message(self, message: object) -> bool:
+        """What the host says; whether it was for the errors."""
+        match message:
+            case Standing():
+                self._on_standing(message)
+            case _:
+                return False
+        return True
+
+    def on_entries(self, entries: Sequence[Entry]) -> None:
+        """What was entered makes rows."""
+        rows: dict[tuple[int, str], ErrorRow] = {}
+        version = self._history.version
+        for entry in entries:
+            changed = self._history.fold(entry)
+            rows.update(((row.program_version, row.id), row) for row in changed)
+            if entry.plan.cuts:
+                self._reacting.ended(entry.scan)
+            self.compare(changed, entry.scan)
+        self._publish_rows(list(rows.values()), fresh=self._history.version != version)
+
+    def on_new_run(self) -> None:
+        """What was raised before is not in the run file."""
+        self._reacting.forget()
+
+    def on_program(self, model: Model, version: int) -> None:
+        """This program is there, with the errors that its model knows; of another version the rows are others."""
+        self._history.take_model(model)
+        if version != self._history.version:
+            self._history.begin(version)
+            self._publish_rows((), fresh=True)
+
+    def on_model(self, model: Model) -> None:
+        """The program that runs now may know other errors."""
+        self._history.take_model(model)
+        self._publish_rows((), fresh=True)
+
+    def _on_standing(self, standing: Standing) -> None:
+        """What holds now: also after a start, when entries of an earlier life or of a lost one count."""
+        if standing.armed != self._armed:
+            self._armed = standing.armed
+            self._publish(events.ArmedChanged(self._armed))
+        if standing.disturbances != self._disturbances:
+            self._disturbances = standing.disturbances
+            self._publish(events.Disturbances(self._disturbances))
+        state = self._state()
+        if state.past_by:
+            self._past_rows = self._history.as_of(standing.errors, wall_time(), state.version)
+            self._tell(self._past_rows)
+            return
+        self._publish_rows(self._history.reconcile(standing.errors, wall_time()))
+
+    def _on_reaction(self, raised: Raised, found: Reaction | str) -> None:
+        row = self._history.set_reaction(raised.error, raised.version, raised.scan, found)
+        if row is not None:
+            self._publish_rows([row])
+
+    def _see_version(self, version: int, scan: int) -> None:
+        """A run that goes on from its past may be back at a version that ran before, without an entry that says so."""
+        if version != self._history.version:
+            self._publish_rows(self._history.turn_to(version, wall_time(), scan), fresh=True)
+
+    def _publish_rows(self, rows: Sequence[ErrorRow], fresh: bool = False) -> None:
+        """Keeps and tells what changed; `fresh`: another version runs, whose rows are all others."""
+        self._keep(rows)
+        now = self._history.rows if fresh else [row for row in rows if row.program_version == self._history.version]
+        if now and not self._past_rows:
+            self._tell(now)
+
+    def _tell(self, rows: Sequence[ErrorRow]) -> None:
+        self._publish(events.ErrorsChanged(tuple(map(self._history.with_sweep, rows))))

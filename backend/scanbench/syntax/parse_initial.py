@@ -1,0 +1,75 @@
+"""Initial values of variables, arrays and structures."""
+
+from scanbench.syntax import parse_expression, parse_literal, tree
+from scanbench.syntax.cursor import NAME, Cursor
+from scanbench.syntax.lexer import Lex
+
+# ---- initial values -----------------------------------------------------------------------------------------
+
+
+def initial(c: Cursor) -> tree.Initial:
+    start = c.at
+    c.enter()
+    try:
+        if c.accept("["):
+            return _array_initial(c, start)
+        if c.is_("(") and c.kinds[start + 1] is NAME and c.texts[start + 2] == ":=":
+            return _struct_initial(c)
+        return parse_expression.expression(c)
+    finally:
+        c.leave()
+
+
+def bare_array_initial(c: Cursor) -> tree.Initial:
+    """`1, 2, 3(0)`: an array's values without brackets, as vendors write them."""
+    start = c.at
+    items = [_repeated(c)]
+    while c.accept(","):
+        items.append(_repeated(c))
+    return tree.ArrayInit(tuple(items), c.span_from(start))
+
+
+def _array_initial(c: Cursor, start: int) -> tree.Initial:
+    items: list[tuple[tree.Expression | None, tree.Initial]] = []
+    while not c.is_("]"):
+        items.append(_repeated(c))
+        if not c.accept(","):
+            break
+    c.expect("]", "to close the initial values")
+    return tree.ArrayInit(tuple(items), c.span_from(start))
+
+
+def _repeated(c: Cursor) -> tuple[tree.Expression | None, tree.Initial]:
+    """`3(0)` stands for `0, 0, 0`, and `3()` for three default values."""
+    at = c.at
+    if c.texts[at + 1] != "(" or c.kinds[at] not in (Lex.INTEGER, NAME):
+        return None, initial(c)
+    if c.kinds[at] is NAME and not _count_follows(c):
+        return None, initial(c)
+    c.take()
+    count = parse_literal.literal(c, at) if c.kinds[at] is Lex.INTEGER else tree.Name(c.texts[at], c.span_of(at))
+    if c.kinds[at + 2] is NAME and c.texts[at + 3] == ":=":
+        return count, _struct_initial(c)
+    c.expect("(", "behind the count")
+    value = initial(c)
+    c.expect(")", "behind the repeated value")
+    return count, value
+
+
+def _count_follows(c: Cursor) -> bool:
+    """Whether `Name(` repeats a value: only a structure or an array behind it cannot be a call."""
+    at = c.at
+    return c.texts[at + 2] in ("[", "(")
+
+
+def _struct_initial(c: Cursor) -> tree.StructInit:
+    start = c.expect("(", "before the members")
+    members = []
+    while not c.is_(")"):
+        name = c.name("the name of a member")
+        c.expect(":=", "behind the name of the member")
+        members.append((c.texts[name], initial(c), c.span_of(name)))
+        if not c.accept(","):
+            break
+    c.expect(")", "to close the initial values")
+    return tree.StructInit(tuple(members), c.span_from(start))

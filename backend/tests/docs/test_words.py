@@ -1,0 +1,78 @@
+"""One word for one thing: what the glossary does not want is written nowhere that people read."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import typer.main
+from typer.core import TyperCommand, TyperGroup
+
+from scanbench.cli.commands import app
+from scanbench.problems import TABLE
+
+ROOT = Path(__file__).parents[3]
+GLOSSARY = ROOT / "docs" / "glossary.md"
+GENERATED = ("features.md", "standard-library.md")
+PAGES = [
+    path for path in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")) if path.name not in (*GENERATED, GLOSSARY.name)
+]
+TEXTS = sorted((ROOT / "frontend" / "src" / "text" / "en").glob("*.ts"))
+CALQUES = ("in front of", "anew", "mended", "some times slower")
+"""Of other languages; each has a plain English word."""
+FENCE = re.compile(r"```.*?```|`[^`\n]*`|^    .*$", re.DOTALL | re.MULTILINE)
+
+
+def unwanted() -> dict[str, str]:
+    """What is not to be written, and the term to write."""
+    found: dict[str, str] = {}
+    for line in GLOSSARY.read_text("utf-8").splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) == 3:
+            found |= dict.fromkeys(re.findall(r"`([^`]+)`", cells[2]), cells[0])
+    return found
+
+
+def said(words: tuple[str, ...], text: str) -> list[str]:
+    """Which of the words the text has, one or several, at any place of a sentence."""
+    return [word for word in words if re.search(rf"\b{re.escape(word)}(e?s)?\b", text, re.IGNORECASE)]
+
+
+def helps(command: object, name: str) -> Iterator[tuple[str, str]]:
+    """The help of a command and of all below it."""
+    assert isinstance(command, TyperCommand | TyperGroup)
+    yield name, command.help or ""
+    for each in command.params:
+        yield f"{name} {each.name}", str(getattr(each, "help", "") or "")
+    if isinstance(command, TyperGroup):
+        for key, below in command.commands.items():
+            yield from helps(below, f"{name} {key}")
+
+
+def test_the_glossary_names_what_it_does_not_want() -> None:
+    assert len(unwanted()) > 40
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_pages(page: Path) -> None:
+    text = FENCE.sub("", page.read_text("utf-8"))
+    assert said((*unwanted(), *CALQUES), text) == []
+
+
+def test_the_help_of_the_command_line() -> None:
+    found = {place: words for place, text in helps(typer.main.get_command(app), "scanbench")
+             if (words := said((*unwanted(), *CALQUES), text))}  # fmt: skip
+    assert found == {}
+
+
+def test_problems() -> None:
+    assert {code: words for code, title in TABLE.items() if (words := said((*unwanted(), *CALQUES), title))} == {}
+
+
+@pytest.mark.parametrize("path", TEXTS, ids=lambda path: path.name)
+def test_texts_of_the_page(path: Path) -> None:
+    assert said(tuple(unwanted()), path.read_text("utf-8")) == []
+
+
+def test_the_texts_of_the_page_are_where_they_are_looked_for() -> None:
+    assert TEXTS
