@@ -45,7 +45,7 @@ class Log:
         """The runtime diagnostics."""
         return self._violations
 
-    def add(self, author: str, text: str, category: str = "run", scan: int | None = None) -> None:
+    def add(self, author: str, text: str, category: MarkKind = "run", scan: int | None = None) -> None:
         """One more line, of now; of the scan that is shown unless one is given."""
         self._add(LogEntry(wall_time(), self._state().scan if scan is None else scan, author, text, category))
 
