@@ -79,7 +79,7 @@ export const disturb = {
   "import.trace.drop": "Drop a CSV or JSON file here, or",
   "import.trace.drop.about":
     "A column with the scan or the time, and a column for each variable; see docs/trace-format.md.",
-  "import.trace.file": "Log file",
+  "import.trace.file": "Controller log",
   "import.trace.gaps": "Missing scans",
   "import.trace.gaps.hold": "keep the last values",
   "import.trace.gaps.refuse": "are an error",
