@@ -107,7 +107,7 @@ export class Sweeps {
     } else {
       await this.dialog.getByRole('radio', { name: /as it is now/ }).check();
     }
-    if (scans !== undefined) await this.dialog.getByRole('textbox', { name: /^Scans that/ }).fill(String(scans));
+    if (scans !== undefined) await this.dialog.getByRole('textbox', { name: /^Reaction window/ }).fill(String(scans));
   }
 
   /** Begins a sweep; its page opens by itself. */

@@ -19,8 +19,8 @@ class _Interrupt(Interrupt):
 
     running = False
 
-    def reaches(self, knock: Callable[[], None]) -> None:
-        super().reaches(knock)
+    def reaches(self, interrupt: Callable[[], None]) -> None:
+        super().reaches(interrupt)
         self.running = True
 
 

@@ -9,7 +9,7 @@ from scanbench.session.marks import Marks
 from scanbench.symbols.violations import Violations
 from scanbench.wire import events
 from scanbench.wire.events import Event, LogEntry
-from scanbench.wire.host import Diagnosed, PlcState, RunMarks
+from scanbench.wire.host import Diagnosed, MarkKind, PlcState, RunMarks
 
 LOG_LINES = 500
 LISTED = 100

@@ -76,22 +76,23 @@ class Client:
 
 def test_a_client_made_of_the_document_works(server: Server) -> None:
     client = Client(str(server.http.base_url), server.token)
-    assert client.get_server()["version"] == client.document["info"]["version"]
-    project = client.create_project({"name": "generated client", "model": "GENERIC-IEC"})["id"]
-    text = "PROGRAM Main VAR n : INT := 7; END_VAR n := n; END_PROGRAM"
-    client.save_project_file({"text": text, "version": 0}, project=project, path="main.st")
-    assert client.get_project_file(project=project, path="main.st")["text"] == text
-    assert client.build_project({}, project=project)["ok"]
-    assert "generated client" in [each["name"] for each in client.list_projects()]
-    assert "GENERIC-IEC" in [each["name"] for each in client.list_models()]
-    instance = client.create_instance({"project": project, "name": "generated client"})["id"]
-    server.made.append(instance)
-    with server.browser(instance) as browser:
-        browser.watch("Main.n")  # answered when it runs
-        symbols = client.list_instance_symbols(instance=instance, path="Main")
-        assert [each["path"] for each in symbols] == ["Main.n"]
-        assert client.get_instance_value(instance=instance, path="Main.n")["value"] == "7"
-        assert client.write_value({"path": "Main.n", "value": "8"}, instance=instance)["ok"]
+    with client.http:
+        assert client.get_server()["version"] == client.document["info"]["version"]
+        project = client.create_project({"name": "generated client", "model": "GENERIC-IEC"})["id"]
+        text = "PROGRAM Main VAR n : INT := 7; END_VAR n := n; END_PROGRAM"
+        client.save_project_file({"text": text, "version": 0}, project=project, path="main.st")
+        assert client.get_project_file(project=project, path="main.st")["text"] == text
+        assert client.build_project({}, project=project)["ok"]
+        assert "generated client" in [each["name"] for each in client.list_projects()]
+        assert "GENERIC-IEC" in [each["name"] for each in client.list_models()]
+        instance = client.create_instance({"project": project, "name": "generated client"})["id"]
+        server.made.append(instance)
+        with server.browser(instance) as browser:
+            browser.watch("Main.n")  # answered when it runs
+            symbols = client.list_instance_symbols(instance=instance, path="Main")
+            assert [each["path"] for each in symbols] == ["Main.n"]
+            assert client.get_instance_value(instance=instance, path="Main.n")["value"] == "7"
+            assert client.write_value({"path": "Main.n", "value": "8"}, instance=instance)["ok"]
 
 
 def test_every_operation_has_a_readable_name_of_its_own() -> None:

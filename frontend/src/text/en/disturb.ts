@@ -23,7 +23,7 @@ export const disturb = {
   "disturb.kind.late": "Late input",
   "disturb.kind.late.about": "An input refresh comes some scans late; after one scan it is lost.",
   "disturb.kind.result": "Corrupted result",
-  "disturb.kind.result.about": "A bit flips in the value that a statement writes.",
+  "disturb.kind.result.about": "The value that a statement writes gets one flipped bit.",
   "disturb.kind.stuck": "Stuck input",
   "disturb.kind.stuck.about": "An input keeps its value, whatever the machine does.",
   "disturb.list": "Disturbances of this PLC",
@@ -79,7 +79,7 @@ export const disturb = {
   "import.trace.drop": "Drop a CSV or JSON file here, or",
   "import.trace.drop.about":
     "A column with the scan or the time, and a column for each variable; see docs/trace-format.md.",
-  "import.trace.file": "Log file",
+  "import.trace.file": "Controller log",
   "import.trace.gaps": "Missing scans",
   "import.trace.gaps.hold": "keep the last values",
   "import.trace.gaps.refuse": "are an error",
