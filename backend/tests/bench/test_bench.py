@@ -52,6 +52,15 @@ def test_the_command_prints_a_table_or_an_object(capsys: pytest.CaptureFixture[s
     assert "there is no bench program nope" in capsys.readouterr().err
 
 
+def test_a_subject_has_options_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["noop", "--count", "3"])
+    assert "--count" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["instances", "--help"])
+    assert "--count" in capsys.readouterr().out
+
+
 def test_figures_are_shown_as_lines() -> None:
     row: Row = {"ns": 12.34, "c_ns": 10.0, "ratio": 1.234, "observed_ratio": 2.0}
     built = {key: 1.0 for key, _, _ in BUILDING}

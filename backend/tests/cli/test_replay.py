@@ -215,12 +215,6 @@ def test_wrong_modes_and_restarts(program: str) -> None:
     assert "cold, warm, power" in wrong.output
 
 
-def test_a_subject_of_bench_has_options_of_its_own() -> None:
-    unknown = call("bench", "noop", "--count", "3")
-    assert unknown.exit_code == 2
-    assert "--count" in unknown.output
-
-
 def test_of_a_run_that_fails_no_file_is_left(
     program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:  # fmt: skip
