@@ -20,11 +20,11 @@ from tracemalloc import get_traced_memory, start, stop
 from bench.reverse import FIRST, SOURCE
 from bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
+from scanbench.engines.available import flavours
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
-from scanbench.history.reading import Reading
 from scanbench.history.writer import find_writer
 from scanbench.host.run_files import sources_in
 from scanbench.jobs.starting import checked_program, model_of
@@ -32,13 +32,14 @@ from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.headless import run_headless
+from scanbench.recording.programs import on, programs_of
+from scanbench.recording.reader import RunReader
 from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.server.from_disk import program_files, project_model, read_text
 from scanbench.verify.contract import Row
-from scanbench.verify.engines import native
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES, pack_body
@@ -122,7 +123,7 @@ def _interpreter(program: Program, scans: int) -> float:
 
 
 def _verified(path: Path, scans: int, range_: str, plain: float) -> Verified:
-    with Verifier(path, ENTRIES, _program_of, native()) as verifier:
+    with Verifier(_reader(path)) as verifier:
         verifier.begin(parse_range(range_))
         verifier.verify(0)  # code is made
         begin = perf_counter_ns()
@@ -134,9 +135,13 @@ def _verified(path: Path, scans: int, range_: str, plain: float) -> Verified:
     return Verified(per_second, per_second * TASK_NS / 1e9, per_second / plain, rows, kib)
 
 
+def _reader(path: Path) -> RunReader:
+    return RunReader(path, programs_of(_program_of, on(flavours())), ENTRIES)
+
+
 def _memory(path: Path, scans: int, range_: str) -> tuple[int, float]:
     """Rows of so many scans, and KiB that 10,000 of them take."""
-    with Verifier(path, ENTRIES, _program_of, native()) as verifier:
+    with Verifier(_reader(path)) as verifier:
         verifier.begin(parse_range(range_))
         verifier.verify(0)
         start()
@@ -153,13 +158,13 @@ def _past(path: Path, scans: int) -> Past:
     sources = pack_body(Sources(MODEL, {"main.st": SOURCE}, INTERVAL_NS, 1))
     with Recording.begin(path, program, 1, sources, ENTRIES, "bench") as recording:
         run_headless(program, scans, NativeEngine, recording=recording)
-    with Reading(path, _shelf, ENTRIES) as reading:
-        opened = _ms(lambda: reading.follow(scans))
-        goes = [_ms(partial(reading.goto, index * _STRIDE % scans)) for index in range(1, SAMPLES + 1)]
+    with RunReader(path, _shelf, ENTRIES) as reader:
+        opened = _ms(lambda: reader.follow(scans))
+        goes = [_ms(partial(reader.goto, index * _STRIDE % scans)) for index in range(1, SAMPLES + 1)]
         prober = ProbedBuilds().engine
 
         def ask(path: str, scan: int) -> None:
-            found = find_writer(reading, path, scan, prober)
+            found = find_writer(reader, path, scan, prober)
             if found.by != "program":
                 raise RuntimeError(f"{path} was written by {found}")
 

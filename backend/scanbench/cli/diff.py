@@ -1,7 +1,6 @@
 """`scanbench diff`: two recorded runs, compared: where they differ first, and why."""
 
 import json
-from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 
@@ -9,15 +8,15 @@ import typer
 
 from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
 from scanbench.cli.interrupt import leaving
+from scanbench.engines.available import flavours
 from scanbench.history.contract import Change, Divergence
 from scanbench.history.divergence import find_divergence
-from scanbench.history.engines import past_engines, programs_of
-from scanbench.history.reading import NoReading, Reading
-from scanbench.host.run_files import sources_in
+from scanbench.host.run_files import sources_in, texts_in
 from scanbench.jobs.starting import checked_program
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
-from scanbench.recording.format import RunFileError
+from scanbench.recording.programs import on, programs_of
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.programs import NoProgram
 from scanbench.wire.codec import ENTRIES
 
@@ -35,18 +34,18 @@ def diff(
     Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here; 4: the same, but
     a file is damaged, and a part of its run is lost.
     """
-    make, _ = past_engines()
-    of = programs_of(_Checked().program, leaving(make))
+    of = programs_of(_Checked().program, leaving(on(flavours())))
     try:
-        with Reading(run1, of, ENTRIES, _texts) as one, Reading(run2, of, ENTRIES, _texts) as other:
-            lost = [tell_damage(path, reading.follow().recording) for path, reading in ((run1, one), (run2, other))]
+        with RunReader(run1, of, ENTRIES, texts_in) as one, RunReader(run2, of, ENTRIES, texts_in) as other:
+            one.follow()
+            lost = [tell_damage(run1, one.recording)]
+            other.follow()
+            lost.append(tell_damage(run2, other.recording))
             found = find_divergence(one, other)
-    except NoReading as error:
+    except Unreadable as error:
         if isinstance(error.__cause__, OSError) and error.__cause__.filename:
             unreadable(Path(error.__cause__.filename), error.__cause__)
         unusable(with_near(str(error), error.near), error.__cause__)
-    except RunFileError as error:
-        unusable(str(error), error)
     typer.echo(json.dumps(_data(found)) if as_json else "\n".join(_text(found)))
     raise typer.Exit(1 if found.scan is not None else DAMAGED if any(lost) else 0)
 
@@ -66,10 +65,6 @@ class _Checked:
             except NoProgram as error:
                 raise NoProgram(f"program version {kept.version} of the run does not compile here: {error}") from error
         return self._known[kept.sources]
-
-
-def _texts(kept: KeptProgram) -> Mapping[str, str]:
-    return sources_in(kept).files
 
 
 def _data(found: Divergence) -> dict[str, object]:

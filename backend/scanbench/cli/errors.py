@@ -27,18 +27,18 @@ from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.reaction.compare import Outcome, compare
-from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.reaction import WINDOW
 from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.reference import find_error
-from scanbench.jobs.starting import NoStart, checked_program, model_of, point_in
+from scanbench.jobs.starting import checked_program, model_of, point_in
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
 from scanbench.program.program import Program
 from scanbench.public import iso
-from scanbench.recording.recording import Recording
+from scanbench.recording.programs import cached, observed
+from scanbench.recording.reader import RunReader, Unreadable, no_programs
 from scanbench.reports.sweep_page import sweep_page
 from scanbench.reports.sweep_report import (
     NO_SWEEP,
@@ -55,7 +55,7 @@ from scanbench.reports.sweep_report import (
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
-from scanbench.runtime.programs import NoProgram
+from scanbench.runtime.programs import NoProgram, Programs
 from scanbench.server.from_disk import DEFAULT_MODEL
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
@@ -159,7 +159,7 @@ def sweep_errors(
     chosen = _chosen(program.layout.model, only)
     make = _engine(engine)
     points = _points(states, program, given, make)
-    programs = ObservedPrograms({_VERSION: program}.__getitem__, make)
+    programs = cached({_VERSION: program}, observed(make))
     cells, whole = _swept(points, chosen, window, programs)
     tried = {cell.error for cell in cells}
     begun = tuple((name, Header(point.state).scan) for name, point in points.items())
@@ -179,7 +179,7 @@ def sweep_errors(
 
 
 def _swept(
-    points: dict[str, Point], chosen: Sequence[ErrorEntry], window: int, programs: ObservedPrograms
+    points: dict[str, Point], chosen: Sequence[ErrorEntry], window: int, programs: Programs
 ) -> tuple[tuple[Cell, ...], bool]:
     """The cells, and whether they are all; after Ctrl-C those of the errors that were raised in every state."""
     cells: list[Cell] = []
@@ -243,7 +243,7 @@ def _points(path: Path | None, program: Program, sources: Sources, make: MakeObs
     try:
         wanted: list[State] = [START] if path is None else read_states(path)
         return {each.name: _point(each, path, program, sources, make) for each in wanted}
-    except (BadStates, NoStart) as why:
+    except (BadStates, Unreadable) as why:
         usage(str(why) if path is None else f"--states {path}: {why}")
 
 
@@ -253,10 +253,11 @@ def _point(state: State, path: Path | None, program: Program, sources: Sources, 
     run = Path(state.run) if path is None else path.parent / state.run
     try:
         point = point_in(run, state.scan, sources, _program_of(sources, program), make)
-    except NoStart as why:
-        raise NoStart(f"state {state.name}: {why}") from why
-    with Recording.open(run, ENTRIES, read_only=True) as recording:
-        tell_damage(run, recording)  # the state itself is whole
+    except Unreadable as why:
+        raise Unreadable(f"state {state.name}: {why}") from why
+    with RunReader(run, no_programs, ENTRIES) as reader:
+        reader.follow()
+        tell_damage(run, reader.recording)  # the state itself is whole
     return point
 
 

@@ -11,6 +11,7 @@ from scanbench.plcmodel.load import NoModels, NoSuchModel, load_all, model_direc
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
 from scanbench.recording.format import Damaged
+from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
 from scanbench.wire.refused import Refused
@@ -43,6 +44,14 @@ def unusable(message: str, error: BaseException | None) -> NoReturn:
     """The same of a run file that cannot be used; with `DAMAGED` where it is damaged."""
     typer.echo(f"scanbench: {message}", err=True)
     raise typer.Exit(DAMAGED if isinstance(error, Damaged) else 2)
+
+
+def unusable_run(path: Path, error: Unreadable) -> NoReturn:
+    """The same of a run file, whatever is wrong with it."""
+    cause = error.__cause__
+    if isinstance(cause, OSError):
+        unreadable(path, cause)
+    unusable(f"{path}: {error}", cause)
 
 
 def tell_damage(path: Path, recording: Recording) -> bool:

@@ -9,13 +9,13 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
-from scanbench.cli.inputs import DAMAGED, find_model_named, unreadable, unusable, usage
+from scanbench.cli.inputs import DAMAGED, find_model_named, unusable_run, usage
 from scanbench.cli.progress import progress
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
 from scanbench.host.run_files import sources_in
 from scanbench.recording.blocks import KeptProgram
-from scanbench.recording.format import RunFileError
+from scanbench.recording.reader import Unreadable
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import Replayed, replay_file
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
@@ -45,10 +45,8 @@ def replay(
     except KeyboardInterrupt:
         typer.echo(f"scanbench: {path}: interrupted: {_so_far(agreed)}", err=True)
         raise typer.Exit(INTERRUPTED) from None
-    except OSError as error:
-        unreadable(path, error)
-    except RunFileError as error:
-        unusable(f"{path}: {error}", error)
+    except Unreadable as error:
+        unusable_run(path, error)
     except (Diverged, Differs) as difference:
         typer.echo(f"scanbench: {path}: {difference}", err=True)
         raise typer.Exit(3) from None

@@ -17,14 +17,16 @@ from scanbench.cli.run_options import AUTHOR, Options
 from scanbench.cli.verify_subject import Given, Subject, opened
 from scanbench.cli.verify_text import verify_text
 from scanbench.public import iso
+from scanbench.engines.available import flavours
+from scanbench.recording.programs import Make, on, reference
+from scanbench.recording.reader import Unreadable
 from scanbench.reports.report import Collected, Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.runtime.clock import wall_time
 from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
-from scanbench.verify.engines import Make, native, reference
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.verifier import Begun, Unverifiable
+from scanbench.verify.verifier import Begun
 
 SCANS = 1000
 """That a project runs when nobody says how many."""
@@ -76,7 +78,7 @@ def verify(
         usage(f"--range {range_}: {with_near(str(error), error.near)}")
     first, last = _stretch(scans)
     given = Given(path, model, interval, options, SCANS if last is None else last + 1, trace, map)
-    make: Make = leaving(native()) if engine is ControlEngine.NATIVE else reference
+    make: Make = leaving(on(flavours())) if engine is ControlEngine.NATIVE else reference
     try:
         with opened(given, make) as subject:
             report, stopped = _verified(subject, wanted, limit, first, last)
@@ -140,7 +142,7 @@ def _verified(
         begun = verifier.begin(wanted, limit, first)
     except BadRange as error:
         usage(f"--range: {with_near(str(error), error.near)}")
-    except Unverifiable as error:
+    except Unreadable as error:
         usage(str(error))
     if begun.note:
         typer.echo(f"scanbench: {begun.note}", err=True)
@@ -159,7 +161,7 @@ def _run(subject: Subject, collected: Collected, first: int, last: int) -> _Stop
         with progress(of, lambda: collected.compared, told):
             for scan in range(first, last + 1):
                 collected.add(subject.verifier.verify(scan))
-    except Unverifiable as error:
+    except Unreadable as error:
         return _Stopped(f"verified up to the scan before that only: {error}", 2)
     except KeyboardInterrupt:
         return _Stopped(f"interrupted after {collected.compared:,} scans", INTERRUPTED)

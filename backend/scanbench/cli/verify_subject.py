@@ -10,7 +10,17 @@ from typing import NoReturn, Protocol
 import typer
 
 from scanbench.check.build import check_sources
-from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, unreadable, unusable, usage, with_near
+from scanbench.cli.inputs import (
+    below,
+    find_model,
+    read_sources,
+    tell_damage,
+    unreadable,
+    unusable,
+    unusable_run,
+    usage,
+    with_near,
+)
 from scanbench.cli.interrupt import leaving
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, read_commands, read_interval
@@ -18,24 +28,25 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
-from scanbench.host.run_files import RUN_SUFFIX, sources_in, sources_of
+from scanbench.host.run_files import RUN_SUFFIX, programs_by, sources_in, sources_of, texts_in
 from scanbench.jobs.starting import checked_program, model_of
 from scanbench.program.program import Program
-from scanbench.recording.blocks import KeptProgram
-from scanbench.recording.format import RunFileError, is_run_file
+from scanbench.recording.format import is_run_file
 from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.programs import Make
+from scanbench.recording.reader import RunReader, Unreadable, no_programs
 from scanbench.recording.recording import Recording
 from scanbench.reports.report import Source
 from scanbench.runtime.programs import NoProgram
 from scanbench.verify.contract import Range, ScanVerified
-from scanbench.verify.engines import Make
 from scanbench.verify.trace.bind import check
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping, propose
 from scanbench.verify.trace.read import read_trace
 from scanbench.verify.trace.run import TraceVerifier
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
-from scanbench.verify.verifier import Begun, Unverifiable, Verifier
+from scanbench.verify.verifier import Begun, Verifier
 from scanbench.wire.codec import ENTRIES
+from scanbench.wire.host import Sources
 
 PROBLEMS_SHOWN = 20
 _SUFFIXES = (".scanrun", RUN_SUFFIX)
@@ -57,7 +68,7 @@ class Verifies(Protocol):
         """Says which range is meant; `BadRange`."""
 
     def verify(self, scan: int) -> ScanVerified:
-        """One scan; `Unverifiable`."""
+        """One scan; `Unreadable`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,14 +109,14 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
     if given.trace is not None:
         yield _trace(given, given.trace)
     elif _is_run(given.path):
-        with _run_file(given.path, make) as verifier:
-            about, lost = _about(given.path)
-            yield Subject(verifier, given.path.stem, given.path.name, about, "past", lost=lost)
+        with _run_file(given.path, make) as (verifier, recording):
+            lost = tell_damage(given.path, recording)
+            yield Subject(verifier, given.path.stem, given.path.name, recording.about.model, "past", lost=lost)
     else:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "run")
             program, note = _ran(given, path)
-            with _run_file(path, make) as verifier:
+            with _run_file(path, make) as (verifier, _):
                 name = given.path.resolve().name
                 yield Subject(
                     verifier, name, "command line", program.layout.model.name, "past", note=note, trapped=bool(note)
@@ -132,25 +143,17 @@ def _is_run(path: Path) -> bool:
 
 
 @contextmanager
-def _run_file(path: Path, make: Make) -> Iterator[Verifier]:
+def _run_file(path: Path, make: Make) -> Iterator[tuple[Verifier, Recording]]:
+    reader = RunReader(path, programs_by(_program_of, make), ENTRIES, texts_in)
     try:
-        with Verifier(path, ENTRIES, _program_of, make, lambda kept: sources_in(kept).files) as verifier:
-            yield verifier
-    except OSError as error:
-        unreadable(path, error)
-    except (RunFileError, NoProgram, Unverifiable) as error:
-        unusable(f"{path}: {error}", error if isinstance(error, RunFileError) else error.__cause__)
+        with Verifier(reader) as verifier:
+            yield verifier, reader.recording
+    except Unreadable as error:
+        unusable_run(path, error)
 
 
-def _program_of(kept: KeptProgram) -> Program:
-    sources = sources_in(kept)
+def _program_of(sources: Sources) -> Program:
     return checked_program(sources, model_of(sources))
-
-
-def _about(path: Path) -> tuple[str, bool]:
-    """The model of a run file, and whether a part of its run is lost."""
-    with Recording.open(path, ENTRIES, read_only=True) as recording:
-        return recording.about.model, tell_damage(path, recording)
 
 
 # ---- projects ------------------------------------------------------------------------------------------------------
@@ -226,15 +229,16 @@ def _program_for_trace(given: Given) -> tuple[Program, Mapping[str, str]]:
     if not _is_run(given.path):
         return _program(given)
     try:
-        with Recording.open(given.path, ENTRIES, read_only=True) as recording:
-            tell_damage(given.path, recording)
-            kept = sources_in(recording.programs[max(recording.programs)])
-        model = model_of(kept)
+        with RunReader(given.path, no_programs, ENTRIES) as reader:
+            reader.follow()
+            tell_damage(given.path, reader.recording)
+            with reader.reading():
+                model = model_of(sources_in(reader.kept[max(reader.kept)]))
         sources = sources_of(given.path, {model.name: model})
         return checked_program(sources, model), sources.files
-    except OSError as error:
-        unreadable(given.path, error)
-    except (RunFileError, NoProgram) as error:
+    except Unreadable as error:
+        unusable_run(given.path, error)
+    except NoProgram as error:
         unusable(f"{given.path}: {error}", error)
 
 

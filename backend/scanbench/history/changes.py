@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from scanbench.faults.reaction.error_memory import code_bits, kept_bits, log_bits
 from scanbench.history.contract import MAX_CHANGES, BetweenEntry, Change, Changes
-from scanbench.history.reading import NoReading, Reading
 from scanbench.program.program import Program
 from scanbench.program.types import Enumeration, StringType
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
 from scanbench.runtime.migrate_image import migrate
@@ -35,25 +35,25 @@ class Moment:
     state: bytes
 
 
-def moment_of(reading: Reading) -> Moment:
+def moment_of(reader: RunReader) -> Moment:
     """Where it stands now."""
-    resource = reading.timeline.resource
-    digest = reading.timeline.recording.programs[resource.version].digest
+    resource = reader.timeline.resource
+    digest = reader.timeline.recording.programs[resource.version].digest
     return Moment(resource.program, resource.version, digest, resource.state)
 
 
-def find_changes(reading: Reading, first: int, last: int, other: Reading | None = None) -> Changes:
-    """What is another at the beginning of scan `last` (of the other run) than at that of scan `first`. `NoReading` says
+def find_changes(reader: RunReader, first: int, last: int, other: RunReader | None = None) -> Changes:
+    """What is another at the beginning of scan `last` (of the other run) than at that of scan `first`. `Unreadable` says
     why that cannot be told."""
     if other is None and first > last:
-        raise NoReading(f"scan {last} is before scan {first}: name the earlier one first")
-    reading.goto(first)
-    before = moment_of(reading)
-    of = other or reading
+        raise Unreadable(f"scan {last} is before scan {first}: name the earlier one first")
+    reader.goto(first)
+    before = moment_of(reader)
+    of = other or reader
     of.goto(last)
     after = moment_of(of)
     same_model(before.program, after.program)
-    entries = [] if other is not None else list(_between(reading, first, last))
+    entries = [] if other is not None else list(_between(reader, first, last))
     note = ""
     if before.digest != after.digest:
         note = "the program is another: variables are compared by their names, and those that only one of them has are left out"
@@ -70,10 +70,10 @@ def find_changes(reading: Reading, first: int, last: int, other: Reading | None 
 
 
 def same_model(one: Program, other: Program) -> None:
-    """`NoReading` when they are not on the same model."""
+    """`Unreadable` when they are not on the same model."""
     names = one.layout.model.name, other.layout.model.name
     if names[0] != names[1]:
-        raise NoReading(
+        raise Unreadable(
             f"one run is of the model {names[0]}, the other of {names[1]}: only runs of one model can be compared"
         )
 
@@ -83,8 +83,8 @@ def entered(entry: Entry) -> str:
     return f"{type(entry.command).__name__}: {entry.plan.message}"
 
 
-def _between(reading: Reading, first: int, last: int) -> Iterator[BetweenEntry]:
-    for each in reading.entries:
+def _between(reader: RunReader, first: int, last: int) -> Iterator[BetweenEntry]:
+    for each in reader.entries:
         if (each.scan > first or (each.scan == first and each.step)) and (
             each.scan < last or (each.scan == last and not each.step)
         ):

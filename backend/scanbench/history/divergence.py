@@ -14,9 +14,8 @@ from typing import Literal
 from scanbench.history.changes import Comparer, Moment, entered, moment_of, same_model
 from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence
 from scanbench.history.first_write import first_write
-from scanbench.history.reading import NoReading, Reading
-from scanbench.recording.replay import replay
-from scanbench.recording.timeline import NOT_AS_RECORDED
+from scanbench.recording.reader import RunReader, Unreadable
+from scanbench.recording.replay import NOT_AS_RECORDED, replay
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.resource import Resource
@@ -35,38 +34,38 @@ OnProgress = Callable[[int, int], None]
 """Scans that are done, and of how many; may raise to end it."""
 
 
-def find_divergence(one: Reading, other: Reading, on_progress: OnProgress = lambda done, of: None) -> Divergence:
-    """The first scan behind which anything is another. `NoReading` says why they cannot be compared.
+def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = lambda done, of: None) -> Divergence:
+    """The first scan behind which anything is another. `Unreadable` says why they cannot be compared.
 
     Both have been followed; their programs must not share memory.
     """
     if one is other:
-        raise NoReading("that is one and the same run: choose another one to compare it with")
-    first, end = max(one.first, other.first), min(_over(one), _over(other))
+        raise Unreadable("that is one and the same run: choose another one to compare it with")
+    first, end = max(one.first, other.first), min(one.over, other.over)
     if first > end:
-        raise NoReading(
+        raise Unreadable(
             f"the runs have no scan in common: {one.path.name} has scans {one.first} to {one.end}, "
             f"{other.path.name} {other.first} to {other.end}"
         )
     try:
         return _Comparison(one, other, first, end, on_progress).run()
     except (Diverged, *NOT_AS_RECORDED) as error:
-        raise NoReading(f"the runs cannot be compared: {error}") from error
+        raise Unreadable(f"the runs cannot be compared: {error}") from error
 
 
 class _Side:
     """One run, on its way through the scans. It stands in the seam, behind a scan and in front of the entries of the next,
     or behind those."""
 
-    def __init__(self, reading: Reading, first: int) -> None:
-        self.reading = reading
-        self.entries = reading.entries
-        reading.goto(first)
+    def __init__(self, reader: RunReader, first: int) -> None:
+        self.reader = reader
+        self.entries = reader.entries
+        reader.goto(first)
 
     @property
     def resource(self) -> Resource:
-        """What runs it. It is the reading's own: nobody else must move it meanwhile."""
-        return self.reading.timeline.resource
+        """What runs it. It is the reader's own: nobody else must move it meanwhile."""
+        return self.reader.timeline.resource
 
     @property
     def state(self) -> bytearray:
@@ -88,7 +87,7 @@ class _Side:
 
     def moment(self) -> Moment:
         """Where it stands."""
-        return moment_of(self.reading)
+        return moment_of(self.reader)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +104,7 @@ class _Only:
 
 
 class _Comparison:
-    def __init__(self, one: Reading, other: Reading, first: int, end: int, on_progress: OnProgress) -> None:
+    def __init__(self, one: RunReader, other: RunReader, first: int, end: int, on_progress: OnProgress) -> None:
         self._first, self._end, self._on_progress = first, end, on_progress
         self._one, self._other = _Side(one, first), _Side(other, first)
         self._only = list(_unpaired(self._one.entries, self._other.entries, first, end))
@@ -189,7 +188,7 @@ class _Comparison:
     def _exactly(self, first: int, end: int) -> int:
         """The same commands came to something else: which of these scans."""
         for side in (self._one, self._other):
-            side.reading.goto(first)
+            side.reader.goto(first)
         for scan in range(first, end):
             self._behind(scan + 1)
             if self._differ():
@@ -251,22 +250,17 @@ class _Comparison:
 
     def _programs_differ(self, scan: int) -> bool:
         for side in (self._one, self._other):
-            side.reading.goto(scan)
+            side.reader.goto(scan)
         return self._one.moment().digest != self._other.moment().digest
 
     def _first_write(self, scan: int, changes: Sequence[Change]) -> tuple[Place | None, Change]:
         """The statement that first wrote one of these variables in the scan, in either of them; and which."""
         best: tuple[int, Place, Change] | None = None
         for side in (self._other, self._one):
-            found = first_write(side.reading, scan, changes)
+            found = first_write(side.reader, scan, changes)
             if found is not None and (best is None or found[0] < best[0]):
                 best = found
         return (None, changes[0]) if best is None else best[1:]
-
-
-def _over(reading: Reading) -> int:
-    """Scans in front of this one are over, one that a run-time error ended included."""
-    return reading.end + reading.trapped
 
 
 def _unpaired(one: Sequence[Entry], other: Sequence[Entry], first: int, end: int) -> Iterator[_Only]:

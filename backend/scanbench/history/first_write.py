@@ -6,7 +6,7 @@ from scanbench.debug.frames import frame_name, instance_path, task_of
 from scanbench.engines.debug import WRITE, Frame, Listen
 from scanbench.engines.engine import Reason
 from scanbench.history.contract import Change
-from scanbench.history.reading import Reading
+from scanbench.recording.reader import RunReader
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.symbols import UnknownPath, resolve
 from scanbench.verify.contract import Place
@@ -42,9 +42,9 @@ class _Writes:
         """See `Onlooker`."""
 
 
-def first_write(reading: Reading, scan: int, changes: Sequence[Change]) -> tuple[int, Place, Change] | None:
+def first_write(reader: RunReader, scan: int, changes: Sequence[Change]) -> tuple[int, Place, Change] | None:
     """The first write of one of these variables in a scan: its count, where, and which; None where no statement did that."""
-    timeline = reading.timeline
+    timeline = reader.timeline
     if timeline.goto(scan, 1) is not None:
         return None  # no statement ran
     resource = timeline.resource
@@ -63,7 +63,7 @@ def first_write(reading: Reading, scan: int, changes: Sequence[Change]) -> tuple
     span = resource.loaded.debugged().sites.statements[site].span
     frame = frames[0]
     instance = instance_path(program, frame) or frame_name(program, frame)
-    text = reading.text(resource.version, span.file, span.line)
+    text = reader.text(resource.version, span.file, span.line)
     return count, Place(task_of(program, frames), instance, frame.pou.name, span.file, span.line, text), change
 
 

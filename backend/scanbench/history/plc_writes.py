@@ -6,19 +6,19 @@ from scanbench.check.typed.condition import BadCondition, compile_signal
 from scanbench.debug.placed import bytes_of
 from scanbench.engines.engine import Reason
 from scanbench.engines.sample import HEAD_WORDS, Sampling
-from scanbench.history.reading import Reading
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary
+from scanbench.recording.reader import RunReader
 from scanbench.symbols.symbols import Symbol, resolve
 
 _CHUNK = 1 << 17
 """Scans whose changes are looked at at once."""
 
 
-def last_change(reading: Reading, symbol: Symbol, scan: int, behind: int) -> int | None:
+def last_change(reader: RunReader, symbol: Symbol, scan: int, behind: int) -> int | None:
     """The last scan behind scan `behind` and before `scan` in which it became another, where the PLC may do that itself."""
-    timeline = reading.timeline
+    timeline = reader.timeline
     if not _may_be_written(timeline.resource.program, symbol) or not isinstance(symbol.type, Elementary):
         return None
     until = scan
@@ -27,7 +27,7 @@ def last_change(reading: Reading, symbol: Symbol, scan: int, behind: int) -> int
             continue
         first = max(checkpoint.scan, behind + 1)
         if first < until:
-            found = _in_stretch(reading, symbol.path, first, until)
+            found = _in_stretch(reader, symbol.path, first, until)
             if found is not None:
                 return found
         if checkpoint.scan <= behind + 1:
@@ -50,12 +50,12 @@ def _may_be_written(program: Program, symbol: Symbol) -> bool:
     return not any(owned)
 
 
-def _in_stretch(reading: Reading, path: str, first: int, end: int) -> int | None:
+def _in_stretch(reader: RunReader, path: str, first: int, end: int) -> int | None:
     """The last of these scans behind which it is another than in front of it."""
-    timeline = reading.timeline
+    timeline = reader.timeline
     last: int | None = None
     before: int | None = None
-    reading.goto(first)
+    reader.goto(first)
     while (now := timeline.resource.header.scan) < end:
         resource = timeline.resource
         signal = compile_signal(resource.program, path)
@@ -68,7 +68,7 @@ def _in_stretch(reading: Reading, path: str, first: int, end: int) -> int | None
         sampling = Sampling(resource.program, [signal], rows=upto - now + 1)
         sampling.skip_to(now)
         if before is None:
-            before = _now(reading, path)
+            before = _now(reader, path)
         resource.waiting.samplings = (sampling,)
         try:
             timeline.go_on(upto)
@@ -86,8 +86,8 @@ def _in_stretch(reading: Reading, path: str, first: int, end: int) -> int | None
     return last
 
 
-def _now(reading: Reading, path: str) -> int:
-    resource = reading.timeline.resource
+def _now(reader: RunReader, path: str) -> int:
+    resource = reader.timeline.resource
     place = bytes_of(resolve(resource.program, path), resource.memory)
     assert place is not None
     offset, size, mask = place

@@ -14,12 +14,13 @@ from scanbench.faults.arm import Disarm
 from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.disturb import Calm
 from scanbench.history.contract import RerunChange
-from scanbench.history.reading import NoReading, Reading
 from scanbench.history.rerun_plan import Given, Planned, planned
 from scanbench.recording.blocks import Codec
 from scanbench.recording.format import RunFileError
+from scanbench.recording.programs import ProgramsOf
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.recording import DEFAULT_LIMIT
-from scanbench.recording.timeline import ProgramsOf, Timeline
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Numbered, Refusal
 
@@ -41,23 +42,23 @@ class Rerun:
 
 
 def rerun(
-    reading: Reading, to: Path, change: RerunChange, author: str, programs_of: ProgramsOf, codec: Codec,
+    reader: RunReader, to: Path, change: RerunChange, author: str, programs_of: ProgramsOf, codec: Codec,
     agenda: Agenda | None = None, on_progress: OnProgress = lambda done, of: None, limit: int = DEFAULT_LIMIT,
 ) -> Rerun:  # fmt: skip
-    """Writes the new run file. `NoReading` says why there can be none; then there is no file either.
+    """Writes the new run file. `Unreadable` says why there can be none; then there is no file either.
 
-    The reading has been followed. `programs_of` makes programs with a memory of their own.
+    The reader has been followed. `programs_of` makes programs with a memory of their own.
     """
-    plan = planned(reading, change)
-    end = reading.end + change.behind
+    plan = planned(reader, change)
+    end = reader.end + change.behind
     try:
-        reading.copy(to, plan.cut, plan.scan, author)
+        reader.copy(to, plan.cut, plan.scan, author)
         timeline = Timeline.resume(to, programs_of, codec, 0, Detection(), limit, agenda)
     except FileExistsError as error:
-        raise NoReading(f"{to.name} is there already") from error
+        raise Unreadable(f"{to.name} is there already") from error
     except (OSError, RunFileError) as error:
         to.unlink(missing_ok=True)
-        raise NoReading(f"the new run cannot be begun: {error}") from error
+        raise Unreadable(f"the new run cannot be begun: {error}") from error
     try:
         refused = _Again(timeline, plan, end, on_progress).run()
         scan = timeline.live_scan

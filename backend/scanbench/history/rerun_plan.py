@@ -9,7 +9,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.shapes import Start
 from scanbench.history.contract import RerunChange
-from scanbench.history.reading import NoReading, Reading
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Command, Entry, Numbered, Refusal
 from scanbench.runtime.trap import Trapped
 
@@ -37,21 +37,21 @@ class Planned:
     notes: tuple[str, ...]
 
 
-def planned(reading: Reading, change: RerunChange) -> Planned:
-    """What is to be entered. `NoReading` says why it cannot be another."""
-    _check(reading, change)
-    entries = reading.entries
-    raised = _raised(reading, change)
-    index = _changed(reading, raised)
+def planned(reader: RunReader, change: RerunChange) -> Planned:
+    """What is to be entered. `Unreadable` says why it cannot be another."""
+    _check(reader, change)
+    entries = reader.entries
+    raised = _raised(reader, change)
+    index = _changed(reader, raised)
     entry = entries[index]
     scan, command = entry.scan, _another(entry, entries[raised], change)
     if command is not None:
         scan = _moved_to(entry, entries[raised], change)
     first = min(scan, entry.scan)
-    if first < reading.first:
-        raise NoReading(f"scan {first} is not kept: the run begins with scan {reading.first}")
-    if first > reading.end:
-        raise NoReading(f"scan {first} has not come yet: the run ends at scan {reading.end}")
+    if first < reader.first:
+        raise Unreadable(f"scan {first} is not kept: the run begins with scan {reader.first}")
+    if first > reader.end:
+        raise Unreadable(f"scan {first} has not come yet: the run ends at scan {reader.end}")
     cut = (
         index
         if first == entry.scan and not entry.step
@@ -63,42 +63,42 @@ def planned(reading: Reading, change: RerunChange) -> Planned:
     return Planned(first, cut, tuple(given), tuple(notes))
 
 
-def _check(reading: Reading, change: RerunChange) -> None:
+def _check(reader: RunReader, change: RerunChange) -> None:
     if change.leave_out and (change.by or change.instead):
-        raise NoReading("it cannot be left out and be another too: choose one of them")
+        raise Unreadable("it cannot be left out and be another too: choose one of them")
     if not (change.leave_out or change.by or change.instead):
-        raise NoReading("nothing would be another: say how many scans later, which error instead, or leave it out")
+        raise Unreadable("nothing would be another: say how many scans later, which error instead, or leave it out")
     if change.instead:
-        found = find_error(reading.timeline.resource.program.layout.model, change.instead)
+        found = find_error(reader.timeline.resource.program.layout.model, change.instead)
         if isinstance(found, Refusal):
-            raise NoReading(found.message, found.near)
+            raise Unreadable(found.message, found.near)
 
 
-def _raised(reading: Reading, change: RerunChange) -> int:
+def _raised(reader: RunReader, change: RerunChange) -> int:
     """The entry that raised the error."""
     of = [
         (index, each)
-        for index, each in enumerate(reading.entries)
+        for index, each in enumerate(reader.entries)
         if isinstance(each.command, Generate) and change.error in _ids(each.command)
     ]
     found = [(index, each) for index, each in of if each.scan == change.scan]
     if not found:
         scans = ", ".join(str(each.scan) for _, each in of[:5])
         where = f"it was in front of scan {scans}" if of else "it was not raised in this run at all"
-        raise NoReading(f"{change.error} was not raised in front of scan {change.scan}: {where}")
+        raise Unreadable(f"{change.error} was not raised in front of scan {change.scan}: {where}")
     index, entry = found[0]
     if isinstance(entry.command, Generate) and entry.command.origin != "simulator":
         by = "the PLC" if entry.command.origin == "plc" else "the program"
-        raise NoReading(
+        raise Unreadable(
             f"{by} raised {change.error} itself in scan {change.scan}: that is what it does, so change the program, or "
             "what it is given"
         )
     return index
 
 
-def _changed(reading: Reading, raised: int) -> int:
+def _changed(reader: RunReader, raised: int) -> int:
     """The entry that is another: of an armed fault the one that armed it."""
-    entries, command = reading.entries, reading.entries[raised].command
+    entries, command = reader.entries, reader.entries[raised].command
     assert isinstance(command, Generate)
     index = raised
     if command.arm is not None:
@@ -107,8 +107,8 @@ def _changed(reading: Reading, raised: int) -> int:
             if isinstance(each.command, Arm) and _number(each) == command.arm
         )  # fmt: skip
         index = next(armed, -1)
-    if index < reading.timeline.recording.checkpoints[0].entries:
-        raise NoReading(f"how fault {command.arm} was armed is not kept any more: it was before scan {reading.first}")
+    if index < reader.timeline.recording.checkpoints[0].entries:
+        raise Unreadable(f"how fault {command.arm} was armed is not kept any more: it was before scan {reader.first}")
     return index
 
 
@@ -145,7 +145,7 @@ def _began(entry: Entry, raised: Entry, change: RerunChange) -> int:
     if step and command.wanted.start.kind in ("now", "scan"):
         began = entry.scan if command.wanted.start.kind == "now" else command.wanted.start.scan or entry.scan
     elif step:
-        raise NoReading(
+        raise Unreadable(
             "it came back as an armed fault that waited for a condition or a line: move the first time that it came, or arm "
             "it anew"
         )

@@ -11,10 +11,10 @@ from scanbench.debug.reverse import Noted, Search, in_front
 from scanbench.engines.probe import MakeProbed
 from scanbench.history.contract import Writer
 from scanbench.history.plc_writes import last_change
-from scanbench.history.reading import NoReading, Reading
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Swapped
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.migrate_image import changes
@@ -50,14 +50,14 @@ class _Bytes:
         return bytes((bool(data[0] & self.mask),)) if self.mask != 0xFF else data
 
 
-def find_writer(reading: Reading, path: str, scan: int, prober: MakeProbed | None = None) -> Writer:
-    """Who wrote the variable last before `scan` began. `NoReading` says why that cannot be told.
+def find_writer(reader: RunReader, path: str, scan: int, prober: MakeProbed | None = None) -> Writer:
+    """Who wrote the variable last before `scan` began. `Unreadable` says why that cannot be told.
 
-    The reading has been followed as far as the scan.
+    The reader has been followed as far as the scan.
     """
-    reading.goto(scan)
-    resource = reading.timeline.resource
-    symbol = _meant(reading, path)
+    reader.goto(scan)
+    resource = reader.timeline.resource
+    symbol = _meant(reader, path)
     place = bytes_of(symbol, resource.memory)
     assert place is not None
     where = _Bytes(*place)
@@ -68,56 +68,56 @@ def find_writer(reading: Reading, path: str, scan: int, prober: MakeProbed | Non
     )
     # of a scan that ended by a run-time error a part is over, and shown
     here: Position = (scan + resource.header.halted_by_trap, 0)
-    entered = _Commands(reading, symbol.path).last(len(resource.journal), version)
+    entered = _Commands(reader, symbol.path).last(len(resource.journal), version)
     if held and entered is not None:
         return _by_command(entered, symbol, value, held=True)
-    first = entered.scan if entered is not None else reading.first
-    noted = _statement(reading, symbol.path, here, prober, first)
+    first = entered.scan if entered is not None else reader.first
+    noted = _statement(reader, symbol.path, here, prober, first)
     position = noted.position if noted is not None else (-1, 0)
     at_command = (entered.scan, entered.step - 1 if entered.step else -1) if entered is not None else (-1, -1)
-    changed = last_change(reading, symbol, scan, max(position[0], at_command[0], reading.first - 1))
+    changed = last_change(reader, symbol, scan, max(position[0], at_command[0], reader.first - 1))
     if changed is not None:
         return Writer(
             symbol.path, "plc", changed, 0, None, "PLC",
             f"the PLC itself, in scan {changed}: {symbol.path}" + _said(symbol, value), value, _shown(symbol, value),
         )  # fmt: skip
     if noted is not None and position > at_command:
-        return _by_statement(reading, noted, symbol, value)
+        return _by_statement(reader, noted, symbol, value)
     if entered is not None:
         return _by_command(entered, symbol, value, held=False)
-    text = f"nobody wrote it since scan {reading.first}, the first one that is kept"
-    return Writer(symbol.path, "start", reading.first, 0, None, "", text, value, _shown(symbol, value))
+    text = f"nobody wrote it since scan {reader.first}, the first one that is kept"
+    return Writer(symbol.path, "start", reader.first, 0, None, "", text, value, _shown(symbol, value))
 
 
-def _meant(reading: Reading, path: str) -> Symbol:
+def _meant(reader: RunReader, path: str) -> Symbol:
     """The variable itself, behind in-outs, where it is now."""
-    resource = reading.timeline.resource
+    resource = reader.timeline.resource
     found = meant(resource.view, path, "")
     if not isinstance(found, Meant):
-        raise NoReading(found.message, found.near)
+        raise Unreadable(found.message, found.near)
     symbol = resolve(resource.program, found.path)
     if symbol.type.size == 0:
-        raise NoReading(f"{symbol.path} takes no memory, so nobody writes it")
+        raise Unreadable(f"{symbol.path} takes no memory, so nobody writes it")
     if symbol.locate(resource.memory) is None:
-        raise NoReading(not_called(resource.view, symbol))
+        raise Unreadable(not_called(resource.view, symbol))
     if symbol.slots:
-        raise NoReading(f"{symbol.path} means {_BY_ITS}")
+        raise Unreadable(f"{symbol.path} means {_BY_ITS}")
     return symbol
 
 
 class _Commands:
     """What was entered, and whether it wrote the variable."""
 
-    def __init__(self, reading: Reading, path: str) -> None:
-        self._reading, self._path = reading, path
-        self._programs = reading.timeline.programs
+    def __init__(self, reader: RunReader, path: str) -> None:
+        self._reader, self._path = reader, path
+        self._programs = reader.timeline.programs
         self._places: dict[int, _Bytes | None] = {}
 
     def last(self, end: int, version: int) -> Entry | None:
         """The last of the first `end` entries that wrote it, seen from where program `version` runs."""
-        reading = self._reading
-        entries, versions = reading.entries, reading.versions()
-        begun = reading.timeline.recording.checkpoints[0].entries
+        reader = self._reader
+        entries, versions = reader.entries, reader.versions()
+        begun = reader.timeline.recording.checkpoints[0].entries
         for index in range(end - 1, begun - 1, -1):
             entry, effect = entries[index], entries[index].plan.effect
             place = self._place(versions[index + 1])
@@ -150,11 +150,11 @@ class _Commands:
     def _survives(self, entry: Entry, effect: Restarted, place: _Bytes) -> bool:
         if effect.kind == "cold":
             return False
-        here = self._reading.timeline.resource.header.scan
-        self._reading.goto(entry.scan)
-        resource = self._reading.timeline.resource
+        here = self._reader.timeline.resource.header.scan
+        self._reader.goto(entry.scan)
+        resource = self._reader.timeline.resource
         kept = retained(resource.program, resource.memory)
-        self._reading.goto(here)
+        self._reader.goto(here)
         return _covered(kept, place)
 
 
@@ -180,27 +180,27 @@ def _covered(spans: list[tuple[int, int]], place: _Bytes) -> bool:
     )
 
 
-def _statement(reading: Reading, path: str, here: Position, prober: MakeProbed | None, first: int) -> Noted | None:
+def _statement(reader: RunReader, path: str, here: Position, prober: MakeProbed | None, first: int) -> Noted | None:
     """The last write by a statement since scan `first`."""
     wanted = [Breakpoint(0, "data", "", path=path, access="write")]
-    found = Search(reading.timeline, Breakpoints(), wanted, here, prober, lambda entry: (), first).run()
+    found = Search(reader.timeline, Breakpoints(), wanted, here, prober, lambda entry: (), first).run()
     if isinstance(found, Refusal):
-        raise NoReading(found.message, found.near)
+        raise Unreadable(found.message, found.near)
     return found
 
 
-def _by_statement(reading: Reading, noted: Noted, symbol: Symbol, value: bytes) -> Writer:
+def _by_statement(reader: RunReader, noted: Noted, symbol: Symbol, value: bytes) -> Writer:
     """Where it stands: the state in front of it is shown then."""
-    timeline = reading.timeline
+    timeline = reader.timeline
     scan, count = in_front(timeline, noted)
-    reading.goto(scan, count)
+    reader.goto(scan, count)
     resource = timeline.resource
     inside, program, sites = resource.listening.inside, resource.loaded.statements, resource.loaded.debugged().sites
     assert inside is not None
     frame = inside.frames[0]
     span = sites.statements[noted.writer if noted.writer is not None else frame.site].span
     instance = instance_path(program, frame) or frame_name(program, frame)
-    line = reading.text(resource.version, span.file, span.line)
+    line = reader.text(resource.version, span.file, span.line)
     where = Place(task_of(program, inside.frames), instance, frame.pou.name, span.file, span.line, line)
     text = f"{span.file}:{span.line}, {instance}" + (f": {line}" if line else "")
     return Writer(symbol.path, "program", scan, count, where, "", text, value, _shown(symbol, value))

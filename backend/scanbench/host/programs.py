@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from scanbench.engines.engine import Engine
 from scanbench.host.build import Builder, BuildFailed
 from scanbench.program.program import Program
+from scanbench.recording.programs import ProgramCache
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.wire.host import Sources, SourcesOf, WantSources
 
@@ -34,7 +35,7 @@ class HostPrograms:
     def __init__(self, builder: Builder, sources: Mapping[int, Sources]) -> None:
         self._builder = builder
         self._sources = dict(sources)
-        self._ready: dict[int, Loaded] = {}
+        self._cache = ProgramCache(self._load)
 
     def sources(self, version: int) -> Sources:
         """What a version is made of; `NoProgram` when there is none."""
@@ -51,14 +52,13 @@ class HostPrograms:
 
     def get(self, version: int) -> Loaded:
         """The program of a version, ready to run."""
-        loaded = self._ready.pop(version, None)
-        if loaded is None:
-            try:
-                loaded = self.make(self.sources(version))
-            except BuildFailed as error:
-                raise NoProgram(f"program version {version} cannot be built any more: {error}") from error
-        self._ready[version] = loaded  # the last one used stands last
-        return loaded
+        return self._cache.get(version)
+
+    def _load(self, version: int) -> Loaded:
+        try:
+            return self.make(self.sources(version))
+        except BuildFailed as error:
+            raise NoProgram(f"program version {version} cannot be built any more: {error}") from error
 
     def make(self, sources: Sources) -> Loaded:
         """Builds; in any thread, one build at a time."""
@@ -71,17 +71,14 @@ class HostPrograms:
     def put(self, loaded: Loaded, sources: Sources) -> None:
         """Takes a program that was built behind."""
         self._sources[loaded.version] = sources
-        self._ready.pop(loaded.version, None)
-        self._ready[loaded.version] = loaded
+        self._cache.put(loaded)
 
     def drop_idle(self, *in_use: int) -> None:
         """Lets go of what was not used for long; the versions given stay."""
-        idle = [version for version in self._ready if version not in in_use]
-        for version in idle[: max(0, len(self._ready) - _KEPT)]:
-            del self._ready[version]
+        self._cache.keep(_KEPT, *in_use)
 
     def recode(self, program: Program, engine: Engine) -> None:
         """Optimised code for a program, if it is still here."""
-        for loaded in self._ready.values():
+        for loaded in self._cache.loaded:
             if loaded.program is program:
                 loaded.engine = engine

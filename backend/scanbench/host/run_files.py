@@ -1,21 +1,25 @@
 """Run files on this server, and what can be said of one that comes from elsewhere."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from scanbench.plcmodel.model import Model
+from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.fingerprints import model_fingerprint
 from scanbench.recording.format import RunFileError
-from scanbench.recording.recording import DEFAULT_LIMIT, Recording
+from scanbench.recording.programs import Make, ProgramsOf, programs_of
+from scanbench.recording.reader import RunReader, Unreadable, no_programs
+from scanbench.recording.recording import DEFAULT_LIMIT
 from scanbench.runtime.clock import fresh_token
-from scanbench.runtime.command import Swapped
 from scanbench.wire.codec import ENTRIES, BadMessage, unpack
 from scanbench.wire.host import Sources
 
 RUN_SUFFIX = ".run"
 _MIB = 1 << 20
+ProgramOf = Callable[[Sources], Program]
+"""Builds a program; `NoProgram` says why it cannot be built."""
 
 
 def run_path(directory: Path, instance: int) -> Path:
@@ -60,28 +64,24 @@ def discard_all(directory: Path, instance: int) -> None:
 
 
 def sources_of(path: Path, models: Mapping[str, Model]) -> Sources:
-    """What the program that runs at the end of a run file is made of, numbered behind every other in it; `RunFileError`
+    """What the program that runs at the end of a run file is made of, numbered behind every other in it; `Unreadable`
     when it is no run file, or cannot be used here."""
     return sources_and_damage(path, models)[0]
 
 
 def sources_and_damage(path: Path, models: Mapping[str, Model]) -> tuple[Sources, str]:
     """The same, and what is damaged in the file."""
-    with Recording.open(path, ENTRIES, read_only=True) as recording:
+    with RunReader(path, no_programs, ENTRIES) as reader:
+        reader.follow()
+        recording = reader.recording
         model = models.get(recording.about.model)
         if model is None:
-            raise RunFileError(f"there is no model {recording.about.model} here: the run was recorded on one")
+            raise Unreadable(f"there is no model {recording.about.model} here: the run was recorded on one")
         if model_fingerprint(model) != recording.about.model_fingerprint:
-            raise RunFileError(
-                f"the run was recorded on another description of the model {model.name} than the one here"
-            )
-        last = recording.checkpoints[-1]
-        version = last.version
-        for entry in recording.take_entries()[last.entries :]:
-            if isinstance(entry.plan.effect, Swapped):
-                version = entry.plan.effect.version
-        sources = replace(sources_in(recording.programs[version]), version=max(recording.programs))
-        return sources, recording.damage
+            raise Unreadable(f"the run was recorded on another description of the model {model.name} than the one here")
+        with reader.reading():
+            sources = sources_in(recording.programs[reader.versions()[-1]])
+        return replace(sources, version=max(recording.programs)), recording.damage
 
 
 def sources_in(kept: KeptProgram) -> Sources:
@@ -93,6 +93,16 @@ def sources_in(kept: KeptProgram) -> Sources:
     if not isinstance(sources, Sources) or not _is_right(sources):
         raise RunFileError(f"program version {kept.version} of the run file has no sources")
     return sources
+
+
+def texts_in(kept: KeptProgram) -> Mapping[str, str]:
+    """Its source files, by name."""
+    return sources_in(kept).files
+
+
+def programs_by(program_of: ProgramOf, make: Make) -> ProgramsOf:
+    """The programs of run files."""
+    return programs_of(lambda kept: program_of(sources_in(kept)), make)
 
 
 def _is_right(sources: Sources) -> bool:

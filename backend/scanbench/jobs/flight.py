@@ -3,26 +3,20 @@
 From the nearest checkpoint of the run file, with the journal, in a job process: the PLC itself goes on meanwhile.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
 
 from scanbench.check.typed.condition import BadCondition, Signal, compile_signal
-from scanbench.engines.engine import Engine
 from scanbench.engines.sample import HEAD_WORDS, Sampling
-from scanbench.host.run_files import sources_in
-from scanbench.jobs.starting import NoStart, ProgramOf
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Elementary
-from scanbench.recording.blocks import KeptProgram
-from scanbench.recording.format import RunFileError
-from scanbench.recording.recording import Recording
-from scanbench.recording.replay import Diverged, replay
-from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
+from scanbench.recording.programs import ProgramsOf
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Entry, Swapped
-from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.resource import Resource
 from scanbench.taps.spool import write_pages
 from scanbench.taps.trace import TraceSignal, described
@@ -33,30 +27,14 @@ from scanbench.wire.traces import FlightDone, RecordFlight
 MAX_BYTES = 512 << 20
 """What a record may take while it is made."""
 _CHUNK = 4096
-MakeEngine = Callable[[Program, bytearray], Engine]
 
 
-class BadSignal(NoStart):
-    """A signal that is in no version of the program; `near` was perhaps meant."""
-
-    def __init__(self, message: str, near: tuple[str, ...]) -> None:
-        super().__init__(message)
-        self.near = near
-
-
-def fly(ask: RecordFlight, program_of: ProgramOf, make: MakeEngine, on_chunk: Callable[[int, int], None]) -> FlightDone:
-    """Samples the scans that are asked for, and writes them to the file; `NoStart` says why that cannot be."""
-    path = Path(ask.run)
-    try:
-        with Recording.open(path, ENTRIES, read_only=True) as recording:
-            flight = _Flight(ask, recording, _Plain(recording.programs, program_of, make))
-            resource = flight.run(on_chunk)
-    except OSError as error:
-        raise NoStart(f"{path.name} cannot be read: {error.strerror or error}") from error
-    except (RunFileError, NoProgram) as error:
-        raise NoStart(str(error)) from error
-    except (Diverged, *NOT_AS_RECORDED) as error:
-        raise NoStart(f"{path.name} cannot be replayed: {error}") from error
+def fly(ask: RecordFlight, programs: ProgramsOf, on_chunk: Callable[[int, int], None]) -> FlightDone:
+    """Samples the scans that are asked for, and writes them to the file; `Unreadable` says why that cannot be."""
+    with RunReader(Path(ask.run), programs, ENTRIES) as reader:
+        reader.follow()
+        flight = _Flight(ask, reader)
+        resource = flight.run(on_chunk)
     buffer = flight.buffer()
     first, end = buffer.extent
     write_pages(Path(ask.to), buffer.pieces(0, end))
@@ -65,40 +43,19 @@ def fly(ask: RecordFlight, program_of: ProgramOf, make: MakeEngine, on_chunk: Ca
     )  # fmt: skip
 
 
-@dataclass
-class _Plain:
-    """`Programs` on the code that PLCs run on."""
-
-    kept: Mapping[int, KeptProgram]
-    program_of: ProgramOf
-    make: MakeEngine
-    known: dict[int, Loaded] = field(default_factory=dict)
-
-    def get(self, version: int) -> Loaded:
-        """See `Programs`."""
-        if version not in self.known:
-            if version not in self.kept:
-                raise NoProgram(f"there is no program version {version} in the run")
-            program = self.program_of(sources_in(self.kept[version]))
-            memory = bytearray(program.layout.size)
-            self.known[version] = Loaded(version, program, memory, self.make(program, memory))
-        return self.known[version]
-
-
 class _Flight:
     """One record under way."""
 
-    def __init__(self, ask: RecordFlight, recording: Recording, programs: _Plain) -> None:
+    def __init__(self, ask: RecordFlight, reader: RunReader) -> None:
         if not ask.first <= ask.last:
-            raise NoStart(f"scans {ask.first} to {ask.last} are none")
+            raise Unreadable(f"scans {ask.first} to {ask.last} are none")
         rows = (ask.last - ask.first) // ask.every + 1
         if rows * row_bytes([_LARGEST] * len(ask.signals)) > MAX_BYTES:
             fits = MAX_BYTES // row_bytes([_LARGEST] * len(ask.signals))
-            raise NoStart(
+            raise Unreadable(
                 f"{rows:,} samples of {len(ask.signals)} signals are too many: {fits:,} fit. Take every n-th scan"
             )
-        self._ask, self._recording, self._programs = ask, recording, programs
-        self._entries = recording.take_entries()
+        self._ask, self._reader = ask, reader
         self._types: list[Elementary | None] = [None] * len(ask.signals)
         self._described = list(map(TraceSignal, ask.signals))
         self._parts: list[Words] = []
@@ -107,20 +64,15 @@ class _Flight:
 
     def run(self, on_chunk: Callable[[int, int], None]) -> Resource:
         """Runs the scans."""
-        ask, recording = self._ask, self._recording
-        checkpoint = recording.before(ask.first)
-        if checkpoint is None:
-            raise NoStart(
-                f"scan {ask.first} is not kept any more: the run can be gone back to scan {recording.first_scan}"
-            )
-        resource = open_at(recording, KeptPrograms(recording, self._programs), checkpoint, self._entries)
-        at = self._run_on(resource, checkpoint.entries, ask.first)
+        ask, entries = self._ask, self._reader.entries
+        resource = self._reader.at(ask.first)
         end = ask.last + 1
         while resource.header.scan < end:
             self._aim(resource)
             now = resource.header.scan
-            stop = min(end, now + _CHUNK * ask.every, *_swaps(self._entries[at:], now))
-            at = self._run_on(resource, at, stop)
+            at = bisect_right(entries, now, key=attrgetter("scan"))
+            stop = min(end, now + _CHUNK * ask.every, *_swaps(entries[at:]))
+            self._reader.replay(resource, stop, bisect_right(entries, stop, key=attrgetter("scan")))
             if self._sampling is not None:
                 self._parts.append(self._whole(self._sampling.take()))
             on_chunk(resource.header.scan - ask.first, end - ask.first)
@@ -128,16 +80,8 @@ class _Flight:
                 break
         bad = next((each for each, type in zip(self._described, self._types, strict=True) if type is None), None)
         if bad is not None:
-            raise BadSignal(bad.message, self._near(resource.program, bad.text))
+            raise Unreadable(bad.message, self._near(resource.program, bad.text))
         return resource
-
-    def _run_on(self, resource: Resource, at: int, scan: int) -> int:
-        """To the seam in front of a scan; the index of the next entry."""
-        after = at
-        while after < len(self._entries) and self._entries[after].scan <= scan:
-            after += 1
-        replay(resource, self._entries[at:after], scan)
-        return after
 
     def _aim(self, resource: Resource) -> None:
         """Finds the signals in the program that runs now."""
@@ -188,6 +132,6 @@ class _Flight:
 _LARGEST = Elementary("LWORD", BOOL.kind, 8)
 
 
-def _swaps(entries: Sequence[Entry], now: int) -> list[int]:
+def _swaps(entries: Sequence[Entry]) -> list[int]:
     """Where the program becomes another one."""
-    return [each.scan for each in entries if isinstance(each.plan.effect, Swapped) and each.scan > now][:1]
+    return [each.scan for each in entries if isinstance(each.plan.effect, Swapped)][:1]

@@ -3,19 +3,19 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.schedule import Schedule
 from scanbench.history.changes import find_changes
 from scanbench.history.divergence import find_divergence
-from scanbench.history.engines import past_engines, programs_of
-from scanbench.history.reading import NoReading, Reading
 from scanbench.history.rerun import rerun
 from scanbench.history.writer import find_writer
-from scanbench.host.run_files import sources_in
-from scanbench.jobs.starting import NoStart, ProgramOf
+from scanbench.host.run_files import ProgramOf, programs_by, texts_in
 from scanbench.recording.format import RunFileError
+from scanbench.recording.programs import on
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.programs import NoProgram
@@ -37,7 +37,7 @@ _TELL_NS = 250_000_000
 _OPEN = 3
 """Run files that stay open."""
 Request = FindWriter | FindChanges | CompareRuns | RerunRun
-REFUSALS = (NoReading, NoStart, NoProgram, RunFileError, OSError)
+REFUSALS = (Unreadable, NoProgram, RunFileError, OSError)
 
 
 class HistoryJob:
@@ -47,9 +47,10 @@ class HistoryJob:
         self, program_of: ProgramOf, cache: BlobCache | None, observed: MakeObserved, say: Callable[[object], None]
     ) -> None:  # fmt: skip
         self._observed, self._say = observed, say
-        make, self._prober = past_engines(cache)
-        self._programs_of = programs_of(lambda kept: program_of(sources_in(kept)), make)
-        self._open: dict[str, Reading] = {}
+        code = flavours(cache)
+        self._prober = code.probed(aside=False)
+        self._programs_of = programs_by(program_of, on(code))
+        self._open: dict[str, RunReader] = {}
 
     def on_request(self, ask: Request) -> None:
         """Answers it; whatever is wrong with it is told in the answer."""
@@ -65,22 +66,22 @@ class HistoryJob:
 
     def _writer(self, ask: FindWriter) -> WriterFound:
         try:
-            reading = self._reading(ask.run, ask.until)
-            scan = reading.end if ask.scan == NOW else ask.scan
-            return WriterFound(ask.ref, find_writer(reading, ask.path, scan, self._prober))
+            reader = self._reader(ask.run, ask.until)
+            scan = reader.end if ask.scan == NOW else ask.scan
+            return WriterFound(ask.ref, find_writer(reader, ask.path, scan, self._prober))
         except REFUSALS as why:
             return WriterFound(ask.ref, None, _words(why), getattr(why, "near", ()))
 
     def _changes(self, ask: FindChanges) -> ChangesFound:
         try:
-            other = self._reading(ask.other, ask.other_until) if ask.other else None
-            return ChangesFound(ask.ref, find_changes(self._reading(ask.run, ask.until), ask.first, ask.last, other))
+            other = self._reader(ask.other, ask.other_until) if ask.other else None
+            return ChangesFound(ask.ref, find_changes(self._reader(ask.run, ask.until), ask.first, ask.last, other))
         except REFUSALS as why:
             return ChangesFound(ask.ref, None, _words(why))
 
     def _compared(self, ask: CompareRuns) -> RunsCompared:
         try:
-            first, other = self._reading(ask.run, ask.until), self._reading(ask.other, ask.other_until)
+            first, other = self._reader(ask.run, ask.until), self._reader(ask.other, ask.other_until)
             return RunsCompared(ask.ref, find_divergence(first, other, self._telling(ask.ref)))
         except REFUSALS as why:
             return RunsCompared(ask.ref, None, _words(why))
@@ -89,22 +90,20 @@ class HistoryJob:
         agenda = Joined(Schedule(self._observed), DisturbanceSchedule())
         try:
             made = rerun(
-                self._reading(ask.run, ask.until), Path(ask.to), ask.change, ask.author, self._programs_of, ENTRIES, agenda,
+                self._reader(ask.run, ask.until), Path(ask.to), ask.change, ask.author, self._programs_of, ENTRIES, agenda,
                 self._telling(ask.ref),
             )  # fmt: skip
         except REFUSALS as why:
             return RerunDone(ask.ref, False, 0, (), _words(why))
         return RerunDone(ask.ref, True, made.scan, made.refused)
 
-    def _reading(self, run: str, until: int) -> Reading:
-        reading = self._open.pop(run, None) or Reading(
-            Path(run), self._programs_of, ENTRIES, lambda kept: sources_in(kept).files
-        )
-        self._open[run] = reading  # the last one used stands last
+    def _reader(self, run: str, until: int) -> RunReader:
+        reader = self._open.pop(run, None) or RunReader(Path(run), self._programs_of, ENTRIES, texts_in)
+        self._open[run] = reader  # the last one used stands last
         while len(self._open) > _OPEN:
             self._open.pop(next(iter(self._open))).close()
-        reading.follow(until or None)
-        return reading
+        reader.follow(until or None)
+        return reader
 
     def _telling(self, ref: int) -> Callable[[int, int], None]:
         told = 0

@@ -16,15 +16,17 @@ from typing import BinaryIO
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
-from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.sweep import sweep
 from scanbench.host.program_cache import key_of, recall
+from scanbench.host.run_files import programs_by
 from scanbench.jobs import history as history_job
 from scanbench.jobs import verification as verify_job
-from scanbench.jobs.flight import BadSignal, fly
-from scanbench.jobs.starting import NoStart, checked_program, model_of, point_in, reaction_in
+from scanbench.jobs.flight import fly
+from scanbench.jobs.starting import checked_program, model_of, point_in, reaction_in
 from scanbench.program.program import Program
+from scanbench.recording.programs import cached, observed, on
+from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
@@ -97,7 +99,7 @@ class Job:
             found = reaction_in(
                 Path(ask.run), ask.error, ask.scan, ask.end, ask.window, self._program, self._flavours.observed
             )
-        except NoStart as why:
+        except Unreadable as why:
             return Reacted(ask.ref, None, str(why))
         except Exception as error:  # whatever it is, somebody waits for the answer
             return Reacted(ask.ref, None, _unexpected(error))
@@ -113,10 +115,9 @@ class Job:
                 self._say(FlightAt(ask.ref, done, of))
 
         try:
-            return fly(ask, self._program, self._flavours.run, on_chunk)
-        except NoStart as why:
-            near = why.near if isinstance(why, BadSignal) else ()
-            return FlightDone(ask.ref, False, message=str(why), near=near)
+            return fly(ask, programs_by(self._program, on(self._flavours)), on_chunk)
+        except Unreadable as why:
+            return FlightDone(ask.ref, False, message=str(why), near=why.near)
         except Exception as error:  # as above
             return FlightDone(ask.ref, False, message=_unexpected(error))
 
@@ -124,7 +125,7 @@ class Job:
         try:
             for cell in self._cells(ask):
                 self._say(cell)
-        except (NoStart, NoProgram) as why:
+        except (Unreadable, NoProgram) as why:
             return JobDone(ask.ref, False, str(why))
         except Exception as error:  # as above
             return JobDone(ask.ref, False, _unexpected(error))
@@ -134,7 +135,7 @@ class Job:
         program = self._program(ask.sources)
         points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
         scans = {name: Header(point.state).scan for name, point in points.items()}
-        programs = ObservedPrograms({ask.sources.version: program}.__getitem__, self._flavours.observed)
+        programs = cached({ask.sources.version: program}, observed(self._flavours.observed))
         told = 0
 
         def on_try(error: str, point: str) -> None:
@@ -149,8 +150,8 @@ class Job:
     def _point(self, name: str, run: Path, sources: Sources) -> Point:
         try:
             return point_in(run, None, sources, self._program, self._flavours.observed)
-        except NoStart as why:
-            raise NoStart(f"the state {name} cannot be used: {why}") from why
+        except Unreadable as why:
+            raise Unreadable(f"the state {name} cannot be used: {why}") from why
 
     def _program(self, sources: Sources) -> Program:
         """The checked program: from memory, from the disk, or checked now."""

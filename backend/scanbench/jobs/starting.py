@@ -1,30 +1,24 @@
 """Where comparisons begin: moments of run files, which may belong to a PLC that runs. Nothing is written to them."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
 
 from scanbench.check.build import check_sources
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Generate
-from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import Point, react
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reaction.sweep import AUTHOR
 from scanbench.host.build import BuildFailed, find_model
-from scanbench.host.run_files import sources_in
+from scanbench.host.run_files import ProgramOf, programs_by, sources_in
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Severity
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.recording.blocks import KeptProgram
-from scanbench.recording.format import RunFileError
-from scanbench.recording.recording import Recording
-from scanbench.recording.replay import Diverged, replay
-from scanbench.recording.thinning import Checkpoint
-from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
+from scanbench.recording.programs import cached, observed
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.header import Halt, Mode
@@ -34,14 +28,6 @@ from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.resource import Resource
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
-
-T = TypeVar("T")
-ProgramOf = Callable[[Sources], Program]
-"""Builds a program; `NoProgram` says why it cannot be built."""
-
-
-class NoStart(Exception):
-    """Nothing can begin there; the message says why."""
 
 
 def model_of(sources: Sources) -> Model:
@@ -64,14 +50,14 @@ def checked_program(sources: Sources, model: Model) -> Program:
 def reaction_in(
     path: Path, error: str, scan: int, end: int, window: int, program_of: ProgramOf, make: MakeObserved
 ) -> Reaction:
-    """The reaction to an error that was raised in front of `scan` in the run of this file; `NoStart` when there is none.
+    """The reaction to an error that was raised in front of `scan` in the run of this file; `Unreadable` when there is none.
 
     The file may be replaced by a smaller one while it is read: then the new one is read.
     """
     read = _file_at(path)
     try:
         return _reaction_in(path, error, scan, min(window, end - scan), program_of, make)
-    except NoStart:
+    except Unreadable:
         if _file_at(path) == read:
             raise
         return _reaction_in(path, error, scan, min(window, end - scan), program_of, make)
@@ -86,83 +72,41 @@ def _file_at(path: Path) -> int | None:
 
 
 def _reaction_in(path: Path, error: str, scan: int, window: int, program_of: ProgramOf, make: MakeObserved) -> Reaction:
-    def find(recording: Recording, programs: ObservedPrograms) -> Reaction:
-        entries = recording.take_entries()
+    with RunReader(path, programs_by(program_of, observed(make)), ENTRIES) as reader:
+        reader.follow()
+        entries = reader.entries
         index = _raised(entries, error, scan)
-        before = [each for each in recording.checkpoints if each.scan <= scan and each.entries <= (index or 0)]
-        if index is None or not before:
-            raise NoStart(f"{path.name} does not have any more how {error} was raised before scan {scan}")
-        resource = _replayed(recording, programs, before[-1], entries[:index], scan)
+        if index is None or scan < reader.first or index < reader.recording.checkpoints[0].entries:
+            raise Unreadable(f"{path.name} does not have any more how {error} was raised before scan {scan}")
+        resource = reader.at(scan, index)
         point = Point(resource.version, resource.state, resource.journal)
-        found = react(point, entries[index], entries[index + 1 :], window, programs, error)
+        with reader.reading():
+            found = react(point, entries[index], entries[index + 1 :], window, reader.programs, error)
         if isinstance(found, Refusal):
-            raise NoStart(found.message)
+            raise Unreadable(found.message)
         return found
-
-    return _read(path, program_of, make, find)
 
 
 def point_in(path: Path, scan: int | None, sources: Sources, program_of: ProgramOf, make: MakeObserved) -> Point:
     """The PLC before `scan`, or where the run ends, with the program of `sources`: carried over where it had another.
 
-    The version of the point is that of `sources`. `NoStart` when there is no such scan, or nothing runs there.
+    The version of the point is that of `sources`. `Unreadable` when there is no such scan, or nothing runs there.
     """
-
-    def find(recording: Recording, programs: ObservedPrograms) -> Point:
-        entries = recording.take_entries()
-        until = recording.last_scan if scan is None else scan
-        checkpoint = recording.before(until)
-        if checkpoint is None or until > recording.last_scan:
-            raise NoStart(
-                f"{path.name} has scans {recording.first_scan} to {recording.last_scan}: scan {until} is none of them"
-            )
-        entries = [each for each in entries if each.scan <= until]
-        entries = entries[: front(entries, until)]
-        resource = _replayed(recording, programs, checkpoint, entries, until)
-        running = sources_in(recording.programs[resource.version])
-        if replace(running, version=sources.version) != sources:
-            resource = _carried_over(resource, program_of(sources), max(recording.programs) + 1, make)
+    with RunReader(path, programs_by(program_of, observed(make)), ENTRIES) as reader:
+        reader.follow()
+        until = reader.end if scan is None else scan
+        if not reader.first <= until <= reader.end:
+            raise Unreadable(f"{path.name} has scans {reader.first} to {reader.end}: scan {until} is none of them")
+        resource = reader.at(until, front([each for each in reader.entries if each.scan <= until], until))
+        with reader.reading():
+            running = sources_in(reader.kept[resource.version])
+            if replace(running, version=sources.version) != sources:
+                resource = _carried_over(resource, program_of(sources), max(reader.kept) + 1, make)
         _must_run(resource)
         return Point(sources.version, resource.state, resource.journal)
 
-    return _read(path, program_of, make, find)
 
-
-def _read(path: Path, program_of: ProgramOf, make: MakeObserved, use: Callable[[Recording, ObservedPrograms], T]) -> T:
-    """Opens a run file; whatever is wrong with it is a `NoStart`."""
-    try:
-        with Recording.open(path, ENTRIES, read_only=True) as recording:
-            return use(recording, ObservedPrograms(_of_file(recording.programs, program_of), make))
-    except OSError as error:
-        raise NoStart(f"{path.name} cannot be read: {error.strerror or error}") from error
-    except RunFileError as error:
-        raise NoStart(str(error)) from error
-    except NoProgram as error:
-        raise NoStart(str(error)) from error
-
-
-def _replayed(
-    recording: Recording, programs: ObservedPrograms, checkpoint: Checkpoint, entries: Sequence[Entry], scan: int
-) -> Resource:
-    """The PLC in front of `scan`, when these entries are all that was entered."""
-    try:
-        resource = open_at(recording, KeptPrograms(recording, programs), checkpoint, entries)
-        replay(resource, entries[checkpoint.entries :], scan)
-    except (Diverged, *NOT_AS_RECORDED) as error:
-        raise NoStart(f"{recording.path.name} cannot be replayed: {error}") from error
-    return resource
-
-
-def _of_file(kept: Mapping[int, KeptProgram], program_of: ProgramOf) -> Callable[[int], Program]:
-    def get(version: int) -> Program:
-        if version not in kept:
-            raise NoProgram(f"there is no program version {version} in the run")
-        return program_of(sources_in(kept[version]))
-
-    return get
-
-
-def _raised(entries: list[Entry], error: str, scan: int) -> int | None:
+def _raised(entries: Sequence[Entry], error: str, scan: int) -> int | None:
     """Where the journal has it; the last one, as that is what stands."""
     for index in range(len(entries) - 1, -1, -1):
         entry = entries[index]
@@ -176,19 +120,19 @@ def _raised(entries: list[Entry], error: str, scan: int) -> int | None:
 
 def _carried_over(resource: Resource, program: Program, version: int, make: MakeObserved) -> Resource:
     """The PLC with another program, as an online change leaves it. It may be in RUN: here nobody works with it."""
-    programs = ObservedPrograms({resource.version: resource.program, version: program}.__getitem__, make)
+    programs = cached({resource.version: resource.program, version: program}, observed(make))
     there = Resource(programs.get(resource.version), programs=programs)
     there.restore(there.loaded, resource.state, resource.journal)
     why_not = why_not_carried(there.journal.derived(ACTIVE), resource.program, program)
     if why_not:
-        raise NoStart(f"the program cannot take over there: {why_not}")
+        raise Unreadable(f"the program cannot take over there: {why_not}")
     view = there.view
     memory = bytearray(there.memory)
     memory[Layout.MODE] = Mode.MONITOR if there.header.mode is Mode.RUN else there.header.mode
     change = ProgramChange(AUTHOR, version)
     plan = change.plan(replace(view, memory=memory))
     if isinstance(plan, Refusal):
-        raise NoStart(f"the program cannot take over there: {plan.message}")
+        raise Unreadable(f"the program cannot take over there: {plan.message}")
     there.reenter(Entry(there.header.scan, wall_time(), change, plan))
     return there
 
@@ -198,5 +142,5 @@ def _must_run(resource: Resource) -> None:
         return
     if resource.header.halt & Halt.FATAL_ERROR:
         present = resource.journal.derived(ACTIVE)
-        raise NoStart(f"the program is stopped there by a fatal error ({', '.join(present)}): begin where it runs")
-    raise NoStart("the program does not run there: begin where the PLC is in MONITOR or RUN, and has not trapped")
+        raise Unreadable(f"the program is stopped there by a fatal error ({', '.join(present)}): begin where it runs")
+    raise Unreadable("the program does not run there: begin where the PLC is in MONITOR or RUN, and has not trapped")

@@ -3,22 +3,21 @@
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
+from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
-from scanbench.host.run_files import sources_in
-from scanbench.jobs.starting import NoStart, ProgramOf
-from scanbench.program.program import Program
-from scanbench.recording.blocks import KeptProgram
+from scanbench.host.run_files import ProgramOf, programs_by, texts_in
 from scanbench.recording.format import RunFileError
+from scanbench.recording.programs import on
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.reports.report import stretched
 from scanbench.reports.value_text import value_text
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.verify.contract import BadRange, Column, Row, ScanVerified
-from scanbench.verify.engines import native
 from scanbench.verify.trace.mapping import BadMapping
 from scanbench.verify.trace.run import TraceVerifier, open_trace
 from scanbench.verify.trace.table import BadTraceFile
-from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
+from scanbench.verify.verifier import BadEdit, Verifier
 from scanbench.wire.codec import ENTRIES, pack_body
 from scanbench.wire.verification import (
     BeginTrace,
@@ -37,7 +36,7 @@ from scanbench.wire.verification import (
 
 _TELL_NS = 100_000_000
 Request = BeginVerify | BeginTrace | VerifyScans | VerifyStep | SetInputs | UsesOf
-REFUSALS = (NoStart, NoProgram, RunFileError, Unverifiable, BadEdit, BadMapping, BadTraceFile, OSError)
+REFUSALS = (Unreadable, NoProgram, RunFileError, BadEdit, BadMapping, BadTraceFile, OSError)
 
 
 class VerifyJob:
@@ -80,16 +79,12 @@ class VerifyJob:
 
     def _begun(self) -> Verifier | TraceVerifier:
         if self._verifier is None:
-            raise NoStart("the verification has not begun")
+            raise Unreadable("the verification has not begun")
         return self._verifier
 
     def _begin(self, ask: BeginVerify) -> None:
-        def program_of(kept: KeptProgram) -> Program:
-            return self._program_of(sources_in(kept))
-
-        verifier = Verifier(
-            Path(ask.run), ENTRIES, program_of, native(self._cache), lambda kept: sources_in(kept).files
-        )
+        programs = programs_by(self._program_of, on(flavours(self._cache)))
+        verifier = Verifier(RunReader(Path(ask.run), programs, ENTRIES, texts_in))
         self._verifier = verifier
         verifier.follow(ask.until)
         begun = verifier.begin(ask.range, ask.limit, ask.first)
@@ -186,7 +181,7 @@ def _text(column: Column | None, value: bytes | None) -> str | None:
 
 
 def _words(why: Exception) -> str:
-    if isinstance(why, FileNotFoundError):
+    if isinstance(why, FileNotFoundError) or isinstance(why.__cause__, FileNotFoundError):
         return "the run has not begun yet: try again when the PLC has started"
     if isinstance(why, BadTraceFile):
         return "; ".join(map(str, why.problems[:3]))

@@ -28,8 +28,9 @@ from scanbench.recording.blocks import (
     read_contents,
     read_state,
 )
-from scanbench.recording.fingerprints import libm_fingerprint, program_digest
-from scanbench.recording.format import Block, Damage, Kind, RunFile, RunFileError
+from scanbench.recording.fingerprints import program_digest
+from scanbench.recording.flaws import flaws
+from scanbench.recording.format import Block, Kind, RunFile, RunFileError
 from scanbench.recording.smaller import (
     Bounds,
     Seen,
@@ -47,8 +48,6 @@ from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
 
 DEFAULT_LIMIT = 64 << 20
-_BLOCKS = {Kind.PROGRAM: "program", Kind.ENTRY: "command", Kind.KEYFRAME: "state", Kind.DELTA: "change of the state"}
-"""What is lost with a block, in words."""
 DELTAS = 63
 """Between two keyframes."""
 
@@ -166,7 +165,7 @@ class Recording:
         try:
             reader = read_contents(file, codec)
             found, damage = reader.found, file.damage
-            text = _flaws(file, found, read_only)
+            text = flaws(file, found, read_only)
         except BaseException:
             file.close()
             raise
@@ -347,7 +346,7 @@ class Recording:
         entries = reader.read_on()
         self._written += len(entries)
         self.last_scan = reader.found.last_scan
-        self.damage = _flaws(file, reader.found, read_only=True)
+        self.damage = flaws(file, reader.found, read_only=True)
         self.lost = file.damage is not None and not file.damage.torn
         return entries
 
@@ -441,43 +440,3 @@ class Recording:
         self._worker.give(old.close)
         self._worker.sync_soon()
         return Trim(made.roots, made.cut) if made.cut else None
-
-
-def _aside(path: Path) -> Path:
-    number = 1
-    while (aside := path.with_name(f"{path.name}.damaged-{number}")).exists():
-        number += 1
-    return aside
-
-
-def _flaws(file: RunFile, found: Contents, read_only: bool) -> str:
-    """What people have to know of a file that was read; what is damaged is put aside."""
-    text = "" if file.damage is None else _put_aside(file, file.damage, found.last_scan, read_only)
-    if found.about.libm != libm_fingerprint():
-        text += "; " * bool(text) + (
-            "recorded on a machine with another mathematical library: results of SIN, EXP and the like may differ "
-            "in their last digit, and a replay with them"
-        )
-    return text
-
-
-def _put_aside(file: RunFile, damage: Damage, last_scan: int, read_only: bool) -> str:
-    """Ends the file where the damage begins, and says what that means."""
-    name, where = file.path.name, "left as it was"
-    if not read_only:
-        aside = _aside(file.path)
-        file.cut(damage.offset, aside)
-        where = f"moved to {aside.name}"
-    if damage.torn:
-        text = f"{name} ended in the middle of a block, at byte {damage.offset}: its last write did not come to its end"
-    else:
-        text = f"{name} is damaged at byte {damage.offset}"
-    text += f". Everything before it was recovered, up to scan {last_scan}"
-    if damage.last_scan > last_scan:
-        text += f"; {damage.last_scan - last_scan} scans after it, up to {damage.last_scan}, are lost"
-    elif not damage.torn:
-        text += "; how many scans came after it is not known"
-    kept = [f"{count} {_BLOCKS[kind]}{'s' * (count != 1)}" for kind, count in damage.lost if kind in _BLOCKS]
-    if kept:
-        text += f", and with them {', '.join(kept)}"
-    return f"{text}. The damaged rest was {where}"

@@ -1,19 +1,57 @@
 """Replay: the journal's plans entered again at their scans give the same image, byte for byte."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from struct import error as struct_error
 
 from scanbench.engines.engine import Reason
+from scanbench.recording.fingerprints import model_fingerprint
 from scanbench.recording.format import RunFileError
+from scanbench.recording.programs import KeptPrograms
+from scanbench.recording.recording import Recording
+from scanbench.recording.thinning import Checkpoint
+from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Entry
+from scanbench.runtime.detect import Detect
 from scanbench.runtime.inside import Diverged
+from scanbench.runtime.journal import Journal
+from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
 
-__all__ = ["BETWEEN", "Diverged", "replay", "run_to"]
+__all__ = ["BETWEEN", "NOT_AS_RECORDED", "Diverged", "open_at", "replay", "run_to", "state_of"]
+
+NOT_AS_RECORDED = (ValueError, TypeError, AttributeError, IndexError, OverflowError, struct_error)
+"""What re-entering a journal comes to that nobody has recorded: plans that are none, patches outside of the image."""
 
 BETWEEN = 1 << 23
 """So many scans run at most from one recorded state to the next, however quick the program is (`checkpoints.py`). A run file
 that says that more of them ran after its last state is not believed: nothing in it would ever bring them to an end."""
+
+
+def open_at(
+    recording: Recording, programs: KeptPrograms, checkpoint: Checkpoint, entries: Sequence[Entry],
+    detect: Detect | None = None, agenda: Agenda | None = None,
+) -> Resource:  # fmt: skip
+    """A resource that stands at a checkpoint of a run file; `RunFileError` when its programs are not what they were."""
+    try:
+        loaded = programs.get(checkpoint.version)
+    except NoProgram as error:
+        raise RunFileError(str(error)) from error
+    model = loaded.program.layout.model
+    if model_fingerprint(model) != recording.about.model_fingerprint:
+        raise RunFileError(
+            f"{recording.path.name} was recorded on another description of the model {recording.about.model} than the "
+            f"one that is installed: use the models it was recorded with"
+        )
+    resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
+    resource.restore(loaded, state_of(recording, checkpoint, loaded), Journal(entries[: checkpoint.entries]))
+    resource.proved = recording.checkpoints[-1].scan
+    return resource
+
+
+def state_of(recording: Recording, checkpoint: Checkpoint, loaded: Loaded) -> bytes:
+    """The state that a checkpoint holds, of the program that ran there; `RunFileError` when it holds something else."""
+    return recording.state(checkpoint, loaded.program.layout.state_size)
 
 
 def replay(resource: Resource, entries: Iterable[Entry], until: int) -> None:

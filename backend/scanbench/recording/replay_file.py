@@ -1,17 +1,16 @@
 """A run file replayed from its beginning, with every checkpoint on the way compared: the proof that it determines its run."""
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from scanbench.recording.blocks import Codec
-from scanbench.recording.format import RunFileError
+from scanbench.recording.programs import ProgramsOf
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.recording import Recording
-from scanbench.recording.replay import Diverged, replay
+from scanbench.recording.replay import NOT_AS_RECORDED, Diverged, replay
 from scanbench.recording.thinning import Checkpoint
-from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, ProgramsOf, open_at
-from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import front
 from scanbench.runtime.resource import Resource
 
@@ -48,25 +47,22 @@ def replay_file(
     """Replays up to the last scan that the file knows of, or to the end of scan `until` - 1. Each checkpoint that agrees
     is told with its scan.
 
-    `Diverged` when the run does not go as recorded, with the scan; `RunFileError` when the file cannot be used.
+    `Diverged` when the run does not go as recorded, with the scan; `Unreadable` when the file cannot be used.
     """
-    with Recording.open(path, codec, read_only=True) as recording:
-        entries = recording.take_entries()
-        programs = KeptPrograms(recording, programs_of(recording.programs))
-        first, end = recording.first_scan, recording.last_scan
+    with RunReader(path, programs_of, codec) as reader:
+        reader.follow()
+        first, end = reader.first, reader.end
         if until is not None:
             if not first <= until <= end:
-                raise RunFileError(f"{path.name} holds scans {first} to {end}: scan {until} is none of them")
+                raise Unreadable(f"{path.name} holds scans {first} to {end}: scan {until} is none of them")
             end = until
         try:
-            resource = open_at(recording, programs, recording.checkpoints[0], entries)
-            agreed = _compare(recording, resource, entries, end, on_agreed)
-            resource.proved = recording.checkpoints[-1].scan
-            left = [entry for entry in entries[len(resource.journal) :] if entry.scan <= end]
-            replay(resource, left[: front(left, end)], end)
+            with reader.reading():
+                resource, agreed = _compared(reader, end, on_agreed)
         except NOT_AS_RECORDED as error:
-            raise RunFileError(f"{path.name} cannot be replayed: {error}") from error
+            raise Unreadable(f"{path.name} cannot be replayed: {error}") from error
         digest = hashlib.sha256(resource.state).hexdigest()
+        recording = reader.recording
         about = recording.about
         return Replayed(
             first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage, recording.lost, about.by,
@@ -74,11 +70,10 @@ def replay_file(
         )  # fmt: skip
 
 
-def _compare(
-    recording: Recording, resource: Resource, entries: Sequence[Entry], end: int, on_agreed: Callable[[int], None]
-) -> int:
-    """Runs from checkpoint to checkpoint; how many there are up to `end`."""
-    agreed = 0
+def _compared(reader: RunReader, end: int, on_agreed: Callable[[int], None]) -> tuple[Resource, int]:
+    """Runs from checkpoint to checkpoint, and on to `end`: the PLC there, and how many checkpoints agreed."""
+    recording, entries, agreed = reader.recording, reader.entries, 0
+    resource = reader.stand(recording.checkpoints[0])
     last = recording.checkpoints[0].scan
     for checkpoint in recording.checkpoints:
         if checkpoint.scan > end:
@@ -90,7 +85,10 @@ def _compare(
             raise Diverged(_difference(recording, resource, checkpoint))
         agreed += 1
         on_agreed(checkpoint.scan)
-    return agreed
+    resource.proved = recording.checkpoints[-1].scan
+    left = [entry for entry in entries[len(resource.journal) :] if entry.scan <= end]
+    replay(resource, left[: front(left, end)], end)
+    return resource, agreed
 
 
 def _recorded(recording: Recording, resource: Resource, checkpoint: Checkpoint) -> bytes:

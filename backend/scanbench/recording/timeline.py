@@ -5,73 +5,45 @@ its place, and the journal is re-entered up to the scan; to return the state is 
 that people see are those of then, through the same doors, and nothing but a return can change the run.
 """
 
-from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from operator import attrgetter
+from dataclasses import replace
 from pathlib import Path
-from struct import error as struct_error
 
 from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.sample import Sampling
-from scanbench.recording.blocks import Codec, KeptProgram
+from scanbench.recording.blocks import Codec
 from scanbench.recording.checkpoints import Checkpoints
-from scanbench.recording.fingerprints import model_fingerprint, program_digest
+from scanbench.recording.fingerprints import program_digest
 from scanbench.recording.format import RunFileError
+from scanbench.recording.moment import Moment, seam
+from scanbench.recording.past import run_on
+from scanbench.recording.programs import KeptPrograms, ProgramsOf
 from scanbench.recording.recording import DEFAULT_LIMIT, Recording
-from scanbench.recording.replay import Diverged, replay
-from scanbench.recording.smaller import Standing
-from scanbench.recording.thinning import Checkpoint
+from scanbench.recording.replay import NOT_AS_RECORDED, Diverged, open_at, replay, state_of
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.detect import Detect
-from scanbench.runtime.inside import HaltAt, Inside, front
+from scanbench.runtime.inside import HaltAt, Inside
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.resource import Measured, Resource
-from scanbench.runtime.trap import Trapped
 
 PAST = "this is the past: return to live, or branch from here"
-
-NOT_AS_RECORDED = (ValueError, TypeError, AttributeError, IndexError, OverflowError, struct_error)
-"""What re-entering a journal comes to that nobody has recorded: plans that are none, patches outside of the image."""
-
-ProgramsOf = Callable[[Mapping[int, KeptProgram]], Programs]
-"""Makes programs of what a run file kept of them. The mapping grows with the run."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Moment:
-    """All that a resource is at one moment. It holds the program itself, so that going back to it cannot fail."""
-
-    loaded: Loaded
-    scan: int
-    state: bytes
-    """The whole image where a scan is halted."""
-    journal: Journal
-    measured: Measured
-    inside: Inside | None
-
-    def standing(self) -> Standing:
-        """The seam in front of its scan."""
-        state = self.state if self.inside is None else self.inside.begin
-        size = self.loaded.program.layout.state_size
-        return Standing(self.scan, front(self.journal, self.scan), self.loaded.version, bytes(state[:size]))
 
 
 class Timeline:
     """A run with its recording. Everything in the thread that runs the scans, but for `live`."""
 
-    def __init__(self, recording: Recording, resource: Resource, programs: "KeptPrograms") -> None:
+    def __init__(self, recording: Recording, resource: Resource, programs: KeptPrograms) -> None:
         """See `begin` and `resume`."""
         self.recording, self.resource = recording, resource
         self._kept = programs
         self._checkpoints = Checkpoints(recording)
-        self._live: _Moment | None = None
+        self._live: Moment | None = None
         """Where the PLC stands while the past is shown."""
         self._sent = 0
         self._whole = True
@@ -288,7 +260,7 @@ class Timeline:
     def return_live(self) -> None:
         """Shows the PLC where it stands; it goes on when somebody lets it run."""
         if self._live is not None:
-            self._stand(self._live)
+            self._live.restore(self.resource)
             self._live, self._whole = None, True
 
     def copy(self, path: Path, scan: int | None, by: str, on_done: Callable[[Refusal | None], None]) -> None:
@@ -302,10 +274,10 @@ class Timeline:
             reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
             on_done(Refusal(f"the run cannot be written to {path.name}: {reason}") if error is not None else None)
 
-        wanted = self._live or self._moment()
+        wanted = self._live or Moment.of(self.resource)
         if scan is not None and scan != wanted.scan:
-            found: list[_Moment] = []
-            refusal = self._visit(scan, stay=False, look=lambda: found.append(self._moment()))
+            found: list[Moment] = []
+            refusal = self._visit(scan, stay=False, look=lambda: found.append(Moment.of(self.resource)))
             if refusal is not None:
                 on_done(refusal)
                 return
@@ -321,59 +293,9 @@ class Timeline:
 
         HALTED: the hook halted it; INTERRUPTED: it stands somewhere on the way, perhaps as another program runs from here on.
         """
-        live, resource, loaded = self._live, self.resource, self.resource.loaded
-        if live is None or not self._whole:
+        if self._live is None or not self._whole:
             raise RuntimeError("there is no past to go on in: go to a scan of it first")
-        while True:
-            following = self._enter_front(live.journal)
-            unfinished = live.inside is not None or (following is not None and isinstance(following.command, Trapped))
-            now = resource.header.scan
-            if now >= until or (now >= live.scan and not unfinished):
-                return Stop(Reason.DONE)
-            if resource.loaded is not loaded:
-                return Stop(Reason.INTERRUPTED)
-            stop = self._one_stretch(live.journal, min(until, max(live.scan, now + 1)))
-            if stop.reason is Reason.HALTED:
-                assert resource.listening.inside is not None
-                inside = resource.journal[front(resource.journal, resource.header.scan) :]
-                later = sum(each.step > resource.listening.inside.count for each in inside)
-                resource.journal = resource.journal.prefix(len(resource.journal) - later)
-            if stop.reason in (Reason.HALTED, Reason.INTERRUPTED):
-                return stop
-
-    def _following(self, journal: Journal) -> Entry | None:
-        """The first entry that was not entered yet."""
-        entered = len(self.resource.journal)
-        return journal[entered] if entered < len(journal) else None
-
-    def _enter_front(self, journal: Journal) -> Entry | None:
-        """Enters what was entered in front of the scan that is next; what comes behind that."""
-        resource, now = self.resource, self.resource.header.scan
-        while (entry := self._following(journal)) is not None:
-            if resource.begun or entry.scan != now or entry.step or isinstance(entry.command, Trapped):
-                break
-            resource.reenter(entry)
-        return entry
-
-    def _one_stretch(self, journal: Journal, until: int) -> Stop:
-        """To the next entry of the journal, or the end of the scan in which there is one."""
-        resource, now = self.resource, self.resource.header.scan
-        while (entry := self._following(journal)) is not None and entry.scan == now and entry.step:
-            resource.await_step(entry)
-        upto = until if entry is None else min(until, entry.scan)
-        if not resource.runnable:
-            if resource.header.halted_by_trap:
-                raise Diverged(f"the program is stopped in scan {now}, and went on when it was recorded")
-            resource.pass_time(upto - now)
-            return Stop(Reason.DONE)
-        stop = resource.rerun(max(1, upto - now))
-        if stop.reason is Reason.TRAP:
-            if entry is None or not isinstance(entry.command, Trapped) or entry.scan != resource.header.scan:
-                raise Diverged(
-                    f"scan {resource.header.scan} ends by a run-time error, and did not when it was recorded"
-                )
-            resource.reenter(entry)
-        return stop
+        return run_on(self.resource, self._live, until)
 
     def rewind(self) -> None:
         """Puts the live PLC back to the beginning of the scan in which it stands or has just trapped.
@@ -386,21 +308,21 @@ class Timeline:
         assert self._live is None
         assert checkpoint is not None
         loaded = self._kept.get(checkpoint.version)
-        resource.restore(loaded, _state(self.recording, checkpoint, loaded), journal.prefix(checkpoint.entries))
-        self._replay(journal[checkpoint.entries : _seam(journal, scan, inside=False)], scan)
+        resource.restore(loaded, state_of(self.recording, checkpoint, loaded), journal.prefix(checkpoint.entries))
+        self._replay(journal[checkpoint.entries : seam(journal, scan, inside=False)], scan)
         resource.journal, resource.measured = journal, measured
 
     def _visit(
         self, scan: int, stay: bool, look: Callable[[], None] = lambda: None, count: int = 0, begin: bool = False
     ) -> Refusal | None:  # fmt: skip
         """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown."""
-        live, shown, whole = self._live, self._moment(), self._whole
+        live, shown, whole = self._live, Moment.of(self.resource), self._whole
         self._live = live or shown  # before anything is moved: other threads ask for what is live
         refusal = self._move(scan, count, begin or count > 0, was_past=live is not None)
         if refusal is None:
             look()
         if refusal is not None or not stay:
-            self._stand(shown)
+            shown.restore(self.resource)
             self._live, self._whole = live, whole
         return refusal
 
@@ -415,13 +337,13 @@ class Timeline:
             return Refusal(
                 f"scan {scan} is not kept any more: the run can be gone back to scan {self.recording.first_scan}"
             )
-        end = _seam(journal, scan, begin)
+        end = seam(journal, scan, begin)
         try:
             resource.leave()  # what was shown keeps its own journal
             on = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end
             if not (was_past and self._whole and on):
                 loaded = self._kept.get(checkpoint.version)
-                state = _state(self.recording, checkpoint, loaded)
+                state = state_of(self.recording, checkpoint, loaded)
                 resource.restore(loaded, state, journal.prefix(checkpoint.entries))
                 self._whole = True
             resource.measured = Measured()
@@ -443,77 +365,3 @@ class Timeline:
             while (stop := self.go_on(scan + 1)).reason is Reason.INTERRUPTED:
                 pass
         return stop.reason is Reason.HALTED
-
-    def _moment(self) -> _Moment:
-        resource = self.resource
-        state = resource.state if resource.listening.inside is None else bytes(resource.memory)
-        return _Moment(
-            resource.loaded, resource.header.scan, state, resource.journal, resource.measured, resource.listening.inside
-        )  # fmt: skip
-
-    def _stand(self, moment: _Moment) -> None:
-        self.resource.restore(moment.loaded, moment.state, moment.journal, moment.inside)
-        self.resource.measured = moment.measured
-
-
-class KeptPrograms:
-    """Programs, but only those that the run file has, and only when they have come out as they were."""
-
-    def __init__(self, recording: Recording, programs: Programs) -> None:
-        self._recording, self.inner = recording, programs
-        self._checked: set[int] = set()
-
-    def get(self, version: int) -> Loaded:
-        """See `Programs`."""
-        kept = self._recording.programs.get(version)
-        if kept is None:
-            raise NoProgram(f"there is no program version {version} in {self._recording.path.name}")
-        loaded = self.inner.get(version)
-        if version not in self._checked:
-            if program_digest(loaded.program) != kept.digest:
-                raise NoProgram(
-                    f"program version {version} of {self._recording.path.name} does not come out as it was when it was "
-                    "recorded, as another version of scanbench compiles it: open it with the version that wrote it"
-                )
-            self._checked.add(version)
-        return loaded
-
-
-def _seam(journal: Journal, scan: int, inside: bool) -> int:
-    """How many entries lead to the seam in front of a scan; `inside`: to where the scan began that ran there last."""
-    end = bisect_right(journal, scan, key=attrgetter("scan"))
-    if inside:
-        anew = end
-        while anew and journal[anew - 1].scan == scan:
-            anew -= 1
-            if journal[anew].plan.starts_anew:
-                break
-            if isinstance(journal[anew].command, Trapped):
-                end = anew
-                break
-    return front(journal, scan, end)
-
-
-def open_at(
-    recording: Recording, programs: KeptPrograms, checkpoint: Checkpoint, entries: Sequence[Entry],
-    detect: Detect | None = None, agenda: Agenda | None = None,
-) -> Resource:  # fmt: skip
-    """A resource that stands at a checkpoint of a run file; `RunFileError` when its programs are not what they were."""
-    try:
-        loaded = programs.get(checkpoint.version)
-    except NoProgram as error:
-        raise RunFileError(str(error)) from error
-    model = loaded.program.layout.model
-    if model_fingerprint(model) != recording.about.model_fingerprint:
-        raise RunFileError(
-            f"{recording.path.name} was recorded on another description of the model {recording.about.model} than the "
-            f"one that is installed: use the models it was recorded with"
-        )
-    resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
-    resource.restore(loaded, _state(recording, checkpoint, loaded), Journal(entries[: checkpoint.entries]))
-    resource.proved = recording.checkpoints[-1].scan
-    return resource
-
-
-def _state(recording: Recording, checkpoint: Checkpoint, loaded: Loaded) -> bytes:
-    return recording.state(checkpoint, loaded.program.layout.state_size)

@@ -7,6 +7,7 @@ from typing import Protocol
 from scanbench.engines.debug import DebugEngine
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.debugged import debug_engine
+from scanbench.engines.observe import Observer
 from scanbench.program.program import Program
 
 EngineFactory = Callable[[Program, bytearray], Engine]
@@ -28,6 +29,8 @@ class Loaded:
     """The debug flavour on the same memory, once there is any."""
     make_debug: Callable[[Program, bytearray], DebugEngine] | None = None
     """Makes it when it is first needed, where that may take its time."""
+    observer: Observer | None = None
+    """Tells what `engine` reads and writes, where that was made to be observed."""
 
     def debugged(self) -> DebugEngine:
         """The debug flavour: the reference engine's, if nobody has put another one in place. So a run can be replayed that

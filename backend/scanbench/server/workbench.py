@@ -17,7 +17,7 @@ from scanbench.jobs.checker import Checker
 from scanbench.jobs.reactions import Reactions
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
-from scanbench.recording.format import RunFileError
+from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.server.history import RunHistory
 from scanbench.server.missing import stand_in, why_missing
@@ -211,7 +211,7 @@ class Workbench:
             await asyncio.to_thread(discard, path)
             if project is not None:
                 await self.projects.delete(project.id)
-            if isinstance(error, RunFileError | OSError):
+            if isinstance(error, Unreadable | OSError):
                 raise Refused(str(error).replace(path.name, "the file")) from error
             raise
         session = await self._open(row, paused=True)

@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 from scanbench.faults.disturb.disturb import DISTURBED, is_disturbance, told, told_held
 from scanbench.faults.disturb.fire import Unfired
 from scanbench.program.layout import Layout
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
 from scanbench.symbols.leaves import WHOLE, Leaf
 from scanbench.verify.contract import ENDED, Mismatch, Row
-from scanbench.verify.control import Control, Source, Unverifiable, trap_of
+from scanbench.verify.control import Control, trap_of
 from scanbench.verify.monitor import Inputs, Monitor
 from scanbench.verify.ranges import Resolved
 from scanbench.verify.rows import MAX_MISMATCHES, Disturbed, Pair, Reader, row_of
@@ -58,8 +59,8 @@ class Ran:
 class Both:
     """The control device and the monitor, side by side."""
 
-    def __init__(self, source: Source, control: Control, monitor: Monitor) -> None:
-        self.source, self.control, self.monitor = source, control, monitor
+    def __init__(self, reader: RunReader, control: Control, monitor: Monitor) -> None:
+        self._reader, self.control, self.monitor = reader, control, monitor
         self.ran: list[Ran] = []
         """The scan that ran last."""
         self.ran_last = -1
@@ -119,7 +120,7 @@ class Both:
 
     def _next(self, scan: int) -> Entry | None:
         """What is to be entered next, in this scan."""
-        entries, at = self.source.entries, len(self.control.side.resource.journal)
+        entries, at = self._reader.entries, len(self.control.side.resource.journal)
         return entries[at] if at < len(entries) and entries[at].scan == scan else None
 
     def seam(self, scan: int) -> None:
@@ -191,11 +192,11 @@ class Both:
         entry = self._next(scan)
         if trap:
             if entry is None or not isinstance(entry.command, Trapped):
-                raise Unverifiable(f"scan {scan} ends by a run-time error, and did not when it was recorded")
+                raise Unreadable(f"scan {scan} ends by a run-time error, and did not when it was recorded")
             self.control.enter(entry)
             self.monitor.enter(entry)
         elif entry is not None:
-            raise Unverifiable(f"scan {scan} went to its end, and was broken off when it was recorded")
+            raise Unreadable(f"scan {scan} went to its end, and was broken off when it was recorded")
         self.monitor.take_over(self.control.side)
 
     # ---- what came out --------------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from scanbench.verify.rows import written_by
 from scanbench.verify.uses import Pass, Recorder
 
 
-class BadEdit(ValueError):
+class BadEdit(Exception):
     """No such input, or no such value; the message says what there is."""
 
     def __init__(self, message: str, near: tuple[str, ...] = ()) -> None:

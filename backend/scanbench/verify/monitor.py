@@ -4,22 +4,23 @@ from collections.abc import Mapping, Sequence
 
 from scanbench.engines.engine import Stop
 from scanbench.faults.disturb.disturb import is_disturbance
+from scanbench.recording.programs import ProgramCache, reference
 from scanbench.runtime.command import Entry, Patch
 from scanbench.runtime.forces import forced_table, table_patches
 from scanbench.runtime.holds import HELD, held
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Programs
 from scanbench.runtime.resource import Resource
-from scanbench.verify.engines import reference
-from scanbench.verify.sides import ProgramOf, Shelf, Side
+from scanbench.verify.sides import Side
 from scanbench.verify.uses import Fresh, Pass, Recorder
 
 
 class Monitor:
     """Stands where the control device stands, and has what that should have."""
 
-    def __init__(self, program_of: ProgramOf, version: int) -> None:
-        self._programs: Programs = Shelf(program_of, reference)
+    def __init__(self, programs: Programs, version: int) -> None:
+        """`programs`: those of the control device; it shares what was checked, and nothing else."""
+        self._programs = ProgramCache(lambda version: reference(version, programs.get(version).program))
         self.side = self._made(version)
 
     def _made(self, version: int) -> Side:

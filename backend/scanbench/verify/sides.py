@@ -2,44 +2,17 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from scanbench.engines.debug import Frame, Listen
 from scanbench.engines.engine import Reason, Stop
-from scanbench.program.program import Program
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import HaltAt, Onlooker, front
 from scanbench.runtime.journal import Journal
-from scanbench.runtime.programs import Loaded, NoProgram
+from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
-from scanbench.verify.engines import Make
 
 T = TypeVar("T")
-
-
-class ProgramOf(Protocol):
-    """Knows the programs of a run; `NoProgram`."""
-
-    def __call__(self, version: int) -> Program:
-        """The checked program of this version, the same one each time."""
-
-
-class Shelf:
-    """`Programs`, each with an engine of this side."""
-
-    def __init__(self, program_of: ProgramOf, make: Make) -> None:
-        self._program_of, self._make = program_of, make
-        self._known: dict[int, Loaded] = {}
-
-    def get(self, version: int) -> Loaded:
-        """See `Programs`."""
-        if version not in self._known:
-            program = self._program_of(version)
-            try:
-                self._known[version] = self._make(version, program)
-            except MemoryError as error:
-                raise NoProgram(f"program version {version} does not fit into memory") from error
-        return self._known[version]
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,23 +2,15 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from types import TracebackType
 from typing import Self, TypeVar
 
-from scanbench.program.program import Program
-from scanbench.recording.blocks import Codec, KeptProgram
-from scanbench.recording.format import RunFileError
-from scanbench.recording.timeline import NOT_AS_RECORDED
-from scanbench.runtime.command import Swapped
-from scanbench.runtime.inside import Diverged
-from scanbench.runtime.programs import NoProgram
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.symbols.names import Names
 from scanbench.verify.both import Both, View
 from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Column, Range, Row, ScanVerified, Use
-from scanbench.verify.control import Control, Source, TextsOf, Unverifiable
+from scanbench.verify.control import Control
 from scanbench.verify.edits import BadEdit, Edits
-from scanbench.verify.engines import Make
 from scanbench.verify.monitor import Monitor
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
@@ -28,7 +20,7 @@ from scanbench.verify.steps import step_row
 from scanbench.verify.used_record import uses_of
 
 T = TypeVar("T")
-__all__ = ["BadEdit", "Begun", "Unverifiable", "Verifier"]
+__all__ = ["BadEdit", "Begun", "Verifier"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,17 +41,14 @@ class Begun:
 class Verifier:
     """Of one run file, which may go on growing. In one thread."""
 
-    def __init__(
-        self, path: Path, codec: Codec, program_of: Callable[[KeptProgram], Program], make: Make,
-        texts_of: TextsOf | None = None,
-    ) -> None:  # fmt: skip
-        """`RunFileError`, `OSError`, when it is none. `texts_of`: the source files, for the lines that differences name."""
-        self._source, self._make, self._texts_of = Source(path, codec, program_of), make, texts_of
+    def __init__(self, reader: RunReader) -> None:
+        """`Unreadable` when it is none. The reader's texts are the lines that differences name."""
+        self._reader = reader
+        reader.follow()
         self._both: Both | None = None
         self._range, self._limit = Range(), DEFAULT_LIMIT
         self._views: dict[int, View] = {}
         self._columns = Columns()
-        self._texts: dict[int, dict[str, list[str]]] = {}
         self._edits = Edits()
 
     def __enter__(self) -> Self:
@@ -72,17 +61,17 @@ class Verifier:
 
     def close(self) -> None:
         """Lets go of the file."""
-        self._source.close()
+        self._reader.close()
 
     @property
     def first(self) -> int:
         """The first scan that can be verified."""
-        return self._source.first
+        return self._reader.first
 
     @property
     def end(self) -> int:
         """Scans in front of this one can be."""
-        return self._source.end
+        return self._reader.over
 
     @property
     def columns(self) -> dict[str, Column]:
@@ -90,27 +79,24 @@ class Verifier:
         return self._columns.all
 
     def follow(self, until: int) -> None:
-        """Reads the file on; scans in front of `until` are over. `Unverifiable`."""
-        try:
-            if not self._source.follow(until):
-                self._both = None
-                self._views, self._texts = {}, {}
-        except (RunFileError, OSError) as error:
-            raise Unverifiable(str(error)) from error
+        """Reads the file on; scans in front of `until` are over. `Unreadable`."""
+        if not self._reader.follow(until):
+            self._both = None
+            self._views = {}
 
     def begin(self, range: Range, limit: int = DEFAULT_LIMIT, scan: int | None = None) -> Begun:
         """From now on this range is verified, and so many uses of variables are kept of a scan. `scan`: the program that runs
-        there says what there is. `BadRange`, `Unverifiable`."""
+        there says what there is. `BadRange`, `Unreadable`."""
         if not 1 <= limit <= MAX_LIMIT:
             raise BadRange(f"{limit:,} uses of variables cannot be kept of a scan: 1 to {MAX_LIMIT:,} can")
-        version = self._version_at(self.first if scan is None else scan)
-        try:
-            program = self._source.program(version)
+        version = self._reader.version(self.first if scan is None else max(scan, self.first))
+        with self._reader.reading():
             both = self._standing()
-            sites = both.control.loaded(version).debugged().sites
-        except (NoProgram, RunFileError) as error:
-            raise Unverifiable(str(error)) from error
-        resolved = resolve_range(program, sites, range, lambda file: len(self._lines(version, file)))
+            loaded = both.control.loaded(version)
+        program = loaded.program
+        resolved = resolve_range(
+            program, loaded.debugged().sites, range, lambda file: len(self._reader.lines(version, file))
+        )
         self._range, self._limit = range, limit
         self._views, self._columns, self._edits = {}, Columns(), Edits()
         both.ran = []
@@ -119,7 +105,7 @@ class Verifier:
         )  # fmt: skip
 
     def verify(self, scan: int) -> ScanVerified:
-        """The rows of one scan. `Unverifiable` says why not."""
+        """The rows of one scan. `Unreadable` says why not."""
         rows = list(self._rows(scan))
         for index, row in enumerate(rows):
             edited = self._edits.of(scan, row.call)
@@ -128,19 +114,19 @@ class Verifier:
         return self._verified(scan, tuple(rows))
 
     def step(self, scan: int, count: int) -> ScanVerified:
-        """Both sides in front of the statement of this count, compared there; 0: in front of the scan. `Unverifiable`."""
+        """Both sides in front of the statement of this count, compared there; 0: in front of the scan. `Unreadable`."""
         both = self._guarded(scan, lambda: self._before(scan))
         row = self._guarded(scan, lambda: step_row(both, scan, count, self._view))
         return self._verified(scan, (row,))
 
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
-        """The used-variable record of one pass. `Unverifiable`."""
+        """The used-variable record of one pass. `Unreadable`."""
         self._again(scan)
         return self._guarded(scan, lambda: uses_of(self._standing(), call))
 
     def set_inputs(self, edits: Sequence[tuple[int, int, str, str]]) -> tuple[Row, ...]:
         """The monitor runs these passes on edited inputs as well: (scan, call, column, value as typed); an empty value takes
-        an edit back. The rows as they are now. `BadEdit`: then nothing is edited; `Unverifiable`."""
+        an edit back. The rows as they are now. `BadEdit`: then nothing is edited; `Unreadable`."""
         made = self._edits.copy()
         touched: dict[tuple[int, int], None] = {}
         for scan, call, column, text in sorted(edits, key=lambda each: each[:2]):
@@ -158,22 +144,22 @@ class Verifier:
 
     def _standing(self) -> Both:
         if self._both is None:
-            control = Control(self._source, self._make)
-            monitor = Monitor(self._source.program, control.side.resource.version)
-            self._both = Both(self._source, control, monitor)
+            control = Control(self._reader)
+            monitor = Monitor(self._reader.programs, control.side.resource.version)
+            self._both = Both(self._reader, control, monitor)
         return self._both
 
     def _before(self, scan: int) -> Both:
         """In front of what was entered in a scan."""
         if not self.first <= scan:
-            raise Unverifiable(f"scan {scan} is not kept any more: the run begins with scan {self.first}")
+            raise Unreadable(f"scan {scan} is not kept any more: the run begins with scan {self.first}")
         both = self._standing()
         both.goto(scan)
         return both
 
     def _rows(self, scan: int) -> tuple[Row, ...]:
         if not self.first <= scan < self.end:
-            raise Unverifiable(f"scans {self.first} to {self.end - 1} can be verified: {scan} is none of them")
+            raise Unreadable(f"scans {self.first} to {self.end - 1} can be verified: {scan} is none of them")
 
         def run() -> tuple[Row, ...]:
             both = self._standing()
@@ -190,23 +176,12 @@ class Verifier:
 
     def _guarded(self, scan: int, run: Callable[[], T]) -> T:
         """What goes wrong with the file or the replay, as words. Whoever comes next begins anew."""
-        name = self._source.path.name
         try:
-            return run()
-        except Unverifiable:
+            with self._reader.replaying(scan):
+                return run()
+        except Unreadable:
             self._both = None
             raise
-        except (NoProgram, RunFileError) as error:
-            self._both = None
-            raise Unverifiable(str(error)) from error
-        except OSError as error:
-            self._both = None
-            raise Unverifiable(f"{name} cannot be read: {error.strerror or error}") from error
-        except BadEdit:
-            raise
-        except (Diverged, *NOT_AS_RECORDED) as error:
-            self._both = None
-            raise Unverifiable(f"scan {scan} of {name} cannot be replayed: {error}") from error
 
     def _verified(self, scan: int, rows: tuple[Row, ...]) -> ScanVerified:
         columns, inputs, outputs = self._columns.take()
@@ -214,41 +189,15 @@ class Verifier:
 
     # ---- programs -------------------------------------------------------------------------------------------------
 
-    def _version_at(self, scan: int) -> int:
-        """The program that runs in a scan."""
-        checkpoint = self._source.before(max(scan, self.first))
-        version = checkpoint.version
-        for entry in self._source.entries[checkpoint.entries :]:
-            if entry.scan > scan:
-                break
-            if isinstance(entry.plan.effect, Swapped):
-                version = entry.plan.effect.version
-        return version
-
     def _view(self, side: Side) -> View:
         """How the program that runs now is looked at."""
         version = side.resource.version
         if version not in self._views:
             program, sites = side.resource.program, side.resource.loaded.debugged().sites
-            places = Places(program, sites, lambda file, line: self._line(version, file, line))
+            places = Places(program, sites, lambda file, line: self._reader.text(version, file, line))
             try:
                 resolved = resolve_range(program, sites, self._range)
             except BadRange:  # another program runs meanwhile: nothing of it is in the range
                 resolved = Resolved("nothing", pous=frozenset(list(sites.bodies)[:1]))
             self._views[version] = View(Reader(Names(program, sites), places, self._columns), resolved, self._limit)
         return self._views[version]
-
-    def _line(self, version: int, file: str, line: int) -> str:
-        """A line of a source file, trimmed."""
-        lines = self._lines(version, file)
-        return lines[line - 1].strip() if 0 < line <= len(lines) else ""
-
-    def _lines(self, version: int, file: str) -> list[str]:
-        """All lines of a source file; none where they are not known."""
-        if self._texts_of is None:
-            return []
-        if version not in self._texts:
-            kept = self._source.kept(version)
-            texts = {} if kept is None else self._texts_of(kept)
-            self._texts[version] = {name: text.splitlines() for name, text in texts.items()}
-        return self._texts[version].get(file, [])

@@ -6,11 +6,11 @@ from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate
-from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import Point, react
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.program.program import Program
+from scanbench.recording.programs import ProgramCache, cached, observed
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.resource import Resource
 from tests.runtime.bench import model
@@ -24,8 +24,8 @@ def checked(sources: dict[str, str], model_name: str = "CJ1M-CPU63") -> Program:
     return found.program
 
 
-def programs(program: Program, make: MakeObserved) -> ObservedPrograms:
-    return ObservedPrograms({1: program}.__getitem__, make)
+def programs(program: Program, make: MakeObserved) -> ProgramCache:
+    return cached({1: program}, observed(make))
 
 
 def standing(program: Program, make: MakeObserved, scans: int = 10) -> Resource:

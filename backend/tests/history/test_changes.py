@@ -8,7 +8,7 @@ import pytest
 from scanbench.history import changes as changing
 from scanbench.history.changes import find_changes
 from scanbench.history.contract import Changes
-from scanbench.history.reading import NoReading, Reading
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
@@ -17,7 +17,7 @@ from tests.recording.recorded import advance, begun, of_file, to_program
 
 
 def _between(path: Path, first: int, last: int, until: int) -> Changes:
-    with Reading(path, of_file, ENTRIES) as reading:
+    with RunReader(path, of_file, ENTRIES) as reading:
         reading.follow(until)
         return find_changes(reading, first, last)
 
@@ -90,7 +90,7 @@ def test_two_runs(tmp_path: Path) -> None:
     advance(one, 6)
     other.submit(Write("Ada", "Main.two", "5"))
     advance(other, 6)
-    with Reading(tmp_path / "one", of_file, ENTRIES) as a, Reading(tmp_path / "other", of_file, ENTRIES) as b:
+    with RunReader(tmp_path / "one", of_file, ENTRIES) as a, RunReader(tmp_path / "other", of_file, ENTRIES) as b:
         a.follow(6)
         b.follow(6)
         assert _shown(find_changes(a, 6, 6, b)) == {"Main.two": ("0", "5")}
@@ -110,7 +110,7 @@ def test_what_cannot_be_told(tmp_path: Path) -> None:
     timeline = begun(tmp_path / "run", LINE)
     advance(timeline, 5)
     path = timeline.recording.path
-    with pytest.raises(NoReading, match="before scan 3"):
+    with pytest.raises(Unreadable, match="before scan 3"):
         _between(path, 3, 2, 5)
-    with pytest.raises(NoReading, match="has not come yet"):
+    with pytest.raises(Unreadable, match="has not come yet"):
         _between(path, 3, 9, 5)

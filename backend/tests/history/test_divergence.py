@@ -10,7 +10,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.history import divergence
 from scanbench.history.contract import BetweenEntry, Divergence
 from scanbench.history.divergence import find_divergence
-from scanbench.history.reading import NoReading, Reading
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import EngineFactory
@@ -39,8 +39,8 @@ END_PROGRAM
 def _compared(one: Timeline, other: Timeline, engine: EngineFactory = ReferenceEngine) -> Divergence:
     of = of_file if engine is ReferenceEngine else of_file_native
     with (
-        Reading(one.recording.path, of, ENTRIES, _texts) as a,
-        Reading(other.recording.path, of, ENTRIES, _texts) as b,
+        RunReader(one.recording.path, of, ENTRIES, _texts) as a,
+        RunReader(other.recording.path, of, ENTRIES, _texts) as b,
     ):
         a.follow(one.live_scan)
         b.follow(other.live_scan)
@@ -191,7 +191,7 @@ def test_a_branch(tmp_path: Path) -> None:
     advance(one, 20)
     one.copy(tmp_path / "branch", 10, "Ada", lambda refusal: None)
     one.recording.wait()
-    with Reading(tmp_path / "branch", of_file, ENTRIES) as b, Reading(tmp_path / "one", of_file, ENTRIES) as a:
+    with RunReader(tmp_path / "branch", of_file, ENTRIES) as b, RunReader(tmp_path / "one", of_file, ENTRIES) as a:
         a.follow(20)
         b.follow()
         found = find_divergence(a, b)
@@ -204,7 +204,7 @@ def test_progress_and_an_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     advance(one, 50)
     advance(other, 50)
     told: list[tuple[int, int]] = []
-    with Reading(tmp_path / "one", of_file, ENTRIES) as a, Reading(tmp_path / "other", of_file, ENTRIES) as b:
+    with RunReader(tmp_path / "one", of_file, ENTRIES) as a, RunReader(tmp_path / "other", of_file, ENTRIES) as b:
         a.follow(50)
         b.follow(50)
         find_divergence(a, b, lambda done, of: told.append((done, of)))
@@ -213,7 +213,7 @@ def test_progress_and_an_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with Reading(tmp_path / "none", of_file, ENTRIES) as missing, pytest.raises(NoReading, match="cannot be read"):
+    with RunReader(tmp_path / "none", of_file, ENTRIES) as missing, pytest.raises(Unreadable, match="cannot be read"):
         missing.follow()
 
 

@@ -14,8 +14,8 @@ from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.history.contract import RerunChange
 from scanbench.history.divergence import find_divergence
-from scanbench.history.reading import NoReading, Reading
 from scanbench.history.rerun import Rerun, rerun
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.write import Write
@@ -49,7 +49,7 @@ def _enter(timeline: Timeline, command: Command) -> None:
 
 def _again(timeline: Timeline, change: RerunChange) -> tuple[Rerun, Timeline]:
     path = timeline.recording.path.with_name("again")
-    with Reading(timeline.recording.path, of_file, ENTRIES) as reading:
+    with RunReader(timeline.recording.path, of_file, ENTRIES) as reading:
         reading.follow(timeline.live_scan)
         made = rerun(reading, path, change, "Bob", of_file, ENTRIES, Schedule(observed_engine))
     return made, Timeline.resume(path, of_file, ENTRIES, 0, Detection(), agenda=Schedule(observed_engine))
@@ -93,8 +93,8 @@ def test_the_same_error_earlier_or_later(by: int, tmp_path: Path) -> None:
     )
     assert value(again.resource, "Main.d") == value(timeline.resource, "Main.d")
     with (
-        Reading(timeline.recording.path, of_file, ENTRIES) as one,
-        Reading(again.recording.path, of_file, ENTRIES) as two,
+        RunReader(timeline.recording.path, of_file, ENTRIES) as one,
+        RunReader(again.recording.path, of_file, ENTRIES) as two,
     ):
         one.follow(30)
         two.follow(30)
@@ -205,7 +205,7 @@ def test_the_new_run_is_one(tmp_path: Path) -> None:
 )
 def test_what_cannot_be_another(change: RerunChange, says: str, tmp_path: Path) -> None:
     timeline = _with_an_error(tmp_path)
-    with pytest.raises(NoReading, match=says):
+    with pytest.raises(Unreadable, match=says):
         _again(timeline, change)
     assert not (tmp_path / "again").exists()
 
@@ -219,7 +219,7 @@ def test_what_the_plc_found_itself(tmp_path: Path) -> None:
     assert isinstance(found[0], Entry)
     command = found[0].command
     assert isinstance(command, Generate)
-    with pytest.raises(NoReading, match="the PLC raised"):
+    with pytest.raises(Unreadable, match="the PLC raised"):
         _again(timeline, RerunChange(found[0].scan, command.errors[0].id, 1))
 
 
@@ -233,7 +233,7 @@ def test_somebody_ends_it(tmp_path: Path) -> None:
         raise Enough
 
     path = tmp_path / "again"
-    with Reading(timeline.recording.path, of_file, ENTRIES) as reading:
+    with RunReader(timeline.recording.path, of_file, ENTRIES) as reading:
         reading.follow(30)
         with pytest.raises(Enough):
             rerun(reading, path, RerunChange(10, BATTERY, 1), "Bob", of_file, ENTRIES, None, on_progress)

@@ -12,10 +12,10 @@ from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import Disturb
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.history.contract import Writer
-from scanbench.history.reading import NoReading, Reading
 from scanbench.history.writer import find_writer
 from scanbench.recording import checkpoints
 from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.forces import Force
@@ -57,8 +57,8 @@ def _texts(kept: KeptProgram) -> dict[str, str]:
     return {"main.st": kept.sources.decode()}
 
 
-def _reading(path: Path, engine: EngineFactory = ReferenceEngine) -> Reading:
-    return Reading(path, of_file if engine is ReferenceEngine else of_file_native, ENTRIES, _texts)
+def _reading(path: Path, engine: EngineFactory = ReferenceEngine) -> RunReader:
+    return RunReader(path, of_file if engine is ReferenceEngine else of_file_native, ENTRIES, _texts)
 
 
 def _last(timeline: Timeline, path: str, scan: int | None = None, engine: EngineFactory = ReferenceEngine) -> Writer:
@@ -198,14 +198,14 @@ def test_the_plc_itself(tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", ["Main.quite", "Nothing", "D99999999"])
 def test_an_unknown_path(path: str, tmp_path: Path) -> None:
     timeline = begun(tmp_path / "run", LINE)
-    with pytest.raises(NoReading) as caught:
+    with pytest.raises(Unreadable) as caught:
         _last(timeline, path)
     assert path == "D99999999" or caught.value.near or path == "Nothing"
 
 
 def test_a_block_that_was_never_called(tmp_path: Path) -> None:
     timeline = begun(tmp_path / "run", LINE)
-    with pytest.raises(NoReading, match="not called yet"):
+    with pytest.raises(Unreadable, match="not called yet"):
         _last(timeline, "Main.belt[1].level")
 
 
@@ -252,12 +252,13 @@ def test_a_reading_follows_its_file(tmp_path: Path) -> None:
             timeline.submit(Write("Ada", "Main.quiet", str(scan)))
             reading.follow(scan)
             assert find_writer(reading, "Main.quiet", scan).shown == str(scan)
-            assert timeline.resource.state == reading.follow(scan).resource.state or reading.timeline.past
-        with pytest.raises(NoReading, match="has not come yet"):
+            assert reading.follow(scan)
+            assert timeline.resource.state == reading.timeline.resource.state or reading.timeline.past
+        with pytest.raises(Unreadable, match="has not come yet"):
             find_writer(reading, "Main.quiet", 21)
         timeline.close()
         reading.path.unlink()
-        with pytest.raises(NoReading, match="cannot be read"):
+        with pytest.raises(Unreadable, match="cannot be read"):
             reading.follow(22)
 
 

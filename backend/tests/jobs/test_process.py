@@ -23,9 +23,10 @@ from scanbench.faults.reaction.reaction import Reaction
 from scanbench.host.zygote import JOB
 from scanbench.jobs import process as job_process
 from scanbench.jobs import starting
-from scanbench.jobs.starting import NoStart, reaction_in
+from scanbench.jobs.starting import reaction_in
 from scanbench.program.program import Program
 from scanbench.recording.blocks import Codec
+from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry
@@ -223,7 +224,7 @@ def test_a_file_that_is_replaced_while_it_is_read(tmp_path: Path, monkeypatch: p
 
     found = reaction_in(path, "basic-io-error", entry.scan, entry.scan + 20, 200, program_of, MAKES["native"])
     assert (found.verdict, found.window) == ("reacted", 20)
-    with pytest.raises(NoStart, match="does not have any more"):
+    with pytest.raises(Unreadable, match="does not have any more"):
         reaction_in(path, "basic-io-error", entry.scan + 1, entry.scan + 20, 200, program_of, MAKES["native"])
 
 
@@ -237,7 +238,7 @@ def test_only_a_file_that_was_replaced_is_read_again(tmp_path: Path, monkeypatch
         return opened(path, codec, read_only=read_only)
 
     monkeypatch.setattr(Recording, "open", counted)
-    with pytest.raises(NoStart, match="does not have any more"):
+    with pytest.raises(Unreadable, match="does not have any more"):
         reaction_in(
             tmp_path / "1.run", "basic-io-error", entry.scan + 1, entry.scan + 20, 200, program_of, MAKES["native"]
         )
@@ -285,7 +286,7 @@ def test_why_there_is_no_program_is_told_and_a_fault_in_its_build_is_none_of_the
 
         return build
 
-    with pytest.raises(NoStart, match="is wrong"):
+    with pytest.raises(Unreadable, match="is wrong"):
         reaction_in(*asked, failing(NoProgram("main.st:2 is wrong")), MAKES["native"])
     with pytest.raises(KeyError):
         reaction_in(*asked, failing(KeyError(3)), MAKES["native"])

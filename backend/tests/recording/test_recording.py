@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from scanbench.recording import checkpoints
 from scanbench.recording import recording as recordings
 from scanbench.recording.format import Kind, RunFile, RunFileError
+from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import replay_file
@@ -147,7 +148,7 @@ def test_what_is_no_run_file_is_refused_and_left_alone(tmp_path: Path) -> None:
 def test_another_model_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "run"
     begun(path).close()
-    monkeypatch.setattr("scanbench.recording.timeline.model_fingerprint", lambda model: "another")
+    monkeypatch.setattr("scanbench.recording.replay.model_fingerprint", lambda model: "another")
     with pytest.raises(RunFileError, match="another description of the model CJ1M-CPU63"):
         resumed(path)
 
@@ -313,7 +314,7 @@ def test_a_run_file_replays_with_every_checkpoint(tmp_path: Path) -> None:
     part = replay_file(path, of_file, ENTRIES, until=31)
     assert part.scan == 31
     assert part.hash != replayed.hash
-    with pytest.raises(RunFileError, match="scan 99 is none of them"):
+    with pytest.raises(Unreadable, match="scan 99 is none of them"):
         replay_file(path, of_file, ENTRIES, until=99)
     assert path.read_bytes() == whole_run()[0]
 

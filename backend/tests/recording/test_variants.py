@@ -7,6 +7,7 @@ import pytest
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.faults.detect import Detection
 from scanbench.recording.format import RunFileError
+from scanbench.recording.reader import Unreadable
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import replay_file
 from scanbench.recording.timeline import Timeline
@@ -60,7 +61,7 @@ def test_no_number_in_a_run_file_is_believed(tmp_path: Path, monkeypatch: pytest
             timeline.goto(timeline.recording.first_scan)
             timeline.close()
             outcomes["opened"] += 1
-        except (RunFileError, Diverged):
+        except (RunFileError, Unreadable, Diverged):
             outcomes["refused"] += 1
         except TooMuch:
             pytest.fail(f"{name}: more than {MOST} scans and entries")

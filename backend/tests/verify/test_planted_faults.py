@@ -17,10 +17,10 @@ from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.verify.contract import Row
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES, pack_body
 from scanbench.wire.host import Sources
 from tests.verify.planted import Fault, planted
+from tests.verify.verified_runs import opened
 
 MODEL = "GENERIC-IEC"
 INTERVAL = 10_000_000
@@ -100,7 +100,7 @@ def program_of(kept: KeptProgram) -> Program:
 
 
 def differing(path: Path, fault: Fault, stretch: str, debug: bool) -> list[Row]:
-    with Verifier(path, ENTRIES, program_of, planted(fault, debug=debug)) as verifier:
+    with opened(path, program_of, planted(fault, debug=debug)) as verifier:
         verifier.begin(parse_range(stretch))
         assert (verifier.first, verifier.end) == (0, SCANS)
         return [row for scan in range(SCANS) for row in verifier.verify(scan).rows if row.differs]
@@ -162,7 +162,7 @@ def test_without_a_fault_there_is_no_difference(program: Program, tmp_path: Path
 def test_the_uses_of_a_row_are_what_the_row_says(program: Program, tmp_path: Path) -> None:
     fault = Fault("main.st", 25, "div", "mul")
     recorded(tmp_path / "run", program, fault)
-    with Verifier(tmp_path / "run", ENTRIES, program_of, planted(fault, debug=False)) as verifier:
+    with opened(tmp_path / "run", program_of, planted(fault, debug=False)) as verifier:
         verifier.begin(parse_range("Main:25"))
         row = next(row for scan in range(12) for row in verifier.verify(scan).rows if row.differs)
         wrong = [each for each in verifier.uses(row.scan, row.call) if each.control != each.monitor]

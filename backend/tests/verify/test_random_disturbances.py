@@ -8,6 +8,7 @@ from random import Random
 
 import pytest
 
+from scanbench.engines.available import flavours
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.disturb.definition import Disturbance
@@ -15,6 +16,7 @@ from scanbench.faults.disturb.disturb import Disturb, told
 from scanbench.faults.disturb.fire import Corrupt, Flip
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.programs import on, reference
 from scanbench.recording.recording import Recording
 from scanbench.runtime.command import Command, Entry, Freed, Held, Patch
 from scanbench.runtime.header import Mode, fresh_image
@@ -23,10 +25,9 @@ from scanbench.runtime.write import Write
 from scanbench.symbols.names import names_of
 from scanbench.symbols.symbols import resolve
 from scanbench.verify.contract import Mismatch, Range
-from scanbench.verify.engines import native, reference
-from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import program
+from tests.verify.verified_runs import opened
 
 SOURCE = """
 TYPE Pair : STRUCT a : INT; b : LREAL; c : ARRAY[0..2] OF BOOL; END_STRUCT END_TYPE
@@ -193,8 +194,8 @@ def test_every_one_is_found_and_nothing_else(tmp_path: Path, engine: EngineFacto
     assert result.refused == ()
     expected = Expected(result.entries, bytes(fresh_image(checked, Mode.MONITOR)))
     size = checked.layout.state_size
-    make = native() if engine is NativeEngine else reference
-    with Verifier(tmp_path / "run", ENTRIES, lambda kept: checked, make) as verifier:
+    make = on(flavours()) if engine is NativeEngine else reference
+    with opened(tmp_path / "run", lambda kept: checked, make) as verifier:
         verifier.begin(Range())
         for scan in range(end):
             rows = verifier.verify(scan).rows

@@ -9,6 +9,7 @@ from scanbench.check.build import check_sources
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.sample import MAX_SIGNALS
 from scanbench.program.program import Program
+from scanbench.recording.reader import Unreadable
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
@@ -16,7 +17,6 @@ from scanbench.server.samples import Sample, samples
 from scanbench.symbols.symbols import resolve
 from scanbench.symbols.values import format_value
 from scanbench.verify.contract import BadRange, Mismatch, Row
-from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.trace.mapping import BadMapping, Gaps, TraceMapping, propose
@@ -380,7 +380,7 @@ def test_step_by_step() -> None:
 
 def test_what_is_not_there() -> None:
     verifier = opened(conveyor_csv(), conveyor())
-    with pytest.raises(Unverifiable, match="scans 0 to 299"):
+    with pytest.raises(Unreadable, match="scans 0 to 299"):
         verifier.verify(300)
     with pytest.raises(BadRange):
         verifier.begin(parse_range("Blet"))

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
+from scanbench.engines.available import flavours
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
@@ -14,6 +15,8 @@ from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import Disturb
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.recording.headless import run_headless
+from scanbench.recording.programs import on, reference
+from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import HaltAt
@@ -25,14 +28,13 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.server.samples import Sample, samples
 from scanbench.verify.contract import Range
-from scanbench.verify.engines import native, reference
-from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
+from scanbench.verify.verifier import BadEdit
 from scanbench.wire.codec import ENTRIES
 from tests.caseformat import MODELS
 from tests.programs import INGREDIENTS, generate
 from tests.programs.compare import checked
 from tests.runtime.bench import program
-from tests.verify.verified_runs import differences, record, rows, verifier
+from tests.verify.verified_runs import differences, opened, record, rows, verifier
 
 SAMPLES = {sample.name: sample for sample in samples()}
 BELTS = """\
@@ -74,7 +76,7 @@ def value(data: bytes | None) -> int:
 
 
 @pytest.mark.parametrize("sample", SAMPLES.values(), ids=SAMPLES)
-@pytest.mark.parametrize("make", [native(), reference], ids=("native", "reference"))
+@pytest.mark.parametrize("make", [on(flavours()), reference], ids=("native", "reference"))
 def test_a_sample_has_no_difference(sample: Sample, make: object, tmp_path: Path) -> None:
     found = check_sources(sample.files, MODELS[sample.model])
     assert found.program is not None
@@ -95,7 +97,7 @@ def test_generated_programs_have_no_difference(in_out: str, tmp_path: Path) -> N
         if made is None:
             continue
         record(tmp_path / f"{seed}", made, 3)
-        found = rows(verifier(tmp_path / f"{seed}", made, make=native() if seed % 4 == 0 else reference))
+        found = rows(verifier(tmp_path / f"{seed}", made, make=on(flavours()) if seed % 4 == 0 else reference))
         assert differences(found) == [], f"seed {seed}\n{source}"
         compared += 1
     assert compared > 8
@@ -335,7 +337,7 @@ def test_any_order_gives_the_same_rows(tmp_path: Path) -> None:
     forward = [one.verify(scan).rows for scan in range(12)]
     for scan in (9, 3, 7, 6, 7, 11, 0):
         assert one.verify(scan).rows == forward[scan]
-    with pytest.raises(Unverifiable, match="scans 0 to 11 can be verified: 12 is none of them"):
+    with pytest.raises(Unreadable, match="scans 0 to 11 can be verified: 12 is none of them"):
         one.verify(12)
 
 
@@ -359,7 +361,7 @@ def test_a_block_that_another_program_does_not_have_and_that_comes_back(tmp_path
         tmp_path / "run", big, 12, [(4, ProgramChange("Ada", 2)), (8, ProgramChange("Ada", 3))], programs=shelf,
         more=[(2, small), (3, big)],
     )  # fmt: skip
-    verified = verifier(path, big, "Belt", make=native(), others={2: small, 3: big})
+    verified = verifier(path, big, "Belt", make=on(flavours()), others={2: small, 3: big})
     found = rows(verified)
     assert {row.scan for row in found} == set(range(12))
     assert differences(found) == []
@@ -374,7 +376,7 @@ def test_another_run_of_the_same_name_has_its_own_programs(tmp_path: Path) -> No
             run_headless(made[sources], 20, ReferenceEngine, recording=recording)
 
     run(b"1")
-    with Verifier(tmp_path / "run", ENTRIES, lambda kept: made[kept.sources], reference) as verified:
+    with opened(tmp_path / "run", lambda kept: made[kept.sources], reference) as verified:
         verified.begin(Range("Main"))
         assert verified.verify(5).rows[0].outputs["Main.n"].control == (6).to_bytes(4, "little")
         (tmp_path / "run").rename(tmp_path / "aside")
@@ -453,7 +455,7 @@ END_PROGRAM
 
 
 @pytest.mark.parametrize("source", [BELTS, IL], ids=("ST", "IL"))
-@pytest.mark.parametrize("make", [native(), reference], ids=("native", "reference"))
+@pytest.mark.parametrize("make", [on(flavours()), reference], ids=("native", "reference"))
 def test_step_by_step(source: str, make: object, tmp_path: Path) -> None:
     record(tmp_path / "run", program(source), 4)
     verified = verifier(tmp_path / "run", program(source), make=make)  # type: ignore[arg-type]
@@ -495,7 +497,7 @@ def test_a_file_is_followed_while_it_grows(tmp_path: Path) -> None:
     with Recording.begin(tmp_path / "run", made, 1, b"1", ENTRIES, "Ada") as recording:
         resource = Resource(Loaded.make(made, ReferenceEngine), recorder=recording)
         verified = verifier(tmp_path / "run", made, "Main")
-        with pytest.raises(Unverifiable):
+        with pytest.raises(Unreadable):
             verified.verify(0)
         resource.run(3)
         verified.follow(3)

@@ -1,19 +1,21 @@
 """Runs to be verified."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.program.program import Program
+from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.fingerprints import program_digest
 from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.programs import Make, programs_of, reference
+from scanbench.recording.reader import RunReader
 from scanbench.recording.recording import Recording
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command
 from scanbench.runtime.detect import Detect
 from scanbench.runtime.programs import EngineFactory, Programs
 from scanbench.verify.contract import DEFAULT_LIMIT, Mismatch, Row
-from scanbench.verify.engines import Make, reference
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES
@@ -41,9 +43,14 @@ def verifier(
 ) -> Verifier:  # fmt: skip
     """Of a run of one program, or of these by version."""
     programs = {1: program, **(others or {})}
-    made = Verifier(path, ENTRIES, lambda kept: programs[kept.version], make)
+    made = opened(path, lambda kept: programs[kept.version], make)
     made.begin(parse_range(range), limit)
     return made
+
+
+def opened(path: Path, program_of: Callable[[KeptProgram], Program], make: Make) -> Verifier:
+    """Of a run file."""
+    return Verifier(RunReader(path, programs_of(program_of, make), ENTRIES))
 
 
 def rows(verifier: Verifier) -> list[Row]:

@@ -17,7 +17,6 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reaction.effects import Effects, Variables
 from scanbench.faults.reaction.error_memory import Watched, Words, code_bits, kept_bits, without_patches, words_of
-from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.reaction import FINDINGS, Line, Reaction, Reader, Verdict, What
 from scanbench.faults.reaction.readings import Readings
 from scanbench.faults.reaction.states import Trace
@@ -28,6 +27,7 @@ from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal, Swapped
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Journal
+from scanbench.runtime.programs import Programs
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import TrapInfo, Trapped
 from scanbench.symbols.sites import StatementSite
@@ -55,7 +55,7 @@ class Given(NamedTuple):
 
 
 def react(
-    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: ObservedPrograms, error: str
+    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs, error: str
 ) -> Reaction | Refusal:
     """The reaction to `error`, one of those that the recorded `generate` raised at this point.
 
@@ -93,13 +93,13 @@ class Twin:
 
 
 def run_twin(
-    point: Point, commands: Sequence[tuple[int, Command | Entry]], window: int, programs: ObservedPrograms,
+    point: Point, commands: Sequence[tuple[int, Command | Entry]], window: int, programs: Programs,
     limit: int,
 ) -> Twin:  # fmt: skip
     """Runs from a point with these commands, each in front of a scan; what is refused now is left out. An entry is one that
     was made inside of its scan."""
     resource = _standing(point, programs)
-    observer = programs.observer(point.version)
+    observer = _observer(programs, point)
     observer.watch(())
     observer.take()
     trace = Trace(state_words(resource), limit)
@@ -125,7 +125,7 @@ class Prepared:
 class Comparison:
     """Compares runs that begin at one point."""
 
-    def __init__(self, point: Point, programs: ObservedPrograms, prepared: Prepared) -> None:
+    def __init__(self, point: Point, programs: Programs, prepared: Prepared) -> None:
         self._point, self._programs, self._prepared = point, programs, prepared
 
     def raised(
@@ -154,7 +154,7 @@ class Comparison:
         own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
         run = _Run(resource, twin, Effects(self._prepared.variables, kept), chosen, ref, self._prepared.readings)
-        found = run.through(self._programs.observer(self._point.version), given)
+        found = run.through(_observer(self._programs, self._point), given)
         if isinstance(found, Refusal) or found.verdict not in FINDINGS or not present:
             return found
         hidden = f"{', '.join(present)} was present before: what follows from both is no difference"
@@ -324,13 +324,19 @@ def _takes_back(entry: Entry, ref: ErrorRef) -> bool:
 # ---- steps of a run ------------------------------------------------------------------------------------------------
 
 
-def _standing(point: Point, programs: ObservedPrograms) -> Resource:
+def _standing(point: Point, programs: Programs) -> Resource:
     """A PLC at the point. There is only one at a time, as the memory of a program is one."""
     loaded = programs.get(point.version)
     resource = Resource(loaded, programs=programs, detect=Detection())
     resource.restore(loaded, point.state, point.journal.prefix(len(point.journal)))
     resource.lenient = True
     return resource
+
+
+def _observer(programs: Programs, point: Point) -> Observer:
+    observer = programs.get(point.version).observer
+    assert observer is not None, "what is compared runs on observed code"
+    return observer
 
 
 def _reenter(resource: Resource, entry: Entry) -> None:
@@ -378,7 +384,7 @@ class _Following:
 
 
 def _following(
-    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: ObservedPrograms
+    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs
 ) -> _Following:
     """Runs it once more as it was: what is entered again by itself came from the PLC or its program, the rest from outside."""
     resource = _standing(point, programs)

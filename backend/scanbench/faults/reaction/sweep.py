@@ -3,11 +3,11 @@
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import TRACE_LIMIT, Comparison, Point, Prepared, Twin, run_twin
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Refusal
+from scanbench.runtime.programs import Programs
 
 AUTHOR = "sweep"
 
@@ -26,7 +26,7 @@ def sweep(
     points: Mapping[str, Point],
     errors: Sequence[str],
     window: int,
-    programs: ObservedPrograms,
+    programs: Programs,
     done: Collection[tuple[str, str]] = (),
     on_try: Callable[[str, str], None] = lambda error, point: None,
 ) -> Iterator[Cell]:

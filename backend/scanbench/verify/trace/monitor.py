@@ -9,11 +9,11 @@ from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason, Stop
 from scanbench.program.program import Program
 from scanbench.program.types import StringType
+from scanbench.recording.programs import reference
 from scanbench.runtime.command import Patch
 from scanbench.runtime.header import pass_time
 from scanbench.runtime.inside import Onlooker
 from scanbench.runtime.resource import Resource
-from scanbench.verify.engines import reference
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.trace.bind import Signal, Trace
 from scanbench.verify.uses import Recorder

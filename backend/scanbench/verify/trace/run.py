@@ -6,10 +6,10 @@ from difflib import get_close_matches
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.program.types import StringType
+from scanbench.recording.reader import Unreadable
 from scanbench.symbols.names import Names
 from scanbench.symbols.values import parse_value
 from scanbench.verify.contract import DEFAULT_LIMIT, Column, Range, Row, ScanVerified, Use
-from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit, Edit
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
@@ -102,7 +102,7 @@ class TraceVerifier:
     # ---- scans --------------------------------------------------------------------------------------------------------
 
     def verify(self, scan: int) -> ScanVerified:
-        """What came of a scan; any order, consecutive is fastest. `Unverifiable`."""
+        """What came of a scan; any order, consecutive is fastest. `Unreadable`."""
         recorded = self._monitor.recorded(self._known(scan))
         if recorded.skipped:
             first = self._monitor.recorded(scan - 1).row is not None
@@ -134,7 +134,7 @@ class TraceVerifier:
 
     def _known(self, scan: int) -> int:
         if not self.first <= scan < self.end:
-            raise Unverifiable(f"scan {scan} is not in the trace: it has scans {self.first} to {self.end - 1}")
+            raise Unreadable(f"scan {scan} is not in the trace: it has scans {self.first} to {self.end - 1}")
         return scan
 
     def _run(self, scan: int, detail: bool = False) -> tuple[tuple[Row, ...], Recorder, Ran]:
@@ -182,7 +182,7 @@ class TraceVerifier:
         try:
             if self._monitor.recorded(self._known(scan)).skipped:
                 raise BadEdit(f"scan {scan} is not in the trace: nothing runs there")
-        except Unverifiable as error:
+        except Unreadable as error:
             raise BadEdit(str(error)) from None
         _, recorder, ran = self._run(scan)
         self._monitor.back(ran)
