@@ -8,7 +8,6 @@ from xml.etree import ElementTree
 
 import pytest
 
-from scanbench.jobs import starting
 from scanbench.wire.host import Sources
 from tests.cli.calling import scanbench
 
@@ -156,7 +155,7 @@ def test_the_program_of_a_run_that_does_not_compile_any_more(project: Path, monk
     run = project.parent / "on.scanrun"
     assert scanbench("run", str(project), "--scans", "50", "--record", str(run)).returncode == 0
     kept = Sources("CJ1M-CPU63", {"main.st": SOURCE.replace("n : DINT;", "n : DINT; m : INT;").replace("inner THEN", "inned THEN")}, 10_000_000, 1)  # fmt: skip
-    monkeypatch.setattr(starting, "sources_in", lambda program: kept)
+    monkeypatch.setattr("scanbench.host.run_files.sources_in", lambda program: kept)
     given = states(project, [{"name": "A", "run": "on.scanrun"}])
     result = scanbench("errors", "sweep", str(project), *FEW, "--states", given)
     assert result.returncode == 2

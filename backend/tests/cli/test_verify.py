@@ -52,7 +52,7 @@ def run(project: Path, tmp_path: Path) -> str:
 
 def faulty(monkeypatch: pytest.MonkeyPatch) -> None:
     """Native code with a fault, in both of its flavours."""
-    monkeypatch.setattr(VERIFY, "native", lambda: planted(SUM, debug=True))
+    monkeypatch.setattr(VERIFY, "on", lambda code: planted(SUM, debug=True))
 
 
 def test_the_sample_has_no_difference() -> None:
