@@ -41,6 +41,7 @@ from scanbench.runtime.write import Write
 from scanbench.server.from_disk import program_files, project_model, read_text
 from scanbench.verify.contract import Row
 from scanbench.verify.ranges import parse_range
+from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES, pack_body
 from scanbench.wire.host import Sources
@@ -123,7 +124,7 @@ def _interpreter(program: Program, scans: int) -> float:
 
 
 def _verified(path: Path, scans: int, range_: str, plain: float) -> Verified:
-    with Verifier(_reader(path)) as verifier:
+    with Verifier(_subject(path)) as verifier:
         verifier.begin(parse_range(range_))
         verifier.verify(0)  # code is made
         begin = perf_counter_ns()
@@ -135,13 +136,13 @@ def _verified(path: Path, scans: int, range_: str, plain: float) -> Verified:
     return Verified(per_second, per_second * TASK_NS / 1e9, per_second / plain, rows, kib)
 
 
-def _reader(path: Path) -> RunReader:
-    return RunReader(path, programs_of(_program_of, on(flavours())), ENTRIES)
+def _subject(path: Path) -> RunSubject:
+    return RunSubject(RunReader(path, programs_of(_program_of, on(flavours())), ENTRIES))
 
 
 def _memory(path: Path, scans: int, range_: str) -> tuple[int, float]:
     """Rows of so many scans, and KiB that 10,000 of them take."""
-    with Verifier(_reader(path)) as verifier:
+    with Verifier(_subject(path)) as verifier:
         verifier.begin(parse_range(range_))
         verifier.verify(0)
         start()

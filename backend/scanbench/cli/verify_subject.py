@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import NoReturn, Protocol
+from typing import NoReturn
 
 import typer
 
@@ -38,13 +38,13 @@ from scanbench.recording.reader import RunReader, Unreadable, no_programs
 from scanbench.recording.recording import Recording
 from scanbench.reports.report import Source
 from scanbench.runtime.programs import NoProgram
-from scanbench.verify.contract import Range, ScanVerified
+from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.trace.bind import check
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping, propose
 from scanbench.verify.trace.read import read_trace
-from scanbench.verify.trace.run import TraceVerifier
+from scanbench.verify.trace.subject import TraceSubject
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
-from scanbench.verify.verifier import Begun, Verifier
+from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
 
@@ -53,29 +53,11 @@ _SUFFIXES = (".scanrun", RUN_SUFFIX)
 """What is called like a run is one, however damaged: it is no program text."""
 
 
-class Verifies(Protocol):
-    """A `Verifier` or a `TraceVerifier`."""
-
-    @property
-    def first(self) -> int:
-        """The first scan that can be verified, ..."""
-
-    @property
-    def end(self) -> int:
-        """... and the one before which it ends."""
-
-    def begin(self, range: Range, limit: int, scan: int | None = None) -> Begun:
-        """Says which range is meant; `BadRange`."""
-
-    def verify(self, scan: int) -> ScanVerified:
-        """One scan; `Unreadable`."""
-
-
 @dataclass(frozen=True, slots=True)
 class Subject:
     """Something to verify, and what a report says of it."""
 
-    verifier: Verifies
+    verifier: Verifier
     project: str
     instance: str
     model: str
@@ -146,7 +128,7 @@ def _is_run(path: Path) -> bool:
 def _run_file(path: Path, make: Make) -> Iterator[tuple[Verifier, Recording]]:
     reader = RunReader(path, programs_by(_program_of, make), ENTRIES, texts_in)
     try:
-        with Verifier(reader) as verifier:
+        with Verifier(RunSubject(reader)) as verifier:
             yield verifier, reader.recording
     except Unreadable as error:
         unusable_run(path, error)
@@ -217,7 +199,7 @@ def _trace(given: Given, path: Path) -> Subject:
             typer.echo(f"{_where(path, problem)}: {problem.message}", err=True)
     if checked.trace is None:
         _refuse(path, checked.problems)
-    verifier = TraceVerifier(program, checked.trace, path.name, files)
+    verifier = Verifier(TraceSubject(program, checked.trace, files))
     notes = " ".join(filter(None, (table.note, note)))
     return Subject(
         verifier, given.path.resolve().name, "real controller", program.layout.model.name, "trace", path.name, notes

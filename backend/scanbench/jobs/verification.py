@@ -1,6 +1,7 @@
 """In a job process: one verification. Whatever is wrong with a request is told in its answer."""
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from scanbench.engines.available import flavours
@@ -13,9 +14,10 @@ from scanbench.reports.report import stretched
 from scanbench.reports.value_text import value_text
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
-from scanbench.verify.contract import BadRange, Column, Row, ScanVerified
+from scanbench.verify.contract import BadRange, Begun, Column, Row, ScanVerified
+from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.trace.mapping import BadMapping
-from scanbench.verify.trace.run import TraceVerifier, open_trace
+from scanbench.verify.trace.subject import open_trace
 from scanbench.verify.trace.table import BadTraceFile
 from scanbench.verify.verifier import BadEdit, Verifier
 from scanbench.wire.codec import ENTRIES, pack_body
@@ -47,7 +49,7 @@ class VerifyJob:
     ) -> None:  # fmt: skip
         """`asked`: whether another request waits."""
         self._program_of, self._cache, self._say, self._asked = program_of, cache, say, asked
-        self._verifier: Verifier | TraceVerifier | None = None
+        self._verifier: Verifier | None = None
 
     def on_request(self, request: Request) -> None:
         """Answers it."""
@@ -77,41 +79,24 @@ class VerifyJob:
             case UsesOf():
                 self._uses(request)
 
-    def _begun(self) -> Verifier | TraceVerifier:
+    def _begun(self) -> Verifier:
         if self._verifier is None:
             raise Unreadable("the verification has not begun")
         return self._verifier
 
     def _begin(self, ask: BeginVerify) -> None:
         programs = programs_by(self._program_of, on(flavours(self._cache)))
-        verifier = Verifier(RunReader(Path(ask.run), programs, ENTRIES, texts_in))
+        verifier = Verifier(RunSubject(RunReader(Path(ask.run), programs, ENTRIES, texts_in)))
         self._verifier = verifier
         verifier.follow(ask.until)
-        begun = verifier.begin(ask.range, ask.limit, ask.first)
-        self._say(
-            VerifyBegun(
-                ask.ref,
-                begun.title,
-                begun.instances,
-                begun.first,
-                begun.end,
-                begun.interval_ns,
-                begun.version,
-                begun.note,
-            )
-        )
+        self._say(_begun(ask.ref, verifier.begin(ask.range, ask.limit, ask.first)))
 
     def _begin_trace(self, ask: BeginTrace) -> None:
         data = Path(ask.file).read_bytes()
         verifier = open_trace(data, ask.name, ask.mapping, self._program_of(ask.sources), ask.sources.files)
         self._verifier = verifier
-        begun = verifier.begin(ask.range, ask.limit)
-        self._say(
-            VerifyBegun(
-                ask.ref, begun.title, begun.instances, begun.first, begun.end, begun.interval_ns, ask.sources.version,
-                begun.note,
-            )
-        )  # fmt: skip
+        begun = replace(verifier.begin(ask.range, ask.limit), version=ask.sources.version)
+        self._say(_begun(ask.ref, begun))
 
     def _scans(self, ask: VerifyScans) -> None:
         verifier = self._begun()
@@ -164,6 +149,12 @@ class VerifyJob:
                 )
             )  # fmt: skip
         self._say(UsesAre(ask.ref, tuple(uses)))
+
+
+def _begun(ref: int, begun: Begun) -> VerifyBegun:
+    return VerifyBegun(
+        ref, begun.title, begun.instances, begun.first, begun.end, begun.interval_ns, begun.version, begun.note
+    )  # fmt: skip
 
 
 def _packed(row: Row) -> PackedRow:

@@ -203,3 +203,18 @@ class ScanVerified:
     def compared(self) -> bool:
         """Whether anything of the scan was compared: else nothing can be said of it."""
         return any(row.compared for row in self.rows)
+
+
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A range that was understood."""
+
+    title: str
+    instances: tuple[str, ...]
+    first: int
+    end: int
+    interval_ns: int
+    version: int
+    """Of the program."""
+    note: str = ""
+    """What is not quite as it was asked for."""

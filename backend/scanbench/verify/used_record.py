@@ -4,8 +4,8 @@ from itertools import zip_longest
 
 from scanbench.verify.both import Both
 from scanbench.verify.contract import Use
-from scanbench.verify.edits import pass_of
 from scanbench.verify.monitor import Inputs
+from scanbench.verify.passes import pass_of
 from scanbench.verify.sides import Side
 from scanbench.verify.uses import Access, Pass, Recorder
 

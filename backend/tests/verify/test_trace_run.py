@@ -22,19 +22,20 @@ from scanbench.verify.ranges import parse_range
 from scanbench.verify.trace.mapping import BadMapping, Gaps, TraceMapping, propose
 from scanbench.verify.trace.monitor import EVERY
 from scanbench.verify.trace.read import read_trace
-from scanbench.verify.trace.run import TraceVerifier, open_trace
+from scanbench.verify.trace.subject import open_trace
+from scanbench.verify.verifier import Verifier
 from tests.caseformat import MODELS
 from tests.verify.trace_parts import conveyor, conveyor_csv, exported, leaves, program_of, with_cell
 
 
-def opened(text: str, program: Program, range: str = "", gaps: Gaps = "refuse", limit: int = 4096) -> TraceVerifier:
+def opened(text: str, program: Program, range: str = "", gaps: Gaps = "refuse", limit: int = 4096) -> Verifier:
     mapping = propose(read_trace(text.encode(), "trace.csv"), program)
     verifier = open_trace(text.encode(), "trace.csv", replace(mapping, gaps=gaps).to_json(), program)
     verifier.begin(parse_range(range), limit)
     return verifier
 
 
-def verified(verifier: TraceVerifier, scans: Iterable[int] | None = None) -> list[Row]:
+def verified(verifier: Verifier, scans: Iterable[int] | None = None) -> list[Row]:
     scans = range(verifier.first, verifier.end) if scans is None else scans
     return [row for scan in scans for row in verifier.verify(scan).rows]
 

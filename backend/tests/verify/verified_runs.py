@@ -17,6 +17,7 @@ from scanbench.runtime.detect import Detect
 from scanbench.runtime.programs import EngineFactory, Programs
 from scanbench.verify.contract import DEFAULT_LIMIT, Mismatch, Row
 from scanbench.verify.ranges import parse_range
+from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES
 
@@ -50,7 +51,7 @@ def verifier(
 
 def opened(path: Path, program_of: Callable[[KeptProgram], Program], make: Make) -> Verifier:
     """Of a run file."""
-    return Verifier(RunReader(path, programs_of(program_of, make), ENTRIES))
+    return Verifier(RunSubject(RunReader(path, programs_of(program_of, make), ENTRIES)))
 
 
 def rows(verifier: Verifier) -> list[Row]:
