@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import Literal
 
 from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job
-from scanbench.reports.report import stretched
+from scanbench.server.hold import Hold
 from scanbench.server.verify_rows import Rows
+from scanbench.server.verify_status import begun, verified, with_stretches
 from scanbench.session.session import Session
 from scanbench.verify.contract import Memory
-from scanbench.wire import debugging as debug_protocol
-from scanbench.wire import host as protocol
 from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
@@ -39,8 +38,6 @@ CAUGHT_UP = 64
 """So many of the newest it goes on with then."""
 AT_ONCE = 200
 """Scans that are asked for at once: so soon it can be stopped, or take another pace."""
-STRETCHES = 100
-_RUNS = ("running",)
 _TRAPPED = "the PLC is stopped by a run-time error: restart it to go on"
 
 
@@ -76,7 +73,7 @@ class Verification:
         self.status = VerificationStatus(
             id, session.id, author, wanted, "trace" if trace else source, wanted.pace, trace=trace.name if trace else ""
         )
-        self._trace, self._on_change, self._hand_over = trace, on_change, hand_over
+        self._trace, self._on_change = trace, on_change
         self._job = Job(cache, self._on_message, self._on_end)
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
@@ -94,8 +91,7 @@ class Verification:
         self._until = 0
         """Scans in front of this one were over as scans were asked for."""
         self._halt = 0
-        self.held = False
-        """Whether the PLC ran when this verification had it wait."""
+        self.hold = Hold(session, lambda: hand_over(self))
         self._owed = 0
         """Scans that somebody may still go on by, with pace `scan`."""
         self._cut: _Cut | None = None
@@ -130,32 +126,16 @@ class Verification:
         if isinstance(answer, VerifyRefused):
             raise Refused(answer.message, answer.near)
         assert isinstance(answer, VerifyBegun)
-        last: int | None = None
-        notes = [answer.note]
-        if self._trace is not None:
-            first, last = answer.first, answer.end - 1
-        elif wanted.first is not None:
-            last = answer.end - 1 if wanted.last is None else min(wanted.last, answer.end - 1)
-            if wanted.last is not None and last < wanted.last:
-                notes.append(
-                    f"Scans {wanted.first:,} to {wanted.last:,} were wanted, and {last:,} is the last that is over: "
-                    f"what comes after it is not compared."
-                )
-        elif self.status.source == "live":
-            first = self._live_scan  # it took a while until now
-        self._next = first
-        self._change(
-            title=answer.title, instances=answer.instances, first=first, last=last, version=answer.version,
-            interval_ns=answer.interval_ns, note=" ".join(filter(None, notes)), state="waiting" if self.status.pace != "free" else "verifying",
-        )  # fmt: skip
+        self._change(begun(self.status, answer, self._live_scan))  # it took a while until now
+        self._next = self.status.first
         session.listen(self._on_event)
         if self.status.pace != "free" and self.status.source == "live":
-            await self._hold()
+            await self.hold.hold(self.status.by)
         self._poke()
 
     async def leave(self, author: str) -> None:
         """Ends it; a PLC that waits because of it goes on."""
-        await self._let_go(author)
+        await self.hold.let_go(author)
         await self.end()
 
     async def end(self) -> None:
@@ -199,11 +179,11 @@ class Verification:
         if pace is not None and pace != status.pace:
             self._change(pace=pace)
             if status.source == "live":
-                await (self._let_go(author) if pace == "free" else self._hold())
+                await (self.hold.let_go(author) if pace == "free" else self.hold.hold(self.status.by))
         if action == "stop" and status.state not in ("done", "failed"):
             self._owed = 0
             self._change(state="stopped", message="")
-            await self._let_go(author)
+            await self.hold.let_go(author)
             return
         if action == "resume" and self.status.state == "stopped":
             self._change(state="waiting", message="")
@@ -263,7 +243,7 @@ class Verification:
     def _on_event(self, event: Event) -> None:
         if isinstance(event, StateChanged):
             if event.state.state == "running":  # somebody lets it run: it does not wait because of this any more
-                self.held = False
+                self.hold.held = False
             self._poke()
 
     def _poke(self) -> None:
@@ -340,27 +320,9 @@ class Verification:
         skipped = to - self._next
         if skipped <= 0:
             return
-        stretches = _with_stretches(self.status.stretches, ((self._next, to - 1),))
+        stretches = with_stretches(self.status.stretches, ((self._next, to - 1),))
         self._next = to
         self._change(skipped=self.status.skipped + skipped, stretches=stretches)
-
-    async def _hold(self) -> None:
-        """The PLC waits from now on: behind its scan, or in front of its next statement."""
-        author, session = self.status.by, self.session
-        if session.state.state in _RUNS:
-            ack = await session.drive("pause", None, author)
-            if not ack.ok:
-                raise Refused(ack.message)
-            self.held = True
-
-    async def _let_go(self, author: str) -> None:
-        """A PLC that waits because of this verification goes on; where it cannot, it says so itself."""
-        if self.held and not self._hand_over(self) and self.session.state.state in ("paused", "halted"):
-            if self.session.state.halt is not None:
-                await self.session.debug(lambda ref: debug_protocol.Step(ref, "continue", author))
-            else:
-                await self.session.drive("continue", None, author)
-        self.held = False
 
     async def _go_on(self, author: str) -> None:
         """One scan or statement further."""
@@ -374,10 +336,7 @@ class Verification:
             raise Refused("the past is shown: return to live first")
         if self._live_end > self._live_scan:
             raise Refused(_TRAPPED)
-        if status.pace == "scan":
-            ack = await session.drive("scan", None, author)
-        else:
-            ack = _acked(await session.debug(lambda ref: debug_protocol.Step(ref, "in", author)))
+        ack = await self.hold.advance(status.pace, author)
         if not ack.ok:
             self._change(auto=False, message=ack.message)
             raise Refused(ack.message, ack.near)
@@ -435,8 +394,6 @@ class Verification:
         over = not self._stepping or (self._stepping > 0 and bool(came.rows) and came.rows[-1].count == 0)
         if over:
             self._next, self._count = max(self._next, came.scan + 1), 0
-        first = status.first_difference
-        new = next((row for row in came.rows if row.first is not None), None)
         if came.done:
             self._busy = None
         going = status.state in ("verifying", "waiting", "starting")
@@ -444,12 +401,8 @@ class Verification:
         if going and came.done and not came.failed:
             state = "waiting" if status.pace != "free" or self._next >= self._live_end else "verifying"
         self._change(
-            state=state, message=came.message or (_TRAPPED if self._cut is not None else ""), scan=came.scan if came.scan >= 0 else status.scan,
-            compared=status.compared + came.compared, skipped=status.skipped + _count(came.skipped),
-            stretches=_with_stretches(status.stretches, came.skipped), differing=status.differing + sum(row.first is not None for row in came.rows),
-            first_difference=first or (None if new is None else new.first),
-            first_scan=status.first_scan if first is not None or new is None else new.scan,
-            rows=self.rows.count, forgotten=self.rows.first, used=max(status.used, came.used),
+            verified(status, came), state=state, message=came.message or (_TRAPPED if self._cut is not None else ""),
+            rows=self.rows.count, forgotten=self.rows.first,
         )  # fmt: skip
         if came.done and not came.failed:
             # whole scans that are compared on the way to a halt are no step: the halt is compared next
@@ -482,7 +435,7 @@ class Verification:
     def _fail(self, why: str) -> None:
         """The PLC need not wait any more."""
         self._change(state="failed", message=why, auto=False)
-        self._do(self._let_go(self.status.by))
+        self._do(self.hold.let_go(self.status.by))
 
     def _do(self, work: Coroutine[None, None, None]) -> None:
         task = asyncio.get_running_loop().create_task(work)
@@ -495,24 +448,6 @@ class Verification:
             if not future.done():
                 future.set_result(VerifyRefused(ref, why))
 
-    def _change(self, **changes: object) -> None:
-        self.status = replace(self.status, **changes)  # type: ignore[arg-type]  # names and types are the status' own
+    def _change(self, status: VerificationStatus | None = None, **changes: object) -> None:
+        self.status = replace(status or self.status, **changes)  # type: ignore[arg-type]  # names and types are the status' own
         self._on_change(self)
-
-
-def _count(stretches: tuple[tuple[int, int], ...]) -> int:
-    return sum(last - first + 1 for first, last in stretches)
-
-
-def _with_stretches(
-    known: tuple[tuple[int, int], ...], more: tuple[tuple[int, int], ...]
-) -> tuple[tuple[int, int], ...]:  # fmt: skip
-    made = list(known)
-    for first, last in more:
-        stretched(made, first, last)
-    return tuple(made[-STRETCHES:])
-
-
-def _acked(answer: object) -> protocol.Ack:
-    assert isinstance(answer, protocol.Ack)
-    return answer

@@ -178,7 +178,7 @@ class Verifications:
         others = [each for each in self._all.values() if each is not verification and each.holding]
         heir = next((each for each in others if each.session is verification.session), None)
         if heir is not None:
-            heir.held = True
+            heir.hold.held = True
         return heir is not None
 
     def _one(self, id: int) -> Verification:

@@ -1,0 +1,45 @@
+"""A PLC that waits for its verification: behind each scan, or in front of each statement."""
+
+from collections.abc import Callable
+
+from scanbench.session.session import Session
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire.events import VerifyPace
+from scanbench.wire.host import Ack
+from scanbench.wire.refused import Refused
+
+
+class Hold:
+    """Of one verification."""
+
+    def __init__(self, session: Session, hand_over: Callable[[], bool]) -> None:
+        """`hand_over`: whether another verification has the same PLC wait, which takes it over."""
+        self._session, self._hand_over = session, hand_over
+        self.held = False
+        """Whether the PLC ran when it was made to wait."""
+
+    async def hold(self, author: str) -> None:
+        """The PLC waits from now on: behind its scan, or in front of its next statement. `Refused`."""
+        if self._session.state.state == "running":
+            ack = await self._session.drive("pause", None, author)
+            if not ack.ok:
+                raise Refused(ack.message)
+            self.held = True
+
+    async def let_go(self, author: str) -> None:
+        """A PLC that waits because of this goes on; where it cannot, it says so itself."""
+        session = self._session
+        if self.held and not self._hand_over() and session.state.state in ("paused", "halted"):
+            if session.state.halt is not None:
+                await session.debug(lambda ref: debug_protocol.Step(ref, "continue", author))
+            else:
+                await session.drive("continue", None, author)
+        self.held = False
+
+    async def advance(self, pace: VerifyPace, author: str) -> Ack:
+        """One scan or statement further."""
+        if pace == "scan":
+            return await self._session.drive("scan", None, author)
+        answer = await self._session.debug(lambda ref: debug_protocol.Step(ref, "in", author))
+        assert isinstance(answer, Ack)
+        return answer
