@@ -7,7 +7,7 @@ from pathlib import Path
 import typer
 
 from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
-from scanbench.cli.interrupt import leaving
+from scanbench.cli.interrupt import Leaving
 from scanbench.engines.available import flavours
 from scanbench.history.contract import Change, Divergence
 from scanbench.history.divergence import find_divergence
@@ -34,7 +34,7 @@ def diff(
     Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here; 4: the same, but
     a file is damaged, and a part of its run is lost.
     """
-    of = programs_of(_Checked().program, leaving(on(flavours())))
+    of = programs_of(_Checked().program, on(Leaving(flavours())))
     try:
         with RunReader(run1, of, ENTRIES, texts_in) as one, RunReader(run2, of, ENTRIES, texts_in) as other:
             one.follow()

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import ParamSpec, TypeVar
 
+from scanbench.engines.available import Flavours
 from scanbench.runtime.interrupt import Interrupt
 
 P = ParamSpec("P")
@@ -43,6 +44,13 @@ def interruptible() -> Iterator[Interrupt]:
         yield interrupt
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+class Leaving:
+    """Code whose flavours are made so that Ctrl-C is seen at once."""
+
+    def __init__(self, code: Flavours) -> None:
+        self.run, self.debug = leaving(code.run), leaving(code.debug)
 
 
 def leaving(make: Callable[P, T]) -> Callable[P, T]:

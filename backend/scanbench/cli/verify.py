@@ -10,7 +10,7 @@ import typer
 from scanbench import __version__
 from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import DAMAGED, usage, with_near
-from scanbench.cli.interrupt import leaving
+from scanbench.cli.interrupt import Leaving
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.run_options import AUTHOR, Options
@@ -77,7 +77,7 @@ def verify(
         usage(f"--range {range_}: {with_near(str(error), error.near)}")
     first, last = _stretch(scans)
     given = Given(path, model, interval, options, SCANS if last is None else last + 1, trace, map)
-    make: Make = leaving(on(flavours())) if engine is ControlEngine.NATIVE else reference
+    make: Make = on(Leaving(flavours())) if engine is ControlEngine.NATIVE else reference
     try:
         with opened(given, make) as subject:
             report, stopped = _verified(subject, wanted, limit, first, last)

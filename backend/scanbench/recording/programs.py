@@ -1,8 +1,10 @@
 """The programs of a run file, each made ready to run when it is first asked for."""
 
 from collections.abc import Callable, Collection, Mapping
+from typing import Protocol
 
-from scanbench.engines.available import Flavours
+from scanbench.engines.debug import DebugEngine
+from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.observe import MakeObserved
 from scanbench.program.program import Program
@@ -17,12 +19,23 @@ Make = Callable[[int, Program], Loaded]
 """Makes a version of a program ready to run."""
 
 
-def on(code: Flavours) -> Make:
+class Code(Protocol):
+    """The part of `Flavours` that a program of a run needs."""
+
+    def run(self, program: Program, memory: bytearray) -> Engine:
+        """See `Flavours`."""
+
+    def debug(self, program: Program, memory: bytearray) -> DebugEngine:
+        """See `Flavours`."""
+
+
+def on(code: Code) -> Make:
     """On this code; the debug flavour is made when it is first needed."""
+    make_debug = code.debug
 
     def make(version: int, program: Program) -> Loaded:
         memory = bytearray(program.layout.size)
-        return Loaded(version, program, memory, code.run(program, memory), make_debug=code.debug)
+        return Loaded(version, program, memory, code.run(program, memory), make_debug=make_debug)
 
     return make
 
