@@ -23,7 +23,7 @@ from scanbench.recording.reader import Unreadable
 from scanbench.reports.report import Collected, Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
-from scanbench.runtime.clock import iso, wall_time
+from scanbench.runtime.clock import wall_time
 from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Begun, Range
 from scanbench.verify.ranges import parse_range
 
