@@ -16,8 +16,8 @@ from scanbench.cli.progress import progress
 from scanbench.cli.run_options import AUTHOR, Options
 from scanbench.cli.verify_subject import Given, Subject, opened
 from scanbench.cli.verify_text import verify_text
-from scanbench.public import iso
 from scanbench.engines.available import flavours
+from scanbench.public import iso
 from scanbench.recording.programs import Make, on, reference
 from scanbench.recording.reader import Unreadable
 from scanbench.reports.report import Collected, Report, ReportHead
