@@ -178,7 +178,7 @@ class Plc:
         return str(state["message"])
 
     def pause(self) -> str:
-        """Pauses it behind the scan that runs."""
+        """Pauses it after the scan that runs."""
         return self._command("run", {"action": "pause"})
 
     def scan(self) -> str:

@@ -223,7 +223,7 @@ def _reachable(order: list[Pou], pous: Pous, roots: set[Pou]) -> list[Pou]:
 
 
 def _place_frames(pous: list[Pou], at: int) -> int:
-    """Gives each its frame, from this byte of the image on; the byte behind the last one."""
+    """Gives each its frame, from this byte of the image on; the byte after the last one."""
     for pou in pous:
         pou.frame_offset = at
         at = align(at + pou.frame.size)

@@ -2,7 +2,7 @@
 
 What is kept: the tree of each chunk of text, all declarations, and the checked body of each POU. A body holds as long as its
 own text and all declarations are the same; spans move by themselves (`Source.above`). Where anything else changes, all is
-checked anew; but where only problems are asked for, what was found in bodies that cannot see the change is found again. So the
+checked again; but where only problems are asked for, what was found in bodies that cannot see the change is found again. So the
 programs of one `Checks` share POUs: only the newest is to be run, and the one before it may run on natively.
 """
 
@@ -64,7 +64,7 @@ class Checks:
 
 @dataclass(slots=True)
 class _Edit:
-    """One chunk that was parsed anew."""
+    """One chunk that was parsed again."""
 
     file: str
     chunk: Chunk
@@ -148,7 +148,7 @@ class _Project:
         self.checked = concluded(files, self.checker.report, program if self.whole else None)
 
     def _redeclare(self, edits: list[_Edit], telling: set[Pou]) -> bool:
-        """Declares everything anew, and checks only bodies that may see what changed; false when that cannot be told."""
+        """Declares everything again, and checks only bodies that may see what changed; false when that cannot be told."""
         files = [file.file for file in self.files.values()]
         if not all(_is_plain(edit.before) and _is_plain(edit.chunk.pou) for edit in edits):
             return False

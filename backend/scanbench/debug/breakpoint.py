@@ -25,12 +25,12 @@ class Breakpoint:
     column: int = 0
     """From 1; 0 is the first statement in the line."""
     path: str = ""
-    """Of data: instance path or address, in-outs are followed anew in each scan."""
+    """Of data: instance path or address, in-outs are followed again in each scan."""
     access: DataAccess = "change"
     error: str = ""
     """Of an error raised: its id, or any."""
     scan: int = 0
-    """Halts in front of this scan's first statement."""
+    """Halts before this scan's first statement."""
     condition: str = ""
     """A BOOL expression in the scope of the statement (of the whole program for the other kinds)."""
     hits: str = ""

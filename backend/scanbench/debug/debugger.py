@@ -180,7 +180,7 @@ class Debugger:
             trapping = self._trapping.take()
             found = trapping or (listener.found if listener is not None else None)
             if trapping is not None and listener is not None:
-                listener.pending = None  # of the statement that is in front of it again
+                listener.pending = None  # of the statement that is before it again
             assert found is not None
             self._halted(found)
         elif listener is not None and stop.reason is Reason.TRAP:
@@ -210,7 +210,7 @@ class Debugger:
         return outcome
 
     def _finished(self, halt: Halt, scan: int) -> None:
-        """The scan ran to its end in which it was halted, as something was to be entered behind it."""
+        """The scan ran to its end in which it was halted, as something was to be entered after it."""
         self._trapping.forget()
         if self._listener is not None:
             self._listener.pending = None
@@ -294,7 +294,7 @@ class Debugger:
         return listener
 
     def _look_for_errors(self) -> None:
-        """Errors that were raised since: the next statement is the first one behind them."""
+        """Errors that were raised since: the next statement is the first one after them."""
         self._pending = self._raised.look() or self._pending
         self.changed = self.changed or self._raised.counted
 

@@ -44,7 +44,7 @@ def instance_path(program: Program, frame: Frame) -> str:
 
 
 def frame_name(program: Program, frame: Frame) -> str:
-    """`Main.line.station (Station)`, with the method that runs behind the path; of a FUNCTION its name."""
+    """`Main.line.station (Station)`, with the method that runs after the path; of a FUNCTION its name."""
     path, record = instance_path(program, frame), frame_record(frame)
     if record is None:
         return frame.pou.name

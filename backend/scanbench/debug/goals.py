@@ -25,7 +25,7 @@ class Goal:
         return self.sites if self.action == "to" else None
 
     def reached(self, site: int, count: int, depth: int, frames: Frames, scan: int) -> bool:
-        """Whether it ends in front of this statement."""
+        """Whether it ends before this statement."""
         match self.action:
             case "continue":
                 return False

@@ -25,7 +25,7 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class Halt:
-    """The PLC stands in front of a statement of scan `scan`, or in the seam in front of that scan (`count` 0)."""
+    """The PLC stands before a statement of scan `scan`, or in the seam before that scan (`count` 0)."""
 
     number: int
     """Counts the halts of this process: another number is another halt."""

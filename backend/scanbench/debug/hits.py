@@ -8,7 +8,7 @@ _TEXT = re.compile(r"\s*(=|==|>=|>|%)?\s*(\d{1,15})\s*")
 
 @dataclass(frozen=True, slots=True)
 class HitRule:
-    """`3`, `= 3`: the third time alone; `>= 3`: from the third on; `> 3`: behind it; `% 3`: every third."""
+    """`3`, `= 3`: the third time alone; `>= 3`: from the third on; `> 3`: after it; `% 3`: every third."""
 
     sign: str
     number: int

@@ -69,7 +69,7 @@ class Listener:
         self.goal: Goal | None = None
         self.passed = Passed()
         self.pending: Found | None = None
-        """Halts in front of the next statement."""
+        """Halts before the next statement."""
         self.found: Found | None = None
         self._violated = 0
 
@@ -136,7 +136,7 @@ class Listener:
                 self._touched(count, Found("data breakpoint", text, by, (id,)))
 
     def _copies(self, placed: Placed, site: int) -> bool:
-        """Whether the block of an in-out by value copies what was passed, in front of its statements or behind them."""
+        """Whether the block of an in-out by value copies what was passed, before its statements or after them."""
         found = None if placed.block is None else placed.block.locate(self._resource.memory)
         frame = self._frames()[0]
         if found is None or frame.instance != found[0]:
@@ -144,14 +144,14 @@ class Listener:
         return site in self._placing.returns or self._placing.pou_of.get(site) is not frame.pou
 
     def _touched(self, count: int, found: Found) -> None:
-        """Halts behind the statement. It may be the last one of the scan."""
+        """Halts after the statement. It may be the last one of the scan."""
         if self.pending is None:
             self.pending = found
             self._resource.loaded.debugged().interrupt()
             self._tell(in_scan=True)
 
     def behind_scan(self) -> Found | None:
-        """In the seam behind a scan that ended: what its last statement did."""
+        """In the seam after a scan that ended: what its last statement did."""
         return self._behind()
 
     # ---- why --------------------------------------------------------------------------------------------------------
@@ -171,7 +171,7 @@ class Listener:
         return None
 
     def _acting(self, site: int, count: int, scan: int) -> Found | None:
-        """What breakpoints do in front of this statement."""
+        """What breakpoints do before this statement."""
         found = [each for each in self._take_due() if self._holds(each, None) and self._hit(each, None, None)]
         at_scan = len(found)
         for placed in self._at.get(site, ()):
@@ -187,7 +187,7 @@ class Listener:
         return Found("breakpoint", f"breakpoint at {span.file}:{span.line}", by, ids)
 
     def _take_due(self) -> list[Placed]:
-        """The breakpoints of this scan that act here: in front of the first statement of their task, or instance."""
+        """The breakpoints of this scan that act here: before the first statement of their task, or instance."""
         if not self._due:
             return []
         found = [each for each in self._due if self._is_here(each)]

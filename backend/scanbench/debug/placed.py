@@ -74,7 +74,7 @@ class Placing:
         }  # fmt: skip
         """The task of each program instance."""
         self.returns = frozenset(self._returns())
-        """The RETURNs: what a block with in-outs by value copies back in front of one is told as its access."""
+        """The RETURNs: what a block with in-outs by value copies back before one is told as its access."""
 
     def _returns(self) -> Iterator[int]:
         for pou in self.sites.bodies:

@@ -43,7 +43,7 @@ class Noting(Listener):
 
     noted: Noted | None = None
     before: Position = (1 << 62, 0)
-    """What is there and behind it does not count."""
+    """What is there and after it does not count."""
 
     def _tell(self, in_scan: bool = False) -> None:
         """Nobody need be told that a scan begins, where accesses are all that is looked for and stay where they are."""
@@ -108,7 +108,7 @@ class Search:
         self, timeline: Timeline, breakpoints: Breakpoints, wanted: Sequence[Breakpoint], here: Position,
         prober: MakeProbed | None, raised: Raised, first: int = 0,
     ) -> None:  # fmt: skip
-        """Scans in front of `first` are not looked at."""
+        """Scans before `first` are not looked at."""
         self._timeline, self._breakpoints, self._wanted, self._here = timeline, breakpoints, wanted, here
         self._prober, self._raised, self._first = prober, raised, first
         self._probed: dict[Loaded, ProbedEngine | None] = {}
@@ -270,7 +270,7 @@ def search(
 
 
 def in_front(timeline: Timeline, noted: Noted) -> Position:
-    """The position in front of a statement that made an access."""
+    """The position before a statement that made an access."""
     scan, count = noted.position
     if noted.writer is None or timeline.goto(scan, 1) is not None:
         return noted.position

@@ -11,7 +11,7 @@ from scanbench.symbols.sites import Sites
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Of a moment: it is made anew when the image has changed."""
+    """Of a moment: it is made again when the image has changed."""
 
     program: Program
     """Whose statements run."""

@@ -1,4 +1,4 @@
-"""Breakpoints at run-time errors: the scan is run again up to the statement that traps, and halted in front of it."""
+"""Breakpoints at run-time errors: the scan is run again up to the statement that traps, and halted before it."""
 
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.halt import Found
@@ -10,16 +10,16 @@ from scanbench.runtime.inside import HaltAt
 
 
 class Trapping:
-    """Halts once in front of each trap: going on lets it trap."""
+    """Halts once before each trap: going on lets it trap."""
 
     def __init__(self, timeline: Timeline, breakpoints: Breakpoints) -> None:
         self._timeline, self._breakpoints = timeline, breakpoints
         self._found: Found | None = None
         self._seen: Position | None = None
-        """The statement in front of which it halted before it traps."""
+        """The statement before which it halted before it traps."""
 
     def take(self) -> Found | None:
-        """Why it is halted, where it is so in front of a trap; once."""
+        """Why it is halted, where it is so before a trap; once."""
         found, self._found = self._found, None
         return found
 
@@ -28,7 +28,7 @@ class Trapping:
         self._seen = None
 
     def halts(self) -> bool:
-        """In front of the statement that traps, if somebody wants that; it is run again up to there."""
+        """Before the statement that traps, if somebody wants that; it is run again up to there."""
         breakpoints = [each for each in self._breakpoints.placed if each.active and each.breakpoint.kind == "trap"]
         resource = self._timeline.resource
         scan = resource.header.scan

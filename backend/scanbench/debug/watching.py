@@ -21,7 +21,7 @@ class _Place:
 
 
 class Watching:
-    """The data breakpoints of one program. In-outs are followed anew in each scan, and whenever their block begins."""
+    """The data breakpoints of one program. In-outs are followed again in each scan, and whenever their block begins."""
 
     def __init__(self, placed: Iterable[Placed], memory: bytearray) -> None:
         self._placed = tuple(placed)

@@ -1,7 +1,7 @@
-"""The contract of the debug flavour: code that can halt in front of any statement, and tells of reads and writes.
+"""The contract of the debug flavour: code that can halt before any statement, and tells of reads and writes.
 
 A *position* inside of a scan is a count: how many statements with a site (`check.sites`) have begun in the scan, the one in
-front of which it stands included; 0 is the seam in front of the scan. As a run is determined by image and journal, a
+front of which it stands included; 0 is the seam before the scan. As a run is determined by image and journal, a
 position is reached again by running the scan again from its beginning: so nothing has to be kept of a scan that is halted
 but its beginning, and a step back is a run to a smaller count. The image of a halted scan is whole: all variables stand in
 it, temporaries and parameters in their frames (no register holds any). `Layout.SCAN` is still that of the scan.
@@ -71,11 +71,11 @@ class Hook(Protocol):
     call `DebugEngine.listen`, `frames`, `interrupt`, nothing else. What it raises ends the scan and comes out of `run`."""
 
     def statement(self, site: int, count: int, depth: int) -> bool:
-        """The statement is to begin, `depth` frames deep (1: a program's body). True halts in front of it."""
+        """The statement is to begin, `depth` frames deep (1: a program's body). True halts before it."""
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """The statement has read, or written, these bytes, of which at least one is listened for. Told after a write,
-        and after or before a read. To halt behind the statement's access: listen to `every` statement, and `interrupt`."""
+        and after or before a read. To halt after the statement's access: listen to `every` statement, and `interrupt`."""
 
 
 class DebugEngine(Engine):
@@ -106,7 +106,7 @@ class DebugEngine(Engine):
     @property
     @abstractmethod
     def count(self) -> int:
-        """Statements that have begun in the scan that is halted (the one it stands in front of included) or ran last."""
+        """Statements that have begun in the scan that is halted (the one it stands before included) or ran last."""
 
     @abstractmethod
     def frames(self) -> tuple[Frame, ...]:

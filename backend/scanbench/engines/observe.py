@@ -83,6 +83,6 @@ MakeObserved = Callable[[Program, bytearray], Observed]
 
 
 def areas_end(layout: Layout) -> int:
-    """The offset behind the last byte of the model's areas."""
+    """The offset after the last byte of the model's areas."""
     ends = (layout.areas[area.name] + area.size for area in layout.model.areas)
     return max(ends, default=Layout.HEADER_SIZE)

@@ -30,7 +30,7 @@ def is_news(view: View, present: Mapping[str, Active], error: ErrorEntry, ref: E
 
 
 class Answers:
-    """The commands for what a program asked, each behind the ones before it."""
+    """The commands for what a program asked, each after the ones before it."""
 
     def __init__(self, view: View) -> None:
         self._view = view

@@ -1,7 +1,7 @@
 """Faults with a shape in time as commands, and what the journal says of them.
 
 `Arm` gives a fault its number. From then on each step is a `Generate` or `Recover` that names it; `schedule.py` says
-which is due. What can be told of a lane behind a step follows from `Arm` and that step alone, so that a journal may
+which is due. What can be told of a lane after a step follows from `Arm` and that step alone, so that a journal may
 forget the steps between.
 """
 
@@ -91,9 +91,9 @@ class Lane:
     by: str
     errors: tuple[ErrorRef, ...]
     offset: int
-    """Scans behind the first lane."""
+    """Scans after the first lane."""
     due: int | None
-    """In front of which scan its next step comes; None: it waits for its start, or for somebody who recovers it."""
+    """Before which scan its next step comes; None: it waits for its start, or for somebody who recovers it."""
     step: int = 0
     """The next one; even steps raise, odd ones recover."""
     present: tuple[str, ...] = ()
@@ -113,7 +113,7 @@ class Lane:
 
     @property
     def since(self) -> int:
-        """In front of which scan it raised what is present; of one that is to be recovered in time."""
+        """Before which scan it raised what is present; of one that is to be recovered in time."""
         return 0 if self.due is None else self.due - lasts(self.wanted.shape, self.step - 1)
 
     @property
@@ -268,7 +268,7 @@ def _armed(command: Arm, entry: Entry) -> Iterator[tuple[str, Lane]]:
 
 
 def _changed(lane: Lane, command: Command, scan: int) -> Lane:
-    """A lane behind a command, its own or somebody else's."""
+    """A lane after a command, its own or somebody else's."""
     match command:
         case Disarm(ids=ids):
             taken = ids is None or lane.number in ids
@@ -294,7 +294,7 @@ def _own(lane: Lane, ids: Sequence[str]) -> bool:
 
 
 def _behind(lane: Lane, step: int, scan: int, present: tuple[str, ...] = ()) -> Lane:
-    """Behind a step in front of `scan`."""
+    """After a step before `scan`."""
     last = step_count(lane.wanted.shape)
     more = last is None or step + 1 < last
     due = scan + lasts(lane.wanted.shape, step) if more else None
@@ -302,7 +302,7 @@ def _behind(lane: Lane, step: int, scan: int, present: tuple[str, ...] = ()) -> 
 
 
 def _without(lane: Lane, ids: Sequence[str]) -> Lane:
-    """Somebody else recovered these errors, or raised them anew: they are not this lane's any more."""
+    """Somebody else recovered these errors, or raised them again: they are not this lane's any more."""
     left = tuple(id for id in lane.present if id not in ids)
     if left == lane.present:
         return lane

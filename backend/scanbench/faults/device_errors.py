@@ -7,7 +7,7 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorAddress, ErrorDetail, ErrorEntry, Location, Model, Severity
 
 _SPECIAL_UNIT = 0x8000
-"""With this bit a unit number is that of a Special I/O Unit; those come behind the 16 CPU Bus Units."""
+"""With this bit a unit number is that of a Special I/O Unit; those come after the 16 CPU Bus Units."""
 
 
 def by_code(model: Model, code: int, severity: Severity) -> ErrorEntry | None:

@@ -24,7 +24,7 @@ class RowReaction:
     found: Reaction | None = None
     message: str = ""
     scan: int = 0
-    """In front of which the error was raised."""
+    """Before which the error was raised."""
 
     @property
     def verdict(self) -> Verdict | None:
@@ -201,7 +201,7 @@ class History:
 
     def set_reaction(self, id: str, version: int, scan: int, found: Reaction | str) -> ErrorRow | None:
         """What was found out of the reaction to an error that was raised before `scan` on this version, or why nothing
-        was; the changed row, or None when it was raised anew in the meantime."""
+        was; the changed row, or None when it was raised again in the meantime."""
         row = self._raised_by_version.get(version, {}).get(id)
         if row is None or row.reaction is None or row.reaction.scan != scan:
             return None

@@ -68,7 +68,7 @@ class Active:
 class Generate(Command):
     """Raises errors, all or none of them.
 
-    What somebody raises at the simulator must not be present, unless `again` says that it is raised anew, with these
+    What somebody raises at the simulator must not be present, unless `again` says that it is raised again, with these
     details. What the PLC finds takes other details; numbers that the program raises stand side by side, as on the device.
     """
 
@@ -164,7 +164,7 @@ class Recover(Command):
 
 
 def present_after(present: Mapping[str, Active], command: Command, scan: int) -> Mapping[str, Active]:
-    """The errors that are present behind a command; the same mapping where it does not touch them."""
+    """The errors that are present after a command; the same mapping where it does not touch them."""
     if isinstance(command, Generate):
         changed = dict(present)
         for ref in command.errors:

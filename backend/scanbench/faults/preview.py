@@ -77,7 +77,7 @@ def _own(view: View, errors: Iterable[ErrorRef]) -> Iterator[Part]:
 
 
 def _replaced(view: View, errors: Iterable[ErrorRef]) -> Iterator[Part]:
-    """Details of errors that are raised anew: the old ones go."""
+    """Details of errors that are raised again: the old ones go."""
     choices = present_choices(view, view.derived(ACTIVE))
     for ref in errors:
         for one in choices.get(ref.id, ()):
@@ -101,7 +101,7 @@ def _time(view: View) -> Iterator[Part]:
 
 
 class _Looked:
-    """The memory before and behind the plan, and what was told of it."""
+    """The memory before and after the plan, and what was told of it."""
 
     def __init__(self, view: View, patches: Iterable[Patch]) -> None:
         self._layout, self._before = view.program.layout, view.memory

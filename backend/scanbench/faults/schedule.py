@@ -73,7 +73,7 @@ class Schedule:
         return self._waits
 
     def observed(self, loaded: Loaded) -> Observed:
-        """Made anew: whoever wants it soon has `make` prepare it."""
+        """Made again: whoever wants it soon has `make` prepare it."""
         return self._make(loaded.statements, loaded.memory)
 
     def _look(self, lanes: Lanes, view: View) -> None:

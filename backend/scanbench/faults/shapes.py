@@ -12,7 +12,7 @@ from scanbench.faults.reference import ErrorRef
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """When it begins: now; in front of `scan`; when `condition` holds after a scan; when the statement at `file`:`line` was reached."""
+    """When it begins: now; before `scan`; when `condition` holds after a scan; when the statement at `file`:`line` was reached."""
 
     kind: Literal["now", "scan", "condition", "line"] = "now"
     scan: int | None = None

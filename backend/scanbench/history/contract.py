@@ -22,16 +22,16 @@ class Writer(Public):
     """program: a statement. command: somebody, or an armed fault. plc: the PLC itself (system words, plant, input refresh).
     start: nobody wrote it since the first scan that is kept."""
     scan: int
-    """In which it was written; a command's is the scan in front of which it was entered."""
+    """In which it was written; a command's is the scan before which it was entered."""
     count: int
-    """Of a statement: the position in front of it (`engines.debug`); else 0."""
+    """Of a statement: the position before it (`engines.debug`); else 0."""
     place: Place | None
     author: str
     """Of a command."""
     text: str
     """For people: `Main.st:31, Main.belt[3]: speed := LIMIT(...)`, `Write by Ada: Main.level := 7`."""
     value: Hex
-    """What stands there behind the write."""
+    """What stands there after the write."""
     shown: str
     """The value as text."""
 
@@ -93,7 +93,7 @@ class Divergence(Public):
     last: int
     """The scans that were compared."""
     scan: int | None
-    """The first scan behind which anything is another; None: the same, as far as both go."""
+    """The first scan after which anything is another; None: the same, as far as both go."""
     cause: Literal["", "command", "program", "start"]
     """command: something was entered in one of them only, or something else. program: another program runs. start: they are
     different where they begin."""
@@ -102,7 +102,7 @@ class Divergence(Public):
     place: Place | None
     """The statement that wrote the first variable which is another, where that is known."""
     changes: Changes | None
-    """All variables that are another behind that scan."""
+    """All variables that are another after that scan."""
     entries: tuple[BetweenEntry, ...]
     """Commands that only one of them has, up to there and a few behind."""
     marks: tuple[tuple[int, int], ...] = ()
@@ -112,10 +112,10 @@ class Divergence(Public):
 @dataclass(frozen=True, slots=True)
 class RerunChange:
     """What is to be another this time: an error that was raised, raised earlier or later, or another one instead of it, or not
-    at all. What else was entered is entered again as commands, planned anew."""
+    at all. What else was entered is entered again as commands, planned again."""
 
     scan: int
-    """In front of which the error was raised, in the original."""
+    """Before which the error was raised, in the original."""
     error: str
     """Its id."""
     by: int = 0
@@ -124,4 +124,4 @@ class RerunChange:
     """Id of another error; empty: the same."""
     leave_out: bool = False
     behind: int = 0
-    """So many scans it goes on behind the end of the original."""
+    """So many scans it goes on after the end of the original."""

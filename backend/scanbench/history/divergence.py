@@ -25,17 +25,17 @@ from scanbench.verify.contract import Place
 MAX_MARKS = 200
 MAX_ENTRIES = 200
 BEHIND = 100
-"""Scans behind the difference whose entries are told too."""
+"""Scans after the difference whose entries are told too."""
 _CHUNK = 10_000
 """Scans between two looks at both."""
 _LOOKS = 50_000
-"""Scans behind the first difference that are looked at; more of them only in part."""
+"""Scans after the first difference that are looked at; more of them only in part."""
 OnProgress = Callable[[int, int], None]
 """Scans that are done, and of how many; may raise to end it."""
 
 
 def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = lambda done, of: None) -> Divergence:
-    """The first scan behind which anything is another. `Unreadable` says why they cannot be compared.
+    """The first scan after which anything is another. `Unreadable` says why they cannot be compared.
 
     Both have been followed; their programs must not share memory.
     """
@@ -54,8 +54,8 @@ def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = 
 
 
 class _Side:
-    """One run, on its way through the scans. It stands in the seam, behind a scan and in front of the entries of the next,
-    or behind those."""
+    """One run, on its way through the scans. It stands in the seam, after a scan and before the entries of the next,
+    or after those."""
 
     def __init__(self, reader: RunReader, first: int) -> None:
         self.reader = reader
@@ -73,12 +73,12 @@ class _Side:
         return self.resource.memory
 
     def behind(self, scan: int) -> None:
-        """Behind the scan before this one, with nothing entered in front of it."""
+        """After the scan before this one, with nothing entered before it."""
         done = len(self.resource.journal)
         replay(self.resource, self.entries[done : bisect_left(self.entries, scan, key=attrgetter("scan"))], scan)
 
     def front(self) -> None:
-        """Enters what was entered in front of the scan that is next."""
+        """Enters what was entered before the scan that is next."""
         resource, scan = self.resource, self.resource.header.scan
         for entry in self.entries[len(resource.journal) :]:
             if entry.scan != scan or entry.step or isinstance(entry.command, Trapped):
@@ -111,7 +111,7 @@ class _Comparison:
         self._comparers: dict[tuple[int, int], Comparer] = {}
 
     def run(self) -> Divergence:
-        """Both, up to where they part, and the stretches behind that."""
+        """Both, up to where they part, and the stretches after that."""
         same_model(self._one.resource.program, self._other.resource.program)
         if self._differ():
             scan, begun = self._first, True
@@ -151,7 +151,7 @@ class _Comparison:
     # ---- to where they part ---------------------------------------------------------------------------------------
 
     def _part(self) -> int | None:
-        """The first scan behind which they differ; both stand behind it."""
+        """The first scan after which they differ; both stand after it."""
         places = sorted({each.entry.scan for each in self._only})
         now = self._first
         while now < self._end:
@@ -199,7 +199,7 @@ class _Comparison:
         self._one.behind(scan)
         self._other.behind(scan)
 
-    # ---- behind that ----------------------------------------------------------------------------------------------
+    # ---- after that ----------------------------------------------------------------------------------------------
 
     def _stretches(self, now: int, marks: list[tuple[int, int]]) -> list[tuple[int, int]]:
         """In which scans they differ."""

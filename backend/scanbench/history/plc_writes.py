@@ -51,7 +51,7 @@ def _may_be_written(program: Program, symbol: Symbol) -> bool:
 
 
 def _in_stretch(reader: RunReader, path: str, first: int, end: int) -> int | None:
-    """The last of these scans behind which it is another than in front of it."""
+    """The last of these scans after which it is another than before it."""
     timeline = reader.timeline
     last: int | None = None
     before: int | None = None

@@ -1,7 +1,7 @@
 """A run once more with one thing another: an error earlier, later, another one, or none.
 
 The new run file has the original up to the first thing that is another. From there on the PLC runs: what somebody entered
-is entered again as a command, planned anew, at its scan; what the PLC, the program, an armed fault or a disturbance entered
+is entered again as a command, planned again, at its scan; what the PLC, the program, an armed fault or a disturbance entered
 by itself comes by itself, or not.
 """
 
@@ -34,7 +34,7 @@ OnProgress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class Rerun:
-    """What came of it: the file ends in front of `scan`."""
+    """What came of it: the file ends before `scan`."""
 
     scan: int
     refused: tuple[str, ...]

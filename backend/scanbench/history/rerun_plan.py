@@ -19,7 +19,7 @@ _ITSELF = ("PLC", "program")
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """A command, and in front of which scan it is entered."""
+    """A command, and before which scan it is entered."""
 
     scan: int
     command: Command
@@ -29,7 +29,7 @@ class Given:
 
 @dataclass(frozen=True, slots=True)
 class Planned:
-    """The original ends in front of `scan`, with its first `cut` entries."""
+    """The original ends before `scan`, with its first `cut` entries."""
 
     scan: int
     cut: int
@@ -136,7 +136,7 @@ def _errors(refs: Sequence[ErrorRef], change: RerunChange) -> tuple[ErrorRef, ..
 
 
 def _began(entry: Entry, raised: Entry, change: RerunChange) -> int:
-    """In front of which scan an armed fault is to begin, so that this error comes so much earlier or later."""
+    """Before which scan an armed fault is to begin, so that this error comes so much earlier or later."""
     command = entry.command
     assert isinstance(command, Arm)
     index = [each.id for each in command.wanted.errors].index(change.error)
@@ -153,7 +153,7 @@ def _began(entry: Entry, raised: Entry, change: RerunChange) -> int:
 
 
 def _moved_to(entry: Entry, raised: Entry, change: RerunChange) -> int:
-    """In front of which scan the command is entered."""
+    """Before which scan the command is entered."""
     if not isinstance(entry.command, Arm):
         return entry.scan + change.by
     return min(entry.scan, _began(entry, raised, change)) if change.by else entry.scan
@@ -162,7 +162,7 @@ def _moved_to(entry: Entry, raised: Entry, change: RerunChange) -> int:
 def _rest(
     entries: Sequence[Entry], cut: int, index: int, raised: int, change: RerunChange
 ) -> tuple[list[Given], list[str]]:  # fmt: skip
-    """Everything behind the cut that somebody entered, but for what is changed itself."""
+    """Everything after the cut that somebody entered, but for what is changed itself."""
     given, notes, goes_with = [], [], True
     for at in range(cut, len(entries)):
         entry, command = entries[at], entries[at].command
@@ -170,7 +170,7 @@ def _rest(
             continue
         scan = entry.scan
         if at > raised and isinstance(command, Generate) and change.error in _ids(command):
-            goes_with = False  # it was raised anew: what follows is about that
+            goes_with = False  # it was raised again: what follows is about that
         if at > raised and goes_with and isinstance(command, Recover) and change.error in (command.ids or ()):
             moved = _recovery(command, change)
             if moved is None:

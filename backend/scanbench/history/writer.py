@@ -190,7 +190,7 @@ def _statement(reader: RunReader, path: str, here: Position, prober: MakeProbed 
 
 
 def _by_statement(reader: RunReader, noted: Noted, symbol: Symbol, value: bytes) -> Writer:
-    """Where it stands: the state in front of it is shown then."""
+    """Where it stands: the state before it is shown then."""
     timeline = reader.timeline
     scan, count = in_front(timeline, noted)
     reader.goto(scan, count)

@@ -10,7 +10,7 @@ from scanbench.wire.host import Ack
 
 
 class Answers:
-    """What was entered is told in front of the answer, and state behind it."""
+    """What was entered is told before the answer, and state after it."""
 
     def __init__(self, timeline: Timeline, services: Services, link: Link, on_answer: Callable[[], None]) -> None:
         self._timeline, self._services, self._link, self._on_answer = timeline, services, link, on_answer

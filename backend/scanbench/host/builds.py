@@ -18,7 +18,7 @@ from scanbench.wire import host as protocol
 
 log = logging.getLogger("scanbench")
 LOST_LIMIT = 500
-"""So many variables are named that would begin anew."""
+"""So many variables are named that would begin again."""
 
 
 class Builds:

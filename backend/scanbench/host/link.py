@@ -58,7 +58,7 @@ class Link:
     ) -> None:
         """Reads and writes until the other end closes or `close` is called.
 
-        `on_tick` comes `tick_ns()` after the last time; that is asked anew whenever something was read or posted.
+        `on_tick` comes `tick_ns()` after the last time; that is asked again whenever something was read or posted.
         """
         splitter = Splitter()
         last_tick = monotonic_ns()

@@ -91,7 +91,7 @@ class Loop:
         if self.timeline.past:
             return PAST
         header = self.resource.header
-        if header.halted_by_trap:  # it starts anew with the new one
+        if header.halted_by_trap:  # it starts again with the new one
             return ""
         refusal = may(header.mode, Right.TRANSFER if header.mode is Mode.PROGRAM else Right.CHANGE)
         return refusal.message if refusal is not None else why_not_carried(present, self.live_program, new)

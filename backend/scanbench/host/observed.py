@@ -8,7 +8,7 @@ from scanbench.wire.host import Submit
 
 @dataclass(frozen=True, slots=True)
 class Observable:
-    """The program of a version as it was checked anew, with observed code; the command that waits for it follows."""
+    """The program of a version as it was checked again, with observed code; the command that waits for it follows."""
 
     version: int
     program: Program

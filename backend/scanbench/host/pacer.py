@@ -54,7 +54,7 @@ class Pacer:
 
     @property
     def end(self) -> int | None:
-        """In front of which scan the run ends; None when it was not asked to."""
+        """Before which scan the run ends; None when it was not asked to."""
         return self._end if self._left is not None else None
 
     def lose(self, why: str) -> None:

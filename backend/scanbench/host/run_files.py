@@ -64,7 +64,7 @@ def discard_all(directory: Path, instance: int) -> None:
 
 
 def sources_of(path: Path, models: Mapping[str, Model]) -> Sources:
-    """What the program that runs at the end of a run file is made of, numbered behind every other in it; `Unreadable`
+    """What the program that runs at the end of a run file is made of, numbered after every other in it; `Unreadable`
     when it is no run file, or cannot be used here."""
     return sources_and_damage(path, models)[0]
 

@@ -154,7 +154,7 @@ class Services:
         if state != self._last_state and (now >= self._state_at or self._differs(state)):
             self._last_state, self._state_at = state, now + COUNTING_NS
             self._link.post(state)
-        self._tell_standing()  # behind it: what is present is read as the past's or as live, by the state
+        self._tell_standing()  # after it: what is present is read as the past's or as live, by the state
         if now >= self._counted_at:
             self._counted_at = now + COUNTING_NS
             self._diagnose()
@@ -233,7 +233,7 @@ class Services:
         self._link.post(protocol.Watching(message.ref, tuple(items[id] for id in asked)))
 
     def _plan_watch(self, again: "list[int] | dict[int, str] | tuple[int, ...]") -> tuple[WatchItem, ...]:
-        """Makes the gather plan anew; values of the ids in `again` are sent even if they did not change."""
+        """Makes the gather plan again; values of the ids in `again` are sent even if they did not change."""
         items: list[WatchItem] = []
         symbols: dict[int, Symbol] = {}
         for id, path in self._watched.items():

@@ -24,7 +24,7 @@ class Reactions:
         self._closing: set[asyncio.Task[None]] = set()
 
     async def find(self, run: Path, error: str, scan: int, end: int, window: int) -> Reaction | str:
-        """The reaction to an error that was raised in front of `scan`, or why it cannot be said."""
+        """The reaction to an error that was raised before `scan`, or why it cannot be said."""
         if self._job is None:
             self._job = Job(self._cache, self._on_message, self._on_end)
         if self._idle is not None:

@@ -50,7 +50,7 @@ def checked_program(sources: Sources, model: Model) -> Program:
 def reaction_in(
     path: Path, error: str, scan: int, end: int, window: int, program_of: ProgramOf, make: MakeObserved
 ) -> Reaction:
-    """The reaction to an error that was raised in front of `scan` in the run of this file; `Unreadable` when there is none.
+    """The reaction to an error that was raised before `scan` in the run of this file; `Unreadable` when there is none.
 
     The file may be replaced by a smaller one while it is read: then the new one is read.
     """

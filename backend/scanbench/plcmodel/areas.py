@@ -41,7 +41,7 @@ class Area:
     radix: Literal[10, 16] = 10
     """Of that number: `X1F` is the 32nd bit."""
     bit_radix: Literal[10, 16] = 10
-    """Of the bit behind the dot: `A402.12`, `D100.F`."""
+    """Of the bit after the dot: `A402.12`, `D100.F`."""
     bare_bits: bool = False
     """A bit may be written without a prefix: `0.00`."""
     source: str = ""

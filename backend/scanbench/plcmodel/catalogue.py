@@ -34,7 +34,7 @@ class ErrorAddress:
 
     `Bit` switches `location` on. `BitArray` switches on bit n%16 of the word n/16 after `location`; n is the value.
     The others write the value (BCD: its decimal digits) into the field. A text fills `maximum` bytes from `location` on,
-    the first character in the low byte, with zeros behind it.
+    the first character in the low byte, with zeros after it.
     """
 
     id: str

@@ -28,7 +28,7 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
   offset is below `Layout.HEADER_SIZE`, or byte offset + `Place.offset` + the largest distance of the indices with fixed
   bounds + the size of `Place.type` is beyond the end: for a slot that of the image, for `Place.reference` that of the
   state (`Layout.state_size`), as what stands in frames between calls is no business of a program. With an index of
-  computed bounds the place that was found must lie in there too. Behind a reference nothing is known of alignment.
+  computed bounds the place that was found must lie in there too. After a reference nothing is known of alignment.
 - A BOOL in a whole byte is written as 0 or 1, and read as bit 0.
 - A string value longer than the capacity of its target is cut. Only the length and the characters are written.
 - A trap ends the scan at once; what was written before it stays.

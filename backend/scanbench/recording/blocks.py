@@ -3,12 +3,12 @@
 ABOUT      first: JSON of `About`
 PROGRAM    u32 version, digest (64 characters), the sources as they were given; before whatever needs the program
 ENTRY      an entry of the journal, as the codec packs it
-KEYFRAME   u32 program version, the state before `scan`; the entries in front of it in the file are in it
+KEYFRAME   u32 program version, the state before `scan`; the entries before it in the file are in it
 DELTA      the same, xor the state of the last keyframe before it
 MARK       nothing: only its scan, the last that is known to have been reached; or how the PLC is driven from there on (its
            speed, whether it is paused, ...), as its keeper gave it
 
-Entries in front of the first keyframe are what is left of a part that was dropped: nobody can go back there, but forces
+Entries before the first keyframe are what is left of a part that was dropped: nobody can go back there, but forces
 and errors that still hold were entered there.
 """
 

@@ -57,6 +57,6 @@ class Checkpoints:
     def _since(self, resource: Resource) -> tuple[int, int]:
         """Time in scans and scans since the last checkpoint."""
         measured = resource.measured
-        if measured is not self._measured:  # another program: it is measured anew
+        if measured is not self._measured:  # another program: it is measured again
             return measured.busy_ns, measured.scans
         return measured.busy_ns - self._busy_ns, measured.scans - self._scans

@@ -1,4 +1,4 @@
-"""The bytes of a run file: blocks with checksums, one behind the other. What they mean is `recording.py`'s.
+"""The bytes of a run file: blocks with checksums, one after the other. What they mean is `recording.py`'s.
 
     0   14 bytes  "scanbench run\\n"
     14  u16       format version, 1
@@ -6,7 +6,7 @@
 
 A block, little endian:
 
-    0   4 bytes   F5 'R' 'B' 0A, so that the next good block is found behind damage
+    0   4 bytes   F5 'R' 'B' 0A, so that the next good block is found after damage
     4   u8        kind, see `Kind`
     5   u8        packing of the payload: 0 as it is, 1 Zstandard
     6   u16       0
@@ -43,7 +43,7 @@ _CHUNK = 1 << 20
 LARGEST = 1 << 26
 """Bytes of a payload once unpacked, where nobody knows better: a file from elsewhere must not fill the memory."""
 _SEARCH = 1 << 28
-"""Bytes that are looked at for blocks behind damage, ..."""
+"""Bytes that are looked at for blocks after damage, ..."""
 _LOOK = 1 << 12
 """... where each place that might be one counts at least so much."""
 
@@ -109,13 +109,13 @@ class Damage:
 class RunFile:
     """A run file open for reading, or for reading and appending.
 
-    One thread appends. Others may read in front of an `end` that they were told.
+    One thread appends. Others may read before an `end` that they were told.
     """
 
     def __init__(self, path: Path, fd: int, end: int) -> None:
         self.path, self.fd = path, fd
         self.end = end
-        """Behind the last block that is no trailing mark."""
+        """After the last block that is no trailing mark."""
         self.damage: Damage | None = None
         """What `scan_blocks` came upon."""
         self._marked: int | None = None
@@ -149,7 +149,7 @@ class RunFile:
         os.close(self.fd)
 
     def append(self, kind: Kind, scan: int, payload: bytes) -> Block:
-        """Writes a block behind all others. On `OSError` the file is as it was."""
+        """Writes a block after all others. On `OSError` the file is as it was."""
         packing = 0
         if len(payload) >= _WORTH_PACKING:
             payload, packing = self._packer.compress(payload), _PACKED
@@ -215,7 +215,7 @@ class RunFile:
             offset = block.end
 
     def scan_blocks(self) -> Iterator[Block]:
-        """Every good block behind `end`, in the beginning all of them, each with a right checksum; `end` moves behind them,
+        """Every good block behind `end`, in the beginning all of them, each with a right checksum; `end` moves after them,
         `damage` says why they end."""
         size = os.fstat(self.fd).st_size
         offset, block = self.end, None
@@ -232,7 +232,7 @@ class RunFile:
             self.end, self._marked = block.offset, block.scan
 
     def cut(self, offset: int, aside: Path | None) -> None:
-        """Ends the file at `offset`; what was behind it is moved to `aside`."""
+        """Ends the file at `offset`; what was after it is moved to `aside`."""
         if aside is not None:
             size = os.fstat(self.fd).st_size
             with aside.open("wb") as file:

@@ -61,8 +61,8 @@ def run_headless(
     """Runs `scans` scans from a cold start in MONITOR mode.
 
     A command (n, c) is entered in the seam before scan n, counting from 0; several for one seam in the order given.
-    n == `scans` is the seam behind the last scan; what is later does not come to pass. While the program is stopped (a fatal
-    error, mode PROGRAM) scans pass without it; the `agenda` enters what is due in front of the commands for a seam. A trap ends the run at once, and so does the first scan after which `until`
+    n == `scans` is the seam after the last scan; what is later does not come to pass. While the program is stopped (a fatal
+    error, mode PROGRAM) scans pass without it; the `agenda` enters what is due before the commands for a seam. A trap ends the run at once, and so does the first scan after which `until`
     holds, a condition for the program that the run begins with.
 
     A `recording` that stands at the cold start gets all of it, with checkpoints on the way, and is left open; `entries`

@@ -38,14 +38,14 @@ class Moment:
         resource.measured = self.measured
 
     def standing(self) -> Standing:
-        """The seam in front of its scan."""
+        """The seam before its scan."""
         state = self.state if self.inside is None else self.inside.begin
         size = self.loaded.program.layout.state_size
         return Standing(self.scan, front(self.journal, self.scan), self.loaded.version, bytes(state[:size]))
 
 
 def seam(journal: Journal, scan: int, inside: bool) -> int:
-    """How many entries lead to the seam in front of a scan; `inside`: to where the scan began that ran there last."""
+    """How many entries lead to the seam before a scan; `inside`: to where the scan began that ran there last."""
     end = bisect_right(journal, scan, key=attrgetter("scan"))
     if inside:
         anew = end

@@ -10,7 +10,7 @@ from scanbench.runtime.trap import Trapped
 
 
 def run_on(resource: Resource, live: Moment, until: int) -> Stop:
-    """Runs a resource that stands in the past of `live` on, to the seam in front of scan `until`; see `Timeline.go_on`."""
+    """Runs a resource that stands in the past of `live` on, to the seam before scan `until`; see `Timeline.go_on`."""
     loaded = resource.loaded
     while True:
         following = _enter_front(resource, live.journal)
@@ -37,7 +37,7 @@ def _following(resource: Resource, journal: Journal) -> Entry | None:
 
 
 def _enter_front(resource: Resource, journal: Journal) -> Entry | None:
-    """Enters what was entered in front of the scan that is next; what comes behind that."""
+    """Enters what was entered before the scan that is next; what comes after that."""
     now = resource.header.scan
     while (entry := _following(resource, journal)) is not None:
         if resource.begun or entry.scan != now or entry.step or isinstance(entry.command, Trapped):

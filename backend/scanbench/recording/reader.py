@@ -76,8 +76,8 @@ class RunReader:
     # ---- the file -------------------------------------------------------------------------------------------------
 
     def follow(self, until: int | None = None) -> bool:
-        """Reads on; scans in front of `until` are over, or all that the file knows of. False when it is another file than
-        before, so that whoever stands in it begins anew. `Unreadable`."""
+        """Reads on; scans before `until` are over, or all that the file knows of. False when it is another file than
+        before, so that whoever stands in it begins again. `Unreadable`."""
         try:
             with self.reading():
                 new, same = self._read_on()
@@ -158,12 +158,12 @@ class RunReader:
 
     @property
     def end(self) -> int:
-        """The scan in front of which it ends."""
+        """The scan before which it ends."""
         return self._end
 
     @property
     def over(self) -> int:
-        """Scans in front of this one are over. One that a run-time error ended is, though time stands."""
+        """Scans before this one are over. One that a run-time error ended is, though time stands."""
         return self._end + _trapped(self.entries[self.front(self._end) :])
 
     def front(self, scan: int) -> int:
@@ -171,7 +171,7 @@ class RunReader:
         return bisect_left(self.entries, scan, key=_SCAN)
 
     def versions(self) -> list[int]:
-        """The program that runs in front of each entry, and behind the last one."""
+        """The program that runs before each entry, and after the last one."""
         first = self.recording.checkpoints[0]
         version, found = first.version, []
         for index, entry in enumerate(self.entries):
@@ -242,7 +242,7 @@ class RunReader:
             replay(resource, self.entries[len(resource.journal) : entries], scan)
 
     def at(self, scan: int, entries: int | None = None) -> Resource:
-        """A PLC in front of a scan, when so many entries are all that was entered, else all up to this scan. `Unreadable`."""
+        """A PLC before a scan, when so many entries are all that was entered, else all up to this scan. `Unreadable`."""
         count = bisect_right(self.entries, scan, key=_SCAN) if entries is None else entries
         resource = self.stand(self.before(scan, count))
         self.replay(resource, scan, count)
@@ -256,13 +256,13 @@ class RunReader:
         return self._timeline
 
     def goto(self, scan: int, count: int = 0) -> None:
-        """The timeline stands in front of a scan, or at a statement inside of it. `Unreadable`."""
+        """The timeline stands before a scan, or at a statement inside of it. `Unreadable`."""
         refusal = self.timeline.goto(scan, count)
         if isinstance(refusal, Refusal):
             raise Unreadable(refusal.message)
 
     def copy(self, to: Path, entries: int, scan: int, by: str) -> None:
-        """A new run file that ends in front of `scan`, with so many entries of the journal. `Unreadable`; `OSError`."""
+        """A new run file that ends before `scan`, with so many entries of the journal. `Unreadable`; `OSError`."""
         resource = self.at(scan, entries)
         self._timeline = None  # it stood on the same memory
         failed: list[Exception] = []
@@ -274,7 +274,7 @@ class RunReader:
 
 
 def _trapped(entries: Sequence[Entry]) -> bool:
-    """Whether a run-time error stops the program behind these entries, which are all of one scan."""
+    """Whether a run-time error stops the program after these entries, which are all of one scan."""
     trapped = False
     for entry in entries:
         if isinstance(entry.command, Trapped) or entry.plan.starts_anew:

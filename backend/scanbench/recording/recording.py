@@ -99,7 +99,7 @@ class _Thinning:
 
 
 class Replaced(RunFileError):
-    """Another file has taken the place of the one that is read, a smaller one mostly, or it is gone: open it anew."""
+    """Another file has taken the place of the one that is read, a smaller one mostly, or it is gone: open it again."""
 
 
 class Recording:
@@ -425,7 +425,7 @@ class Recording:
                 if (block := made.rewritten.moved(each.block)) and (base := made.rewritten.moved(each.base))
             ]
             moved = made.rewritten.moved(key.block) if key is not None else None
-            if self.driven:  # it may have been said in front of the cut
+            if self.driven:  # it may have been said before the cut
                 new.append(Kind.MARK, self.last_scan, self.driven)
             new.mark(self.last_scan)
             os.replace(new.path, old.path)

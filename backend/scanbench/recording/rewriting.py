@@ -1,4 +1,4 @@
-"""A run file written anew with some of its blocks: thinned, cut off at the front, or copied up to a scan."""
+"""A run file written again with some of its blocks: thinned, cut off at the front, or copied up to a scan."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -19,9 +19,9 @@ class Rewritten:
     tail: int
     """From this byte on all blocks of the source follow each other in the new file too."""
     upto: int
-    """Bytes of the source that it stands for; what was appended behind them is still to be copied."""
+    """Bytes of the source that it stands for; what was appended after them is still to be copied."""
     blocks: dict[int, Block] = field(default_factory=dict)
-    """Where keyframes and deltas in front of the tail are now, by their old offsets."""
+    """Where keyframes and deltas before the tail are now, by their old offsets."""
 
     def follow(self, end: int) -> None:
         """Copies what was appended to the source meanwhile, up to the byte `end`."""
@@ -43,7 +43,7 @@ class Rewritten:
 
 
 def rewrite(source: RunFile, end: int, path: Path, about: bytes, keep: Callable[[Block, int], bool]) -> Rewritten:
-    """Copies the blocks up to the byte `end` that `keep(block, entries in front of it)` wants, behind a new ABOUT. Any thread."""
+    """Copies the blocks up to the byte `end` that `keep(block, entries before it)` wants, after a new ABOUT. Any thread."""
     made = Rewritten(source, RunFile.create(path), end, end)
     try:
         made.file.append(Kind.ABOUT, 0, about)

@@ -50,7 +50,7 @@ class Seen:
 
 @dataclass(frozen=True, slots=True)
 class Smaller:
-    """A smaller file, and what is not in it: of the entries in front of `cut` only `roots` are left."""
+    """A smaller file, and what is not in it: of the entries before `cut` only `roots` are left."""
 
     rewritten: Rewritten
     about: About
@@ -94,7 +94,7 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
 
 
 def _roots(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
-    """Which of the entries in front of the cut stay."""
+    """Which of the entries before the cut stay."""
     blocks = (block for block in file.walk(cut.block.offset) if block.kind is Kind.ENTRY)
     return journal_roots([codec.unpack(file.payload(block)) for block in blocks], codec.folds)
 
@@ -110,7 +110,7 @@ class Standing:
 
 
 def write_copy(seen: Seen, path: Path, standing: Standing) -> None:
-    """A new run file that ends with this state, and has in front of it what led there; `OSError`, `RunFileError`."""
+    """A new run file that ends with this state, and has before it what led there; `OSError`, `RunFileError`."""
     refuse_existing(path)
 
     def keep(block: Block, in_front: int) -> bool:

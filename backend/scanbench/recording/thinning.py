@@ -13,7 +13,7 @@ FRESH = 8
 
 @dataclass(frozen=True, slots=True)
 class Checkpoint:
-    """The state before `scan`, behind the first `entries` entries of the file."""
+    """The state before `scan`, after the first `entries` entries of the file."""
 
     scan: int
     entries: int
@@ -30,7 +30,7 @@ class Checkpoint:
 
 @dataclass(frozen=True, slots=True)
 class Thinning:
-    """What has to go: checkpoints one by one, and everything in front of `cut`."""
+    """What has to go: checkpoints one by one, and everything before `cut`."""
 
     dropped: frozenset[int]
     """Offsets of checkpoints."""
@@ -80,7 +80,7 @@ def _thin_once(left: Sequence[Checkpoint], most: int) -> list[Checkpoint]:
 def _place_of_cut(
     checkpoints: Sequence[Checkpoint], dropped: Set[int], excess: int, excess_entries: int
 ) -> Checkpoint | None:
-    """The first keyframe with enough in front of it besides what is dropped anyway; else the last one, unless it is the first."""
+    """The first keyframe with enough before it besides what is dropped anyway; else the last one, unless it is the first."""
     begin, thinned = checkpoints[0], 0
     last = None
     for each in checkpoints:

@@ -68,7 +68,7 @@ class Timeline:
     ) -> "Timeline":  # fmt: skip
         """Goes on with a run file, at scan `until` or at the last scan that it knows of, whichever is later.
 
-        `RunFileError` when it cannot be used, with what to do. Behind damage only what the file itself knows counts.
+        `RunFileError` when it cannot be used, with what to do. After damage only what the file itself knows counts.
         """
         recording = Recording.open(path, codec, limit)
         try:
@@ -230,7 +230,7 @@ class Timeline:
     # ---- the past -------------------------------------------------------------------------------------------------
 
     def goto(self, scan: int, count: int = 0) -> Refusal | None:
-        """Shows the state in which `scan` begins, with all that was entered in front of it; with a count, where its statement
+        """Shows the state in which `scan` begins, with all that was entered before it; with a count, where its statement
         of this count is next (`engines.debug`)."""
         return self._visit(scan, stay=True, count=count)
 
@@ -264,7 +264,7 @@ class Timeline:
             self._live, self._whole = None, True
 
     def copy(self, path: Path, scan: int | None, by: str, on_done: Callable[[Refusal | None], None]) -> None:
-        """A new run file that ends in front of `scan`, or where the PLC stands now: for a branch, a clone, an export.
+        """A new run file that ends before `scan`, or where the PLC stands now: for a branch, a clone, an export.
 
         All that it takes of the PLC is taken now; it is written in another thread, where `on_done` is called when that is
         done. When it is refused at once, `on_done` is called at once.
@@ -288,8 +288,8 @@ class Timeline:
             done(error)
 
     def go_on(self, until: int) -> Stop:
-        """Runs what is shown of the past on, with the resource's hook, to the seam in front of scan `until`, at most to that
-        in front of the PLC's next scan. With `until` behind that and the PLC in the middle of it, the hook has to halt there.
+        """Runs what is shown of the past on, with the resource's hook, to the seam before scan `until`, at most to that
+        before the PLC's next scan. With `until` after that and the PLC in the middle of it, the hook has to halt there.
 
         HALTED: the hook halted it; INTERRUPTED: it stands somewhere on the way, perhaps as another program runs from here on.
         """
@@ -355,12 +355,12 @@ class Timeline:
         return None
 
     def _replay(self, entries: Sequence[Entry], scan: int) -> None:
-        """From where the resource stands to the seam in front of a scan, with nobody listening."""
+        """From where the resource stands to the seam before a scan, with nobody listening."""
         with self.resource.listening.instead(None):
             replay(self.resource, entries, scan)
 
     def _enter(self, scan: int, count: int) -> bool:
-        """From the seam in front of a scan to its statement of this count."""
+        """From the seam before a scan to its statement of this count."""
         with self.resource.listening.instead(HaltAt(count), Listen(count=count)):
             while (stop := self.go_on(scan + 1)).reason is Reason.INTERRUPTED:
                 pass

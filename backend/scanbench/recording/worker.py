@@ -13,7 +13,7 @@ log = logging.getLogger("scanbench")
 
 
 class Worker:
-    """Jobs one behind the other, and a sync now and then. The thread begins when there is something to do first."""
+    """Jobs one after the other, and a sync now and then. The thread begins when there is something to do first."""
 
     def __init__(self, name: str, sync: Callable[[], None]) -> None:
         self._name, self._sync = name, sync

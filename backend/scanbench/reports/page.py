@@ -39,7 +39,7 @@ class Page:
         return escape(self.plain(word, **values))
 
     def document(self, about: str, parts: Iterable[str], look: Literal["paper", "screen"] = "paper") -> str:
-        """The whole file: `about` stands in its title, behind what it is; `parts` are HTML."""
+        """The whole file: `about` stands in its title, after what it is; `parts` are HTML."""
         style = files("scanbench.reports").joinpath("page.css").read_text("utf-8")
         mark = "" if look == "paper" else f' class="{look}"'
         return (

@@ -21,7 +21,7 @@ _JAPANESE = (
     (re.compile(r"; the program is stopped$"), "（プログラム停止）"),
 )
 _MOST_LINES = 8
-"""Of one round of a fault: several errors, one behind the other, and their recoveries."""
+"""Of one round of a fault: several errors, one after the other, and their recoveries."""
 _FEWEST_ROUNDS = 3
 
 
@@ -88,7 +88,7 @@ def in_names(errors: Mapping[str, ErrorEntry], text: str, language: Language) ->
 
 
 def folded(lines: Sequence[RecordLine]) -> list[FoldedLine]:
-    """Rounds of a fault that comes and goes, one behind the other, as one line each: a log is read by people."""
+    """Rounds of a fault that comes and goes, one after the other, as one line each: a log is read by people."""
     found: list[FoldedLine] = []
     at = 0
     while at < len(lines):

@@ -30,7 +30,7 @@ class SweepResult:
     model: str
     window: int
     states: tuple[tuple[str, int], ...]
-    """Name, and the scan in front of which errors were raised."""
+    """Name, and the scan before which errors were raised."""
     errors: tuple[ErrorEntry, ...]
     cells: tuple[Cell, ...]
     """For each error all states, in these orders."""

@@ -33,7 +33,7 @@ def to_csv(
     report: Report, formats: Mapping[str, Format] | None = None, shown: Sequence[str] | None = None
 ) -> Iterator[str]:
     """The text, piece by piece. `formats` by the names of columns; `shown`: only these columns, in this order, inputs
-    behind outputs."""
+    after outputs."""
     fields = _fields(report, formats or {}, shown)
     out = io.StringIO()
     write = csv.writer(out, lineterminator="\r\n").writerow

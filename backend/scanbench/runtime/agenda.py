@@ -18,7 +18,7 @@ class Waits:
     """What the run has to come back for."""
 
     scan: int | None = None
-    """Something is due in front of this one, which is to come."""
+    """Something is due before this one, which is to come."""
     conditions: tuple[Condition, ...] = ()
     sites: frozenset[int] = frozenset()
     """Statements (`check.sites`): while there are any, the run comes back after every scan."""
@@ -43,7 +43,7 @@ class Agenda(Protocol):
     """All that it knows is in the journal of the view."""
 
     def due(self, view: View, met: Met) -> Command | None:
-        """What is to be entered in this seam; asked again behind each entry, until there is nothing more."""
+        """What is to be entered in this seam; asked again after each entry, until there is nothing more."""
 
     def refused(self, command: Command, refusal: Refusal) -> Command:
         """What is entered instead of a command that was refused: it must not be refused, nor the same be due again."""

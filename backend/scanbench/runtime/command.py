@@ -44,7 +44,7 @@ off and on: what is retained is kept, forces are gone."""
 
 @dataclass(frozen=True, slots=True)
 class Restarted:
-    """The program begins anew, with memory as this kind of restart leaves it. Scans and virtual time go on."""
+    """The program begins again, with memory as this kind of restart leaves it. Scans and virtual time go on."""
 
     kind: RestartKind
 
@@ -55,7 +55,7 @@ class Swapped:
 
     version: int
     fresh: bool
-    """The new program starts as behind a warm restart: it keeps what it has in common and retains, and no errors."""
+    """The new program starts as after a warm restart: it keeps what it has in common and retains, and no errors."""
     released: tuple[str, ...] = ()
     """Forces that the new program has no place for, as they were entered."""
 
@@ -99,12 +99,12 @@ class Plan:
 
     @property
     def cuts(self) -> bool:
-        """Whether what ran before cannot be compared with what runs behind it: a restart, another program."""
+        """Whether what ran before cannot be compared with what runs after it: a restart, another program."""
         return isinstance(self.effect, Restarted | Swapped)
 
     @property
     def starts_anew(self) -> bool:
-        """Whether the program begins as if nothing had happened: no error is present behind it, no trap stops it."""
+        """Whether the program begins as if nothing had happened: no error is present after it, no trap stops it."""
         return isinstance(self.effect, Restarted) or (isinstance(self.effect, Swapped) and self.effect.fresh)
 
 
@@ -145,8 +145,8 @@ class Entry:
     command: Command
     plan: Plan
     step: int = 0
-    """Applied in front of the statement of this count of the scan (`engines.debug`); 0 is the seam; one more than there are:
-    behind the last one. Such a plan has patches only, and may reach temporaries behind `Layout.state_size`."""
+    """Applied before the statement of this count of the scan (`engines.debug`); 0 is the seam; one more than there are:
+    after the last one. Such a plan has patches only, and may reach temporaries behind `Layout.state_size`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -169,7 +169,7 @@ class ForcedValue(Public):
     value: str
     author: str
     scan: int
-    """In front of which scan it was entered."""
+    """Before which scan it was entered."""
     before: str
     """What the variable was when the program was about to begin: from the inputs, or from the scan before."""
     after_program: str
@@ -277,4 +277,4 @@ FORCED: Fold[Mapping[str, Force]] = Fold({}, _step)
 """The forces that hold, by path in upper case."""
 
 FORCED_SINCE: Fold[Mapping[str, int]] = Fold({}, _since)
-"""In front of which scan each of them was entered last."""
+"""Before which scan each of them was entered last."""

@@ -20,13 +20,13 @@ class HeldByte:
     mask: int
     value: int
     since: int
-    """In front of which scan that began."""
+    """Before which scan that began."""
     came: int = 0
     """Bits that somebody wrote meanwhile ..."""
     real: int = 0
     """... so: they count when it is freed."""
     at: int = -1
-    """In front of which scan they were written last."""
+    """Before which scan they were written last."""
 
 
 Helds = Mapping[str, HeldByte]

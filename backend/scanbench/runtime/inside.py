@@ -1,6 +1,6 @@
 """Inside of a scan: where a debugger halts it, and where what was entered there is entered again.
 
-What was entered inside of a scan stands in the journal behind all that was entered in front of it. So the entries with a
+What was entered inside of a scan stands in the journal after all that was entered before it. So the entries with a
 `step` at the end of a journal, of the scan that is next, are those that have to be entered when it runs (again): nothing
 else has to be kept of a scan that is halted but the image with which it began.
 """
@@ -30,7 +30,7 @@ class Inside:
 
 
 def front(journal: Sequence[Entry], scan: int, end: int | None = None) -> int:
-    """How many of the first `end` entries were made in front of the scan, or before: not those inside of it."""
+    """How many of the first `end` entries were made before the scan, or before: not those inside of it."""
     count = len(journal) if end is None else end
     while count and journal[count - 1].step and journal[count - 1].scan == scan:
         count -= 1
@@ -58,14 +58,14 @@ class Onlooker(Hook, Protocol):
     """Who listens to the debug flavour, and is told when something enters in between."""
 
     def entered(self) -> None:
-        """Something was entered in front of the statement that is to begin."""
+        """Something was entered before the statement that is to begin."""
 
 
 class Insider(Protocol):
-    """Enters something by itself behind a statement of one scan, having seen what that wrote."""
+    """Enters something by itself after a statement of one scan, having seen what that wrote."""
 
     def wrote(self, site: int, offset: int, size: int, bits: int) -> bool:
-        """The statement has written these bytes, or these bits of one; whether something is to be entered behind it."""
+        """The statement has written these bytes, or these bits of one; whether something is to be entered after it."""
 
     def due(self) -> tuple[Command, ...]:
         """What is to be entered, now that the next statement is to begin, or the scan is over."""
@@ -107,7 +107,7 @@ class Passage:
         self._tell(0)
 
     def end(self, ended: bool, whole: bool, lenient: bool) -> None:
-        """Behind `engine.run`; `ended`: the scan went to its end, `whole`: not by a trap. What was entered behind its last
+        """After `engine.run`; `ended`: the scan went to its end, `whole`: not by a trap. What was entered after its last
         statement is entered now; what could not be entered is an error then, or is entered now, too."""
         self.engine.hook(None)
         self._inner = None
@@ -197,7 +197,7 @@ def _listens(listen: Listen, offset: int, size: int, kind: int) -> bool:
 
 
 class HaltAt:
-    """A hook that halts in front of the statement of one count."""
+    """A hook that halts before the statement of one count."""
 
     def __init__(self, count: int) -> None:
         self._count = count

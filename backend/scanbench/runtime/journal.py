@@ -27,14 +27,14 @@ class Fold(Generic[T]):
     step: "Callable[[T, Entry], T]"
 
     def over(self, entries: "Iterable[Entry]") -> T:
-        """The state behind these entries."""
+        """The state after these entries."""
         state = self.begin
         for entry in entries:
             state = self.step(state, entry)
         return state
 
     def states(self, entries: "Iterable[Entry]") -> Iterator[T]:
-        """The state behind each of these entries."""
+        """The state after each of these entries."""
         state = self.begin
         for entry in entries:
             state = self.step(state, entry)
@@ -61,12 +61,12 @@ class Journal(Sequence["Entry"]):
     def __init__(self, entries: "Iterable[Entry]" = ()) -> None:
         self._entries: list[Entry] = []
         self._derived: dict[object, list[tuple[int, object]]] = {}
-        """Of each fold that was asked for: how many entries were behind it and its state, now and then, and at last."""
+        """Of each fold that was asked for: how many entries were after it and its state, now and then, and at last."""
         for entry in entries:
             self.append(entry)
 
     def append(self, entry: "Entry") -> None:
-        """Adds an entry behind all others."""
+        """Adds an entry after all others."""
         if self._entries and entry.scan < self._entries[-1].scan:
             raise ValueError(f"scan {entry.scan} is before the journal's last, {self._entries[-1].scan}")
         self._entries.append(entry)
@@ -85,7 +85,7 @@ class Journal(Sequence["Entry"]):
         return self._entries[index]
 
     def derived(self, fold: Fold[T]) -> T:
-        """The state of `fold` behind the last entry: only entries that came since it was last asked for are stepped."""
+        """The state of `fold` after the last entry: only entries that came since it was last asked for are stepped."""
         known = self._derived.setdefault(fold, [(0, fold.begin)])
         done, last = known[-1]
         if done == len(self._entries):

@@ -32,7 +32,7 @@ class Within:
     """Enters one of them."""
     insider: Insider | None
     enter: Callable[[Command, int], None]
-    """Enters what the insider wants in front of the statement of this count."""
+    """Enters what the insider wants before the statement of this count."""
 
 
 class Listening:
@@ -151,7 +151,7 @@ class Listening:
         return True
 
     def trap_taken_back(self) -> bool:
-        """Whether somebody wants to halt in front of the trap, and the scan is halted there now."""
+        """Whether somebody wants to halt before the trap, and the scan is halted there now."""
         return self._on_trap is not None and self._on_trap()
 
     # ---- running --------------------------------------------------------------------------------------------------
@@ -166,7 +166,7 @@ class Listening:
 
     def run(self, scans: int, pace: Pace | None, within: Within, halts: bool, lenient: bool) -> Stop:
         """Runs the debug flavour. `halts`: the hook may halt it. `lenient`: what is to be entered inside of the scan, and
-        cannot be as that does not get so far, is entered behind it."""
+        cannot be as that does not get so far, is entered after it."""
         passage, header = self._passing(), Header(self._loaded.memory)
         scan = header.scan
         passage.begin(self._hook, halts, self._listen, within.waiting, within.again, within.insider, within.enter)

@@ -104,7 +104,7 @@ def _forced_values(view: View) -> tuple[Patch, ...]:
 
 
 def _inputs(view: View, area: str) -> list[tuple[int, int]]:
-    """The words of an area that are inputs: (first, behind the last), ascending."""
+    """The words of an area that are inputs: (first, after the last), ascending."""
     maps = (each for each in view.model.iec_maps if each.letter == "I" and each.area.name == area)
     return sorted((each.first, each.first + each.words) for each in maps)
 

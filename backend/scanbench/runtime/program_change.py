@@ -29,7 +29,7 @@ class ProgramChange(Command):
             return loaded
         fresh = view.header.halted_by_trap
         image, change = swapped(view.program, view.memory, loaded.program, fresh)
-        image[Layout.MODE] = Mode.MONITOR  # what is forced stays so, also where nobody may force it anew
+        image[Layout.MODE] = Mode.MONITOR  # what is forced stays so, also where nobody may force it again
         patches, released = _forces(view, View(loaded.program, image))
         report = f"program version {self.version}: {_WARM if fresh else change}"
         if released:

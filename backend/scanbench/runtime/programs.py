@@ -22,7 +22,7 @@ class Loaded:
     memory: bytearray
     engine: Engine
     fresh: Program | None = None
-    """The same program checked anew, where later checks may have changed the statements of `program`."""
+    """The same program checked again, where later checks may have changed the statements of `program`."""
     renew: Callable[[], Program] | None = None
     """Makes `fresh`, always the same, where that may be needed; in any thread."""
     debug: DebugEngine | None = None

@@ -57,7 +57,7 @@ class Resource:
         self._finishing = False
         self.lenient = False
         """The run need not go as it did when it was recorded: what was entered inside of a scan that does not get so far now
-        is entered behind it."""
+        is entered after it."""
         loaded.memory[:] = fresh_image(loaded.program, mode)
         if state is not None:
             loaded.memory[: len(state)] = state
@@ -133,7 +133,7 @@ class Resource:
         what is due; reason CONDITION says that `until` holds. With a `hook` it may be halted inside of a scan; then the
         next run goes on with that scan, from its beginning."""
         ran = self.runnable
-        self._attend(NONE_MET)  # nothing, unless this run was gone on with behind what was due
+        self._attend(NONE_MET)  # nothing, unless this run was gone on with after what was due
         if ran and not self.runnable:
             return Stop(Reason.INTERRUPTED)
         waits, first, listening = self.waiting.waits(self.view), self.header.scan, self.listening
@@ -184,7 +184,7 @@ class Resource:
         self._attend(NONE_MET)
 
     def settle(self) -> None:
-        """Behind a recovery: answers what the last scan asked for, and does what is due, unless all that was entered
+        """After a recovery: answers what the last scan asked for, and does what is due, unless all that was entered
         before all ended."""
         last = self.journal[-1].scan if self.journal else -1
         met = NONE_MET
@@ -282,7 +282,7 @@ class Resource:
     def enter_planned(
         self, command: Command, plan: Plan, must: bool = False, step: int = 0, scan: int | None = None
     ) -> Entry | Refusal:
-        """Enters a command by its plan, in front of statement `step` of the scan that runs, or in the seam. What cannot be
+        """Enters a command by its plan, before statement `step` of the scan that runs, or in the seam. What cannot be
         kept is refused, unless it `must` be."""
         entry = Entry(self.header.scan if scan is None else scan, wall_time(), command, plan, step)
         if self.recorder is not None:
@@ -305,7 +305,7 @@ class Resource:
         self.measured = Measured()
 
     def _notice(self, trap: int = 0) -> None:
-        """Enters what the PLC notices behind a scan: its trap, what the program asked for, the error of the trap."""
+        """Enters what the PLC notices after a scan: its trap, what the program asked for, the error of the trap."""
         info = trap_info(self.program, trap, self.header.scan) if trap else None
         if info is not None:
             self._enter(Trapped("PLC", info), must=True)

@@ -1,8 +1,8 @@
-"""Restart: the program begins anew. Scans and virtual time go on, and so does the PLC's clock.
+"""Restart: the program begins again. Scans and virtual time go on, and so does the PLC's clock.
 
 What is retained (warm, power): VAR RETAIN, words of retained areas that the program may write, the device's error log;
 while the model's hold bit is on, words of the other areas too. Input words stay, as the device would read them again at
-once. All other words of the system begin anew, so no error is present behind a restart.
+once. All other words of the system begin again, so no error is present after a restart.
 """
 
 from collections.abc import Iterator
@@ -43,7 +43,7 @@ class Restart(Command):
 
 
 def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
-    """The image behind a restart of this kind."""
+    """The image after a restart of this kind."""
     image = fresh_image(program, Mode.MONITOR)
     go_on(program, memory, image)
     if kind == "cold":
@@ -63,7 +63,7 @@ def retained(program: Program, memory: Image) -> list[tuple[int, int]]:
 
 
 def go_on(program: Program, memory: Image, image: bytearray) -> None:
-    """What no restart begins anew: the count of scans, time, and RUN mode. The next scan is the program's first."""
+    """What no restart begins again: the count of scans, time, and RUN mode. The next scan is the program's first."""
     for offset in (Layout.CLOCK, Layout.SCAN, Layout.BUDGET_LIMIT, Layout.EPOCH, Layout.ORIGIN):
         image[offset : offset + 8] = memory[offset : offset + 8]
     image[Layout.MODE] = Mode.RUN if Header(memory).mode is Mode.RUN else Mode.MONITOR

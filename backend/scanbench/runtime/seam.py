@@ -7,7 +7,7 @@ from scanbench.runtime.swap import swapped
 
 
 def apply(loaded: Loaded, programs: Programs, plan: Plan) -> Loaded:
-    """Applies a plan whole; the program that runs behind it."""
+    """Applies a plan whole; the program that runs after it."""
     if plan.effect is not None:
         loaded = _take_effect(loaded, programs, plan.effect)
     for patch in plan.patches:

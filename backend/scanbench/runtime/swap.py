@@ -12,7 +12,7 @@ _U64 = (1 << 64) - 1
 def swapped(
     old: Program, memory: bytes | bytearray | memoryview, new: Program, fresh: bool
 ) -> tuple[bytearray, Change]:
-    """The image of `new` behind the image of `old`; `fresh` as in `Swapped`. Time goes on, however long a scan is now."""
+    """The image of `new` after the image of `old`; `fresh` as in `Swapped`. Time goes on, however long a scan is now."""
     image = fresh_image(new, Mode.MONITOR)
     change = migrate(old, memory, new, image)
     header = Header(image)

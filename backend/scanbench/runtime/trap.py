@@ -28,7 +28,7 @@ class TrapInfo:
 
 @dataclass(frozen=True, slots=True)
 class Trapped(Command):
-    """Entered by the resource itself, behind the part of `scan` that ran before the trap; replay runs into it again."""
+    """Entered by the resource itself, after the part of `scan` that ran before the trap; replay runs into it again."""
 
     info: TrapInfo
 

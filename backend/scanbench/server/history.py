@@ -292,6 +292,6 @@ class RunHistory:
 
 
 def _until(session: Session) -> int:
-    """Scans in front of this one are over; 0 where nobody knows but the run file."""
+    """Scans before this one are over; 0 where nobody knows but the run file."""
     state = session.state
     return max(state.scan, state.live_scan) if session.instance.on else 0

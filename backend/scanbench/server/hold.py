@@ -1,4 +1,4 @@
-"""A PLC that waits for its verification: behind each scan, or in front of each statement."""
+"""A PLC that waits for its verification: after each scan, or before each statement."""
 
 from collections.abc import Callable
 
@@ -19,7 +19,7 @@ class Hold:
         """Whether the PLC ran when it was made to wait."""
 
     async def hold(self, author: str) -> None:
-        """The PLC waits from now on: behind its scan, or in front of its next statement. `Refused`."""
+        """The PLC waits from now on: after its scan, or before its next statement. `Refused`."""
         if self._session.state.state == "running":
             ack = await self._session.drive("pause", None, author)
             if not ack.ok:

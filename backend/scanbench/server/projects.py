@@ -106,7 +106,7 @@ class Projects:
     ) -> BuildOutcome:
         """Builds what is saved, and swaps it into the project's PLCs, or those named, each in its seam. One at a time.
 
-        Not `agreed`: where variables of a running PLC would begin anew, or one cannot be changed, it only says so.
+        Not `agreed`: where variables of a running PLC would begin again, or one cannot be changed, it only says so.
         """
         async with self._building.setdefault(id, asyncio.Lock()):
             outcome = await self._build(id, author, agreed, instances)
@@ -159,7 +159,7 @@ class Projects:
         return BuildOutcome(all(ack.ok for ack in acks), message, found, await self.get(id), changes)
 
     async def _runs_already(self, project: ProjectRow, sources: Mapping[str, str], sessions: Sequence[Session]) -> bool:
-        """Whether a build would change nothing; one that stopped by an error is begun anew by a build."""
+        """Whether a build would change nothing; one that stopped by an error is begun again by a build."""
         if await asyncio.to_thread(self._store.builds.last, project.id) != sources:
             return False
         return all(

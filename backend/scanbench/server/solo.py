@@ -32,7 +32,7 @@ class Solo:
 
     @staticmethod
     async def start(name: str, sources: Sources, model: Model, speed: float, cache: Path | None = None) -> "Solo":
-        """A PLC that stands in front of its first scan; `Refused` says why it cannot. What is built for it is kept in
+        """A PLC that stands before its first scan; `Refused` says why it cannot. What is built for it is kept in
         `cache`; without one it is gone with the PLC."""
         solo = await asyncio.to_thread(Solo._make, name, sources, model, speed, cache)
         try:

@@ -46,7 +46,7 @@ class HistoryVersion(Public):
     raised: int
     """Errors that were raised on it."""
     at: Moment | None
-    """When it was built; None: the project does not know it, as behind a run that was imported."""
+    """When it was built; None: the project does not know it, as after a run that was imported."""
     author: str
 
 

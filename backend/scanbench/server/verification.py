@@ -1,7 +1,7 @@
 """One verification, from the parent: its process, where it stands, and what it is to do next.
 
 The process re-runs the run file beside the PLC, so a free pace costs the PLC nothing. With pace `scan` the PLC waits behind
-each scan, with pace `step` in front of each statement, until both sides were compared and somebody, or `auto`, goes on.
+each scan, with pace `step` before each statement, until both sides were compared and somebody, or `auto`, goes on.
 """
 
 import asyncio
@@ -89,7 +89,7 @@ class Verification:
         self._stepping = 0
         """The statement of the step that is under way; -1: it is the seam; 0: whole scans are."""
         self._until = 0
-        """Scans in front of this one were over as scans were asked for."""
+        """Scans before this one were over as scans were asked for."""
         self._halt = 0
         self.hold = Hold(session, lambda: hand_over(self))
         self._owed = 0
@@ -235,7 +235,7 @@ class Verification:
 
     @property
     def _live_end(self) -> int:
-        """Scans in front of this one are over. One that a run-time error ended is, though time stands."""
+        """Scans before this one are over. One that a run-time error ended is, though time stands."""
         state = self.session.state
         trapped = state.trap is not None and not state.past_by and state.trap.scan == state.scan
         return self._live_scan + (trapped or (self._cut is not None and self._cut.scan == self._live_scan))
@@ -387,7 +387,7 @@ class Verification:
 
     def _verified(self, came: ScansVerified) -> None:
         status = self.status
-        if status.state == "failed":  # what comes behind it may be of another run
+        if status.state == "failed":  # what comes after it may be of another run
             return
         came = self._without_known(came)
         self.rows.add(came)

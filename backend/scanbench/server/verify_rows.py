@@ -50,7 +50,7 @@ class Rows:
     bytes: int = 0
     """Of `kept`."""
     old: dict[int, PackedRow] = field(default_factory=dict)
-    """By index: rows in front of `first` that differ."""
+    """By index: rows before `first` that differ."""
 
     @property
     def count(self) -> int:
@@ -58,7 +58,7 @@ class Rows:
         return self.first + len(self.kept)
 
     def add(self, came: ScansVerified) -> None:
-        """Behind all others."""
+        """After all others."""
         self._learn(came)
         for row in came.rows:
             if row.first is not None:

@@ -16,7 +16,7 @@ log = logging.getLogger("scanbench")
 A = TypeVar("A")
 _WORK = protocol.Build | protocol.RollBack | protocol.Preview | protocol.Copy | protocol.Travel | DebugRequest
 _UNREAD_BYTES = 64 << 20
-"""More than this not read by a process: it is ended, and the next one is told everything anew."""
+"""More than this not read by a process: it is ended, and the next one is told everything again."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -73,7 +73,7 @@ class Errors:
         self._tell(self.rows)
 
     def compare(self, rows: Sequence[ErrorRow], scan: int | None = None) -> None:
-        """Has the reactions found out that are being recorded; of those that began in front of `scan`, if it is given."""
+        """Has the reactions found out that are being recorded; of those that began before `scan`, if it is given."""
         for row in rows:
             reaction = row.reaction
             if reaction is not None and reaction.state == "recording" and scan in (None, reaction.scan):

@@ -14,7 +14,7 @@ _STANDS = ("fatal", "trapped", "stopped", "off", "failed")
 
 @dataclass(frozen=True, slots=True)
 class Raised:
-    """An error that somebody raised, in front of a scan, while a version of the program ran."""
+    """An error that somebody raised, before a scan, while a version of the program ran."""
 
     error: str
     scan: int
@@ -36,7 +36,7 @@ class Reacting:
         self._waiting[raised.error] = raised
 
     def ended(self, scan: int) -> None:
-        """In front of this scan the program began anew, or became another one: all windows end here."""
+        """Before this scan the program began again, or became another one: all windows end here."""
         waiting, self._waiting = self._waiting, {}
         for raised in waiting.values():
             self._ask(raised, scan)

@@ -142,7 +142,7 @@ class Session:
         )
 
     async def travel(self, scan: int | None, author: str, count: int = 0) -> protocol.Ack:
-        """Shows the past to everybody, in front of a statement of the scan if there is a count; or live again."""
+        """Shows the past to everybody, before a statement of the scan if there is a count; or live again."""
         return await self._refusing(
             self.instance.ask(lambda ref: protocol.Travel(ref, scan, author, count), protocol.Ack)
         )

@@ -130,7 +130,7 @@ class WriteBehind:
             del traces[instance]
 
     def _put_back(self, rows: _Rows, lines: _Lines, breakpoints: _Breakpoints, traces: _Traces) -> None:
-        """In front of what has come meanwhile."""
+        """Before what has come meanwhile."""
         for instance, changed in rows.items():
             self._rows[instance] = changed | self._rows.get(instance, {})
         for instance, more in lines.items():

@@ -44,7 +44,7 @@ class Formal:
     path: str
     """`Main.fb1.zone` of `Main.fb1.zone.parts`."""
     rest: str
-    """What the path says behind it: `.parts`."""
+    """What the path says after it: `.parts`."""
     instance: Symbol
     member: Member
 
@@ -248,7 +248,7 @@ def _calls(statements: Iterable[Stmt]) -> Iterator[CallBlock]:
 
 def in_every_run(pou: Pou, call: CallBlock) -> bool:
     """Whether the body of `pou` never ends without this call of this instance: it stands in no branch or loop, nothing
-    leaves before, and neither an index nor a reference picks the instance anew each time."""
+    leaves before, and neither an index nor a reference picks the instance again each time."""
     if not _is_one(call.instance):
         return False
     for stmt in pou.body:

@@ -55,7 +55,7 @@ class Symbol:
     type: Type
     section: str
     offset: int
-    """In the image; behind the last of `slots`, relative to where that refers to."""
+    """In the image; after the last of `slots`, relative to where that refers to."""
     bit: int | None = None
     slots: tuple[int, ...] = ()
     """Offsets of the in-out slots and references on the way: the first in the image, each further one relative to its
@@ -102,7 +102,7 @@ def resolve(program: Program, path: str) -> Symbol:
     first = PART.match(text)
     root = _root(program, first.group(1)) if first and first.group(1) else None
     if root is None and first and (second := PART.match(text, first.end())) and second.group(1):
-        # a program instance behind the name of its resource
+        # a program instance after the name of its resource
         root, first = _root(program, f"{first.group(1)}.{second.group(1)}"), second
     if root is None or first is None:
         return _raw(program, text)

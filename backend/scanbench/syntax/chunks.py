@@ -37,7 +37,7 @@ class Chunk:
 
     @property
     def end(self) -> int:
-        """Position behind it."""
+        """Position after it."""
         return self.start + len(self.source.text)
 
 
@@ -70,7 +70,7 @@ class Chunked:
     def edited(self, text: str) -> list[Chunk] | None:
         """Takes another text, when POUs hold all that is different: their chunks are parsed again, and given.
 
-        None when the text must be read anew; nothing is changed then.
+        None when the text must be read again; nothing is changed then.
         """
         changed = self._inside_one(text) or self._inside_several(text)
         if changed is None:
@@ -184,7 +184,7 @@ def _stretches(tokens: Tokens, length: int) -> list[tuple[int, int, bool]] | Non
 
 
 def _start(tokens: Tokens, first: int) -> int:
-    """Where a POU begins: with its first token, or with what a pragma in front of it says of its in-outs."""
+    """Where a POU begins: with its first token, or with what a pragma before it says of its in-outs."""
     if not tokens.pragmas:
         return tokens.starts[first]
     before = tokens.starts[first - 1] if first else -1

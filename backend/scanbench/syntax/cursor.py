@@ -85,7 +85,7 @@ class Cursor:
         return self.take()
 
     def close(self, text: str, where: str) -> None:
-        """Expects a closing mark that can be missing without harm: reported behind the last token, then gone on."""
+        """Expects a closing mark that can be missing without harm: reported after the last token, then gone on."""
         if self.texts[self.at] == text:
             self.at += 1
             return

@@ -205,7 +205,7 @@ def _without_nested(source: Source, start: int, end: int, problems: list[Problem
 
 
 def _nested_end(text: str, at: int, end: int) -> int:
-    """Position behind the comment or pragma that begins at `at`, or -1."""
+    """Position after the comment or pragma that begins at `at`, or -1."""
     marks, depth = COMMENT_MARKS[text[at]], 0
     for mark in marks.finditer(text, at, end):
         depth += 1 if mark.group() in ("(*", "/*", "{") else -1

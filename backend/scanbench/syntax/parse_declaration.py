@@ -43,7 +43,7 @@ def section(c: Cursor, list_name: str = "", namespace: str = "") -> tree.Variabl
 
 
 def end(c: Cursor, keyword: str, of: str) -> None:
-    """The closing keyword; the `;` behind it may be missing, as vendors allow."""
+    """The closing keyword; the `;` after it may be missing, as vendors allow."""
     if not c.accept(keyword):
         c.report("S003", f"`{keyword}` expected to close the {of}{c.found()}.", c.here())
     c.accept(";")

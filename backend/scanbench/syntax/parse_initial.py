@@ -57,7 +57,7 @@ def _repeated(c: Cursor) -> tuple[tree.Expression | None, tree.Initial]:
 
 
 def _count_follows(c: Cursor) -> bool:
-    """Whether `Name(` repeats a value: only a structure or an array behind it cannot be a call."""
+    """Whether `Name(` repeats a value: only a structure or an array after it cannot be a call."""
     at = c.at
     return c.texts[at + 2] in ("[", "(")
 

@@ -62,7 +62,7 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
 
 
 def _in_out(c: Cursor, first: int) -> str:
-    """What a pragma between the token in front of `first` and the next one says of in-outs."""
+    """What a pragma between the token before `first` and the next one says of in-outs."""
     begin = c.end_of(first - 1) if first else 0
     mine = [each for each in c.in_out_pragmas if begin <= each.start < c.starts[c.at]]
     for each in mine:
@@ -112,7 +112,7 @@ def _modifiers(c: Cursor) -> tuple[str, tuple[str, ...]]:
 def _header(
     c: Cursor, kind: str, name: int
 ) -> tuple[tree.TypeSpec | None, tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
-    """What stands behind the name: result, bases, interfaces, namespaces used."""
+    """What stands after the name: result, bases, interfaces, namespaces used."""
     result: tree.TypeSpec | None = None
     extends: tuple[str, ...] = ()
     implements: tuple[str, ...] = ()
@@ -312,7 +312,7 @@ def _declared(
 
 
 def _joined(first: Body, second: Body) -> Body:
-    """A body goes on behind a method that stands in it."""
+    """A body goes on after a method that stands in it."""
     if not first or not second:
         return first or second
     if isinstance(first, tree.IlBody) and isinstance(second, tree.IlBody):
@@ -323,5 +323,5 @@ def _joined(first: Body, second: Body) -> Body:
 
 
 def with_member(pou: tree.PouDeclaration, members: list[tree.PouDeclaration]) -> tree.PouDeclaration:
-    """A POU with members that stand behind its end, as some exports write them."""
+    """A POU with members that stand after its end, as some exports write them."""
     return replace(pou, methods=(*pou.methods, *members))

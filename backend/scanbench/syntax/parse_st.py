@@ -61,7 +61,7 @@ def _top(c: Cursor, result: tree.File) -> None:
     elif word == "USING":
         c.visible += parse_pou.using_names(c)
     elif word in MEMBERS and result.pous:
-        # exports of vendors write methods and actions behind the POU they belong to
+        # exports of vendors write methods and actions after the POU they belong to
         owner = result.pous[-1]
         result.pous[-1] = with_member(owner, parse_pou.member(c, owner.kind.upper()))
     elif (refused := word or text) in REFUSED:
@@ -122,7 +122,7 @@ def _types(c: Cursor, result: tree.File) -> None:
 
 
 def _skip_type(c: Cursor) -> None:
-    """To behind the declaration; its structure may have members that end in `;`."""
+    """To after the declaration; its structure may have members that end in `;`."""
     while not c.is_("END_TYPE") and not c.ended() and c.texts[c.at] not in TOPS:
         if c.texts[c.take()] == ";" or c.is_("END_VAR"):
             return

@@ -164,7 +164,7 @@ def _condition(c: Cursor, keyword: str) -> tree.Expression:
 
 
 def _reach(c: Cursor, keyword: str) -> bool:
-    """Goes behind the keyword, if it comes before the statement ends."""
+    """Goes after the keyword, if it comes before the statement ends."""
     at = c.at
     while c.texts[at] not in STOPS and c.texts[at] not in STARTS and c.texts[at] not in (";", ":=", keyword):
         at += 1

@@ -1,4 +1,4 @@
-"""Pragmas that mean something: `{in_out 'value'}` in front of a FUNCTION_BLOCK or in its head. All others are comments."""
+"""Pragmas that mean something: `{in_out 'value'}` before a FUNCTION_BLOCK or in its head. All others are comments."""
 
 import re
 from collections.abc import Iterable

@@ -248,7 +248,7 @@ class Variable:
     arguments: tuple["Argument", ...] = ()
     """`inst : FB(a := 1)` of vendors: initial values of an instance."""
     edge: str = ""
-    """R or F: what stands behind an input with R_EDGE or F_EDGE."""
+    """R or F: what stands after an input with R_EDGE or F_EDGE."""
 
 
 @node
@@ -286,7 +286,7 @@ class IlInstruction:
 
     `operator` is in upper case without modifiers: LD ST S R AND OR XOR NOT ADD SUB MUL DIV MOD GT GE EQ NE LE LT JMP
     CAL RET, an input of a standard block (S1 R1 CLK CU CD PV IN PT, with the instance as operand), or the name of a
-    function. `arguments` are those of CAL (behind its operand), or of a function (formal ones, or operands but the first).
+    function. `arguments` are those of CAL (after its operand), or of a function (formal ones, or operands but the first).
     """
 
     label: str | None

@@ -1,4 +1,4 @@
-"""Samples in files: packed pages one behind the other, the oldest first, compressed. No more than a page is in memory."""
+"""Samples in files: packed pages one after the other, the oldest first, compressed. No more than a page is in memory."""
 
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -41,7 +41,7 @@ class Spool:
         self.rows = self.first = self.end = 0
 
     def add(self, page: Samples) -> None:
-        """Takes a page with rows in front of all that are here."""
+        """Takes a page with rows before all that are here."""
         if not len(page):
             return
         self._sizes.append(self._file.write(_packed(page)))

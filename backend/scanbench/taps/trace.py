@@ -43,7 +43,7 @@ class TraceTrigger(Public):
     value: Annotated[str, MaxLen(200)] = ""
     """To compare with; empty for an edge of a BOOL."""
     before: Annotated[int, Ge(0), Le(100)] = 50
-    """Percent of the buffer that is in front of the trigger."""
+    """Percent of the buffer that is before the trigger."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -353,7 +353,7 @@ class Trace:
 
     @property
     def _behind(self) -> int:
-        """Scans that are recorded behind the one of the trigger."""
+        """Scans that are recorded after the one of the trigger."""
         trigger = self.definition.trigger
         assert trigger is not None
         rows = self.definition.rows

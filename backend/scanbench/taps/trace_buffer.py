@@ -69,7 +69,7 @@ class Samples:
 
 
 def unpack_pages(read: Callable[[int], bytes]) -> Iterator[Samples]:
-    """What `pack` made several times, one behind the other; `read` gives so many bytes, fewer at the end. `ValueError`."""
+    """What `pack` made several times, one after the other; `read` gives so many bytes, fewer at the end. `ValueError`."""
     while head := read(_HEAD.size):
         signals, rows, _ = _head(head)
         yield Samples.unpack(head + read(_packed(signals, rows)))[0]
@@ -141,7 +141,7 @@ class TraceBuffer:
 
     @property
     def extent(self) -> tuple[int, int]:
-        """The scan of the oldest row, and that behind the newest one's; 0 and 0 where there is none."""
+        """The scan of the oldest row, and that after the newest one's; 0 and 0 where there is none."""
         parts = self._parts()
         if not parts:
             return 0, 0

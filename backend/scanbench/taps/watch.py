@@ -1,7 +1,7 @@
 """The watch tap: thousands of values, twenty times a second, and only what changed.
 
 Every watched value of up to 8 bytes is a row of one gather: eight byte indices, a shift (bits of an area) and a mask.
-In-outs lead elsewhere at every call, so their rows are set anew before each gather when their slots changed. The bytes
+In-outs lead elsewhere at every call, so their rows are set again before each gather when their slots changed. The bytes
 of a frame are described in `web/socket/frames.py`.
 """
 

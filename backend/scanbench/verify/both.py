@@ -42,7 +42,7 @@ ViewOf = Callable[[Side], View]
 
 @dataclass(slots=True)
 class Ran:
-    """A scan, or the part of one in front of a trap, so that it can be run again."""
+    """A scan, or the part of one before a trap, so that it can be run again."""
 
     view: View
     control: Begin
@@ -72,7 +72,7 @@ class Both:
         self._disturbed = Disturbed()
 
     def goto(self, scan: int) -> None:
-        """In front of what was entered in a scan."""
+        """Before what was entered in a scan."""
         self.control.goto(scan)
         self.monitor.restart(self.control.side)
         self.ran, self.ran_last = [], -1
@@ -124,7 +124,7 @@ class Both:
         return entries[at] if at < len(entries) and entries[at].scan == scan else None
 
     def seam(self, scan: int) -> None:
-        """Enters what was entered in front of the scan; then the monitor stands where the control device stands."""
+        """Enters what was entered before the scan; then the monitor stands where the control device stands."""
         control, monitor = self.control, self.monitor
         disturbed = entered = False
         while (entry := self._next(scan)) is not None and not entry.step and not isinstance(entry.command, Trapped):

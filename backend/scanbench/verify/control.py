@@ -10,7 +10,7 @@ from scanbench.verify.uses import Recorder
 
 
 class Control:
-    """Stands between two scans; what was entered in front of the next one is entered by whoever runs it."""
+    """Stands between two scans; what was entered before the next one is entered by whoever runs it."""
 
     def __init__(self, reader: RunReader) -> None:
         self._reader = reader
@@ -26,7 +26,7 @@ class Control:
         return self._reader.programs.get(version)
 
     def goto(self, scan: int) -> None:
-        """In front of what was entered in a scan."""
+        """Before what was entered in a scan."""
         reader, resource = self._reader, self.side.resource
         checkpoint, end = reader.before(scan), reader.front(scan)
         here = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end

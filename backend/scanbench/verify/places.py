@@ -13,7 +13,7 @@ from scanbench.verify.contract import Place
 Line = Callable[[str, int], str]
 """A line of a source file, trimmed; empty where it is not known."""
 FramesAt = Callable[[int], tuple[Frame, ...]]
-"""The open calls in front of the statement of a count, innermost first."""
+"""The open calls before the statement of a count, innermost first."""
 
 
 @dataclass

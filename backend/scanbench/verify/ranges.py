@@ -45,7 +45,7 @@ class Resolved:
 
 
 def parse_range(text: str) -> Range:
-    """`POU`, `POU:10-20`, `POU:10`, `File.st:10-20`, nothing for the whole scan; `@Main.belt[3]` behind it: this instance only."""
+    """`POU`, `POU:10-20`, `POU:10`, `File.st:10-20`, nothing for the whole scan; `@Main.belt[3]` after it: this instance only."""
     found = _TEXT.fullmatch(text.strip())
     if found is None:
         raise BadRange(f"`{text}` is no range: write POU, POU:10-20 or File.st:10-20")
@@ -139,7 +139,7 @@ def _reaches(sites: Sites, file: str, wanted: Range, lines_of: LinesOf) -> None:
         are = "is" if first == wanted.last else "are"
         raise BadRange(f"{file} has {lines} lines: there {are} no {_asked(wanted)}")
     end = max(_end(sites, pou) for pou in sites.bodies if pou.span.file == file)
-    if not lines and first > end + 1:  # behind END_PROGRAM at best
+    if not lines and first > end + 1:  # after END_PROGRAM at best
         raise BadRange(f"{_asked(wanted)}: the last statement of {file} ends in line {end}")
 
 

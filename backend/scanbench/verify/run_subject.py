@@ -121,7 +121,7 @@ class RunSubject:
             self.run(scan)
 
     def _guarded(self, scan: int, run: Callable[[], T]) -> T:
-        """What goes wrong with the file or the replay, as words. Whoever comes next begins anew."""
+        """What goes wrong with the file or the replay, as words. Whoever comes next begins again."""
         try:
             with self._reader.replaying(scan):
                 return run()

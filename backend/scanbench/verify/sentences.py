@@ -77,7 +77,7 @@ class Teller:
 
 
 def values(leaf: Leaf, control: bytes, monitor: bytes) -> tuple[str, str]:
-    """Both as text, so that they can be told apart: of a string the bytes where they differ behind its end."""
+    """Both as text, so that they can be told apart: of a string the bytes where they differ after its end."""
     one, other = format_value(leaf.type, control), format_value(leaf.type, monitor)
     if one != other:
         return one, other

@@ -45,7 +45,7 @@ class Side:
         return self.resource.state
 
     def begin(self) -> Begin:
-        """In front of a scan, with all that is entered in it."""
+        """Before a scan, with all that is entered in it."""
         self._frames = {}
         journal = self.resource.journal
         return Begin(self.resource.loaded, bytes(self.memory), journal, len(journal))
@@ -85,7 +85,7 @@ class Side:
             resource.restore(loaded, here, journal)
 
     def frames_at(self, begin: Begin, count: int) -> tuple[Frame, ...]:
-        """The open calls in front of the statement of a count; none where it does not get so far."""
+        """The open calls before the statement of a count; none where it does not get so far."""
         if count not in self._frames:
 
             def run() -> tuple[Frame, ...]:

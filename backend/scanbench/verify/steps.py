@@ -25,7 +25,7 @@ class _Stepper:
         self._engine = resource.loaded.debugged()
         self.log: list[Access] = []
         self.before: tuple[Frame, ...] = ()
-        """The open calls in front of the statement before."""
+        """The open calls before the statement before."""
 
     @property
     def listen(self) -> Listen:
@@ -68,11 +68,11 @@ class _Stood:
     marks: dict[int, int] = field(default_factory=dict)
     """What was held, as the first statement began."""
     begin: bytes = b""
-    """The whole image in front of the scan."""
+    """The whole image before the scan."""
 
 
 def step_row(both: Both, scan: int, count: int, view_of: ViewOf) -> Row:
-    """Both stand in front of what was entered in the scan; they go to the statement of this count (0: in front of the scan)."""
+    """Both stand before what was entered in the scan; they go to the statement of this count (0: before the scan)."""
     both.seam(scan)
     control, monitor = both.control.side, both.monitor.side
     view = view_of(control)

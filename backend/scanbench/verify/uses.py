@@ -17,7 +17,7 @@ from scanbench.verify.ranges import Resolved
 
 
 class Access(NamedTuple):
-    """A use. `value`: the bytes as they are behind it; of a bit nothing else of its byte."""
+    """A use. `value`: the bytes as they are after it; of a bit nothing else of its byte."""
 
     site: int
     position: int
@@ -113,7 +113,7 @@ class Recorder:
         self._first = True
         self.passes: list[Pass] = []
         self.on_first: Callable[[], None] | None = None
-        """Called in front of the first statement of the scan: behind input refresh and forces."""
+        """Called before the first statement of the scan: after input refresh and forces."""
         self.on_begin: Callable[[int, Pass], None] | None = None
         """Called when a pass begins, with its number."""
 

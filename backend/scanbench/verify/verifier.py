@@ -21,7 +21,7 @@ class Subject(Protocol):
 
     @property
     def end(self) -> int:
-        """Scans in front of this one can be."""
+        """Scans before this one can be."""
 
     @property
     def columns(self) -> Columns:
@@ -31,7 +31,7 @@ class Subject(Protocol):
         """Lets go of files."""
 
     def follow(self, until: int) -> None:
-        """Scans in front of `until` are over."""
+        """Scans before `until` are over."""
 
     def begin(self, range: Range, limit: int, scan: int | None) -> Begun:
         """From now on this range, with so many uses of a scan. `scan`: the program that runs there says what there is.
@@ -41,7 +41,7 @@ class Subject(Protocol):
         """The rows of a scan that is over; in any order, consecutive ones are fastest."""
 
     def step(self, scan: int, count: int) -> Row:
-        """Both sides in front of the statement of this count, compared there; 0: in front of the scan."""
+        """Both sides before the statement of this count, compared there; 0: before the scan."""
 
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
         """The used-variable record of one pass. `BadEdit` when there is none."""
@@ -79,7 +79,7 @@ class Verifier:
 
     @property
     def end(self) -> int:
-        """Scans in front of this one can be."""
+        """Scans before this one can be."""
         return self._subject.end
 
     @property
@@ -88,7 +88,7 @@ class Verifier:
         return self._subject.columns.all
 
     def follow(self, until: int) -> None:
-        """Scans in front of `until` are over. `Unreadable`."""
+        """Scans before `until` are over. `Unreadable`."""
         self._subject.follow(until)
 
     def begin(self, range: Range, limit: int = DEFAULT_LIMIT, scan: int | None = None) -> Begun:
@@ -105,7 +105,7 @@ class Verifier:
         return self._verified(scan, self._rows(scan))
 
     def step(self, scan: int, count: int) -> ScanVerified:
-        """Both sides in front of the statement of this count, compared there; 0: in front of the scan. `Unreadable`."""
+        """Both sides before the statement of this count, compared there; 0: before the scan. `Unreadable`."""
         return self._verified(scan, (self._subject.step(scan, count),))
 
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:

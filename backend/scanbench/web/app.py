@@ -111,7 +111,7 @@ def _refusing(status: int):  # type: ignore[no-untyped-def]  # the handler's typ
 
 
 async def _on_conflict(_request: Request, error: Exception) -> JSONResponse:
-    """Somebody else saved first; a file that was deleted meanwhile comes as version 0, to be made anew."""
+    """Somebody else saved first; a file that was deleted meanwhile comes as version 0, to be made again."""
     assert isinstance(error, Conflict)
     theirs = error.theirs
     if theirs is None:

@@ -126,7 +126,7 @@ class OnlineChange(Wire):
 
 
 class Build(Wire):
-    """`agreed`: variables may be initialised anew; without it a build that would do so only reports what it would do."""
+    """`agreed`: variables may be initialised again; without it a build that would do so only reports what it would do."""
 
     agreed: bool = False
     instances: list[Id] | None = Field(default=None, description="which PLCs are to be changed; null is all of them")
@@ -148,7 +148,7 @@ RunState = Literal[
     "starting", "running", "paused", "halted", "stopped", "fatal", "trapped", "restarting", "silent", "failed", "past", "off",
     "no_space",
 ]  # fmt: skip
-"""`no_space`: its run cannot be recorded, so it waits, and goes on when there is room. `halted`: by the debugger, inside of a scan or in front of one. `past`: everybody is shown an earlier scan, the PLC waits at its live one. `silent`: its process does not answer. `off`: somebody switched the instance off."""
+"""`no_space`: its run cannot be recorded, so it waits, and goes on when there is room. `halted`: by the debugger, inside of a scan or before one. `past`: everybody is shown an earlier scan, the PLC waits at its live one. `silent`: its process does not answer. `off`: somebody switched the instance off."""
 Mode = Literal["PROGRAM", "MONITOR", "RUN"]
 RestartKind = Literal["cold", "warm", "power"]
 """cold: everything initial; warm: RETAIN variables and retained areas are kept; power: as the model does at power-on."""

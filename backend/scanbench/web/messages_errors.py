@@ -136,7 +136,7 @@ class Recover(Wire):
 
 
 class FaultStart(Wire):
-    """When a fault begins: now, in front of `scan`, when `condition` holds, when the statement at `file`:`line` is reached."""
+    """When a fault begins: now, before `scan`, when `condition` holds, when the statement at `file`:`line` is reached."""
 
     kind: Literal["now", "scan", "condition", "line"] = "now"
     scan: Scan | None = None

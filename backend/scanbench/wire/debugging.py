@@ -18,7 +18,7 @@ StepAction = Literal["continue", "pause", "in", "over", "out", "statement", "sca
 """`in`: to the next statement anywhere, into calls. `over`: to the next statement of this frame or one further out. `out`:
 to the next statement of the frame that called. `statement`: as `in`. `scan`: to the first statement of the next scan.
 `to`: to a line. `back`: to the statement before. `reverse`: back to where a breakpoint would have halted last (or the
-first scan that is kept). `entry`: to the first statement of the next scan, from a run that goes on. Behind the last statement of a scan the next scan begins at
+first scan that is kept). `entry`: to the first statement of the next scan, from a run that goes on. After the last statement of a scan the next scan begins at
 once. Steps from a PLC that runs halt first, at its next statement."""
 
 

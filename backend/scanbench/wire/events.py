@@ -61,7 +61,7 @@ class BuildOutcome:
     project: ProjectRow
     changes: tuple[Change, ...] = ()
     needs_agreement: bool = False
-    """Nothing was swapped yet: variables would begin anew."""
+    """Nothing was swapped yet: variables would begin again."""
 
 
 @dataclass(frozen=True, slots=True)

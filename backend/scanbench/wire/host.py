@@ -49,11 +49,11 @@ class Driven:
     """0 is as fast as possible."""
     paused: bool = False
     end: int | None = None
-    """The run was asked to end in front of this scan."""
+    """The run was asked to end before this scan."""
     condition: str | None = None
     """The run was asked to end when this holds."""
     halted: bool = False
-    """A debugger had halted it: it waits in front of that scan until somebody lets it go on."""
+    """A debugger had halted it: it waits before that scan until somebody lets it go on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -333,7 +333,7 @@ class RunMarks:
 class Previewed:
     """Answer to `Preview`. `lost` is bounded, `lost_count` is not; a `refusal` says why nothing can be swapped now.
 
-    `forgets` counts those that have a value now and begin anew: variables that are new or removed lose nothing.
+    `forgets` counts those that have a value now and begin again: variables that are new or removed lose nothing.
     """
 
     ref: int

@@ -14,7 +14,7 @@ from scanbench.wire.host import Sources
 
 @dataclass(frozen=True, slots=True)
 class FindReaction:
-    """How the program reacted to `error`, which was raised in front of `scan` in the run of this file.
+    """How the program reacted to `error`, which was raised before `scan` in the run of this file.
 
     The file may be that of a PLC that runs: it is opened read-only. Entries up to `end` are known to be in it. Answered with `Reacted`.
     """
@@ -80,7 +80,7 @@ class CellFound:
     error: str
     point: str
     scan: int
-    """In front of which it was raised."""
+    """Before which it was raised."""
     reaction: Reaction | None
     note: str = ""
 

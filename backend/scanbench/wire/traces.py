@@ -11,7 +11,7 @@ from scanbench.taps.trace import State, TraceDefinition, TraceSignal
 
 @dataclass(frozen=True, slots=True)
 class DefineTrace:
-    """A new trace with this id, or another definition for it; what runs is started anew. With `start` it is started in any
+    """A new trace with this id, or another definition for it; what runs is started again. With `start` it is started in any
     case. Answered with `Ack`, behind `TracesAre`."""
 
     ref: int

@@ -28,7 +28,7 @@ class BeginVerify:
     limit: int
     """Uses of variables that are recorded of a scan."""
     until: int
-    """Scans in front of this one are over."""
+    """Scans before this one are over."""
     first: int
     """The first scan that is wanted: columns are named for the program that ran then."""
 
@@ -50,18 +50,18 @@ class BeginTrace:
 @dataclass(frozen=True, slots=True)
 class VerifyScans:
     """Verifies scans `first` to `last`, both included, in order. Answered with `ScansVerified` a few times a second, the last
-    one with `done`. It ends early, behind the scan that runs, when another request waits."""
+    one with `done`. It ends early, after the scan that runs, when another request waits."""
 
     ref: int
     first: int
     last: int
     until: int
-    """Scans in front of this one are over."""
+    """Scans before this one are over."""
 
 
 @dataclass(frozen=True, slots=True)
 class VerifyStep:
-    """Both sides at the statement of this count of a scan (0: the end of the scan in front of it), compared there. Answered
+    """Both sides at the statement of this count of a scan (0: the end of the scan before it), compared there. Answered
     with `ScansVerified`, one row of kind `step`."""
 
     ref: int
@@ -161,7 +161,7 @@ class KeptRows:
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     old: dict[int, PackedRow]
-    """By index: rows in front of `first` that differ."""
+    """By index: rows before `first` that differ."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,7 +201,7 @@ class FindWriter:
     scan: int
     """`NOW`: where the run ends."""
     until: int
-    """Scans in front of this one are over, here and below; 0: those that the file knows of."""
+    """Scans before this one are over, here and below; 0: those that the file knows of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -287,6 +287,6 @@ class RerunDone:
     ref: int
     ok: bool
     scan: int
-    """The file ends in front of it."""
+    """The file ends before it."""
     refused: tuple[str, ...] = ()
     message: str = ""

@@ -2507,7 +2507,7 @@ export interface components {
         };
         /**
          * Build
-         * @description `agreed`: variables may be initialised anew; without it a build that would do so only reports what it would do.
+         * @description `agreed`: variables may be initialised again; without it a build that would do so only reports what it would do.
          */
         Build: {
             /**
@@ -3279,7 +3279,7 @@ export interface components {
         };
         /**
          * FaultStart
-         * @description When a fault begins: now, in front of `scan`, when `condition` holds, when the statement at `file`:`line` is reached.
+         * @description When a fault begins: now, before `scan`, when `condition` holds, when the statement at `file`:`line` is reached.
          */
         FaultStart: {
             /**
@@ -3419,7 +3419,7 @@ export interface components {
             path: string;
             /**
              * Scan
-             * @description In front of which scan it was entered.
+             * @description Before which scan it was entered.
              */
             scan: number;
             /**
@@ -3595,7 +3595,7 @@ export interface components {
         HistoryVersion: {
             /**
              * At
-             * @description When it was built; None: the project does not know it, as behind a run that was imported.
+             * @description When it was built; None: the project does not know it, as after a run that was imported.
              */
             at: string | null;
             /** Author */
@@ -3794,7 +3794,7 @@ export interface components {
             by: "program" | "command" | "plc" | "start";
             /**
              * Count
-             * @description Of a statement: the position in front of it (`engines.debug`); else 0.
+             * @description Of a statement: the position before it (`engines.debug`); else 0.
              */
             count: number;
             /**
@@ -3805,7 +3805,7 @@ export interface components {
             place: components["schemas"]["VerifyPlace"] | null;
             /**
              * Scan
-             * @description In which it was written; a command's is the scan in front of which it was entered.
+             * @description In which it was written; a command's is the scan before which it was entered.
              */
             scan: number;
             /**
@@ -3820,7 +3820,7 @@ export interface components {
             text: string;
             /**
              * Value
-             * @description What stands there behind the write.
+             * @description What stands there after the write.
              */
             value: string;
         };
@@ -4886,7 +4886,7 @@ export interface components {
              * @enum {string}
              */
             cause: "" | "command" | "program" | "start";
-            /** @description All variables that are another behind that scan. */
+            /** @description All variables that are another after that scan. */
             changes: components["schemas"]["RunChanges"] | null;
             /**
              * Compared
@@ -4917,7 +4917,7 @@ export interface components {
             place: components["schemas"]["VerifyPlace"] | null;
             /**
              * Scan
-             * @description The first scan behind which anything is another; None: the same, as far as both go.
+             * @description The first scan after which anything is another; None: the same, as far as both go.
              */
             scan: number | null;
             /**
@@ -5656,7 +5656,7 @@ export interface components {
         TraceTrigger: {
             /**
              * Before
-             * @description Percent of the buffer that is in front of the trigger.
+             * @description Percent of the buffer that is before the trigger.
              * @default 50
              */
             before: number;

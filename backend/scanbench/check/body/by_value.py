@@ -1,7 +1,7 @@
 """In-outs by value: a block copies what was passed into a variable of its own, runs, and copies that back.
 
 The call stores a reference to what is passed in the hidden in-out beside the variable (`types.actual_name`), so its address is
-found once, in front of the call, and what the last execution was bound to stays known. The copies stand in the block's body:
+found once, before the call, and what the last execution was bound to stays known. The copies stand in the block's body:
 whatever calls it, through whatever base or interface, they are made once.
 """
 

@@ -21,7 +21,7 @@ class Current:
     type: Type | None = None
     broken: bool = False
     why: str = field(default="", compare=False)
-    """Why there is nothing, to be told behind "load a value first"."""
+    """Why there is nothing, to be told after "load a value first"."""
 
 
 NOTHING = Current()

@@ -27,7 +27,7 @@ from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk
 
 SUFFIX = "$note"
-"""Of the name of a note, behind that of its variable."""
+"""Of the name of a note, after that of its variable."""
 LOOKS = re.compile(r"\b(?:SUBRANGE_ERROR|ENO?)\b", re.IGNORECASE)
 
 

@@ -37,7 +37,7 @@ def ordered(body: Body, node: tree.Call, name: str, row: Row) -> list[tree.Expre
 
 
 def _position(body: Body, argument: tree.Argument, name: str, row: Row) -> int:
-    """Of a formal argument; those behind the last formal count on: IN3, IN4."""
+    """Of a formal argument; those after the last formal count on: IN3, IN4."""
     assert argument.name is not None
     key = argument.name.upper()
     if key in row.formals:

@@ -1,4 +1,4 @@
-"""The first pass over the trees: which name is declared where, and what a namespace puts in front of it."""
+"""The first pass over the trees: which name is declared where, and what a namespace puts before it."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace

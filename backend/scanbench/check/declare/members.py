@@ -168,7 +168,7 @@ def default_of(declared: Declarations, spec: tree.TypeSpec, made: Type) -> bytes
 
 
 def place_bounds(owner: Record, member: Member) -> None:
-    """The hidden bounds of an ARRAY[*] in-out, right behind its slot: low1, high1, low2, high2, ..."""
+    """The hidden bounds of an ARRAY[*] in-out, right after its slot: low1, high1, low2, high2, ..."""
     assert isinstance(member.type, OpenArray)
     for dimension in range(1, member.type.dimensions + 1):
         for end in ("low", "high"):

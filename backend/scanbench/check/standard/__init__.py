@@ -27,7 +27,7 @@ Real functions on REAL: computed in double by libm (or correctly rounded for sqr
 | LEFT RIGHT | s, LINT n | the first / last n characters; n < 0 is 0, n > length is all |
 | MID | s, LINT n, LINT p | n characters from position p; p < 1 or p > length: empty |
 | CONCAT | s, s | |
-| INSERT | s, s2, LINT p | s2 behind position p of s; p < 0 is 0, p > length is length |
+| INSERT | s, s2, LINT p | s2 after position p of s; p < 0 is 0, p > length is length |
 | DELETE | s, LINT n, LINT p | without n characters from p; p < 1 or p > length or n <= 0: s |
 | REPLACE | s, s2, LINT n, LINT p | n characters from p replaced by s2; p < 1 is taken as 1, p > length+1 as length+1, n < 0 as 0 |
 | FIND | s, s2 -> INT type | position of the first s2 in s, 0 when there is none or s2 is empty |

@@ -58,7 +58,7 @@ class System:
 
 @dataclass(frozen=True, slots=True)
 class _Same:
-    """A model by identity: comparing two catalogues takes longer than making this anew."""
+    """A model by identity: comparing two catalogues takes longer than making this again."""
 
     model: Model
 

@@ -91,7 +91,7 @@ def reset_flags(reset: ResetInstruction) -> str:
 
 
 def ask(form: Form, index: int, number: str, more: str = "0") -> str:
-    """Puts one thing into what the seam reads behind the scan; there must be room. `more` is added to form and index."""
+    """Puts one thing into what the seam reads after the scan; there must be room. `more` is added to form and index."""
     what = f"{form * 256 + index} + {more}"
     return (
         f"__ASKED[__ASKED_COUNT] := ULINT_TO_LWORD(({number}) * 16#1_0000_0000 + {what});\n"
@@ -100,7 +100,7 @@ def ask(form: Form, index: int, number: str, more: str = "0") -> str:
 
 
 def common(model: Model) -> str:
-    """The program that runs in front of all others; '' where nothing is to be done."""
+    """The program that runs before all others; '' where nothing is to be done."""
     words = [(word(number), special) for number, special in enumerate(model.specials) if special.role]
     lines = [line for name, special in words if special.role != "clock" for line in _kept_alive(name, special)]
     lines += _log_reset(model)

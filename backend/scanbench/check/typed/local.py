@@ -56,7 +56,7 @@ class Local:
     pou: Pou | None
     expr: Expr
     traps: tuple[TrapSite, ...]
-    """What may go wrong; numbered behind those of the program."""
+    """What may go wrong; numbered after those of the program."""
     calls: bool
     """Runs code of the program, which leaves its traces in frames: so only on a copy of an image."""
 

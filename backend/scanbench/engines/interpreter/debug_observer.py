@@ -123,7 +123,7 @@ class DebugObserver(ReferenceObserver):
         return marked
 
     def statement(self, node: Stmt, run: Run) -> Run:
-        """The closure of a statement, in front of which it may halt."""
+        """The closure of a statement, before which it may halt."""
         site = self.sites.number(node)
         if site is None:
             return run

@@ -209,7 +209,7 @@ class Places:
 
 
 def _reach(place: Place, size: int) -> int:
-    """Bytes behind the reference that the place may need."""
+    """Bytes that the place may need at the reference's target."""
     reach = place.offset + max(place.type.size, size)
     for index in place.indices:
         if isinstance(index.low, int) and isinstance(index.high, int) and isinstance(index.stride, int):

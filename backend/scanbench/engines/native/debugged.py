@@ -1,4 +1,4 @@
-"""Engines whose machine code can halt in front of any statement, and that code; see `engines.debug`.
+"""Engines whose machine code can halt before any statement, and that code; see `engines.debug`.
 
 The program is one module, compiled quickly, as observed code is; what its statements call is optimised.
 """
@@ -207,7 +207,7 @@ class NativeDebugEngine(NativeEngine, DebugEngine):
             self._fail(error)
 
     def _fail(self, error: BaseException) -> None:
-        """Leaves the scan in front of the next statement, or behind it; `run` raises the error."""
+        """Leaves the scan before the next statement, or after it; `run` raises the error."""
         self._error = error
         self._state.every = 1
         self.interrupt()

@@ -1,4 +1,4 @@
-"""Debugged code: it counts statements and may halt in front of each, keeps a stack of frames, tells of reads and writes.
+"""Debugged code: it counts statements and may halt before each, keeps a stack of frames, tells of reads and writes.
 
 See `engines.debug`. Most of it is in helpers: they are a small module that is optimised, while the program's is not, so that
 debugged code is made quickly. They share `STATE` with the engine.

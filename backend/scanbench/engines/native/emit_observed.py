@@ -28,7 +28,7 @@ STATE_BYTES = 64
 SLOTS = 2 * LIMIT
 """Of the table that finds an entry of the log: the number of the entry plus one, or 0."""
 ENTRIES = 8 + 4 * SLOTS
-"""Where the entries begin in the log, behind u32 entries, u32 reads lost, and the table. An entry: u32 site, offset, mask."""
+"""Where the entries begin in the log, after u32 entries, u32 reads lost, and the table. An entry: u32 site, offset, mask."""
 ENTRY_BYTES = 12
 LOG_BYTES = ENTRIES + ENTRY_BYTES * LIMIT
 

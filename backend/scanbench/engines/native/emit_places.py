@@ -133,7 +133,7 @@ def widened(body: Body, value: Value, type: Elementary) -> str:
 
 
 def reference(body: Body, place: Place, size: int = 0) -> str:
-    """The place as a reference holds it. `size` is what will be taken for granted behind it, if more than the type's."""
+    """The place as a reference holds it. `size` is what will be taken for granted after it, if more than the type's."""
     text = body.text
     if place.slot is not None or place.reference is not None:
         start, bit = _follow(body, place, size)
@@ -185,7 +185,7 @@ def _is_bound(body: Body, place: Place) -> bool:
 
 
 def _reach(place: Place, size: int) -> int:
-    """Bytes behind the reference that the place may need."""
+    """Bytes that the place may need at the reference's target."""
     fixed = sum(
         (index.high - index.low) * index.stride
         for index in place.indices
@@ -195,7 +195,7 @@ def _reach(place: Place, size: int) -> int:
 
 
 def _check_reach(body: Body, start: str, reach: int, place: Place) -> None:
-    """Traps unless so many bytes from there lie in the image, for a reference in its state, behind the header."""
+    """Traps unless so many bytes from there lie in the image, for a reference in its state, after the header."""
     trap = place.null_trap or place.indices[-1].trap
     end = body.unit.image_size if place.reference is None else body.unit.state_size
     room = end - Layout.HEADER_SIZE - reach

@@ -12,7 +12,7 @@ from scanbench.symbols.sites import Sites
 _HEAD = struct.Struct("<II")
 _ENTRY = struct.Struct("<III")
 _PADDING = 8
-"""Behind the map: the code looks at the whole of a variable at once."""
+"""After the map: the code looks at the whole of a variable at once."""
 
 
 class NativeObserver(Observer):

@@ -1,6 +1,6 @@
 """Engines with probes, and their machine code; see `engines.probe`.
 
-Only the modules that the probes stand in are compiled anew, and those that have copies of such a POU inside; the others come
+Only the modules that the probes stand in are compiled again, and those that have copies of such a POU inside; the others come
 from where the run flavour keeps them.
 """
 

@@ -77,7 +77,7 @@ class Disturbed:
     active: bool = False
     """It holds an input."""
     until: int | None = None
-    """In front of this scan it lets go; None: when it is taken back."""
+    """Before this scan it lets go; None: when it is taken back."""
     holding: bool = False
     """What it holds is in the force table: a restart or another program takes it out."""
     missed: str = ""
@@ -180,7 +180,7 @@ def _begun(command: Disturb, entry: Entry) -> Disturbed:
 
 
 def _behind(each: Disturbed, command: Firing, scan: int) -> Disturbed:
-    """Behind what it did in front of this scan, or inside of it."""
+    """After what it did before this scan, or inside of it."""
     tried = replace(each, time=command.time, fired=command.fired)
     match command:
         case Hold():

@@ -1,6 +1,6 @@
 """What a disturbance does when its time has come: commands, each journaled with all that a replay needs.
 
-What is known of a disturbance behind one of these follows from its definition and that one alone, so that a journal may
+What is known of a disturbance after one of these follows from its definition and that one alone, so that a journal may
 forget those between.
 """
 
@@ -69,7 +69,7 @@ class Hold(Firing):
 
     path: str
     until: int | None
-    """In front of this scan they are let go; None: when somebody takes the disturbance back."""
+    """Before this scan they are let go; None: when somebody takes the disturbance back."""
     late: bool
 
     def plan(self, view: View) -> Plan | Refusal:
@@ -108,7 +108,7 @@ class Unhold(Firing):
 
 @dataclass(frozen=True, slots=True)
 class Corrupt(Firing):
-    """A bit turns over of what a statement has just written; entered inside of the scan, in front of the next statement."""
+    """A bit turns over of what a statement has just written; entered inside of the scan, before the next statement."""
 
     site: str
     offset: int

@@ -1,6 +1,6 @@
 """Whether state decides anything: what differs and has not come to anything yet may still do so, or is only stored.
 
-A copy of the error memory, the memory of an edge, what is worked out anew in every scan is no state: what it decides shows at
+A copy of the error memory, the memory of an edge, what is worked out again in every scan is no state: what it decides shows at
 once, in the run itself. State is a latch, a counter, a timer. It decides when it can reach an output, what the PLC does by
 itself, the plant, a variable of VAR_ACCESS, or the start of a task.
 """
@@ -242,7 +242,7 @@ class Deciding:
         return self._is_state(node, leaf) and self._reaches(node)
 
     def _is_state(self, node: Node, leaf: Leaf) -> bool:
-        """Whether it depends on what was before: not where it is worked out anew whenever its body runs, nor a copy."""
+        """Whether it depends on what was before: not where it is worked out again whenever its body runs, nor a copy."""
         if self._reaches(node, itself=True):
             return True
         writers = list(self._users(node, writing=True))

@@ -55,10 +55,10 @@ class Effects:
         """Offsets of words of the model that were named as a whole."""
         self._last: tuple[Words, Words] | None = None
         self.first: int | None = None
-        """The first scan behind which something differed that comes out of the program: an output, and the like."""
+        """The first scan after which something differed that comes out of the program: an output, and the like."""
 
     def compare(self, scan: int, without: Words, value: Words) -> None:
-        """The states behind a scan."""
+        """The states after a scan."""
         self._last = without, value
         buffer = self._buffer
         np.bitwise_xor(without, value, out=buffer)

@@ -99,7 +99,7 @@ class Flows:
         found = list(self._walk(body, frozenset(), leaves))
         if not leaves:
             return tuple(found)
-        # what decides about a RETURN, EXIT or jump decides about what comes behind it
+        # what decides about a RETURN, EXIT or jump decides about what comes after it
         return tuple(
             Flow(each.reads, each.controls | leaves, each.writes, each.call, each.source, each.constant, each.acts)
             for each in found

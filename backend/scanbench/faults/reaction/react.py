@@ -2,7 +2,7 @@
 
 Both begin in one state and get the same commands. Runs are deterministic, so whatever differs outside of error memory is
 the program's doing. What the PLC or the program entered by itself is not given to the run without the error: it finds
-out anew what there is to find.
+out again what there is to find.
 """
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
@@ -40,7 +40,7 @@ _NAMED = 3
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """A PLC in front of a scan, where a comparison begins."""
+    """A PLC before a scan, where a comparison begins."""
 
     version: int
     state: bytes
@@ -48,7 +48,7 @@ class Point:
 
 
 class Given(NamedTuple):
-    """A command from outside that both runs get, and the scan in front of which it was entered."""
+    """A command from outside that both runs get, and the scan before which it was entered."""
 
     scan: int
     entry: Entry
@@ -59,7 +59,7 @@ def react(
 ) -> Reaction | Refusal:
     """The reaction to `error`, one of those that the recorded `generate` raised at this point.
 
-    `following` is what the journal has behind it. The window ends early in front of a change of the program or a restart.
+    `following` is what the journal has after it. The window ends early before a change of the program or a restart.
     Errors that were raised together would hide each other's effects: each is compared as if it had been raised alone.
     """
     command = generate.command
@@ -96,7 +96,7 @@ def run_twin(
     point: Point, commands: Sequence[tuple[int, Command | Entry]], window: int, programs: Programs,
     limit: int,
 ) -> Twin:  # fmt: skip
-    """Runs from a point with these commands, each in front of a scan; what is refused now is left out. An entry is one that
+    """Runs from a point with these commands, each before a scan; what is refused now is left out. An entry is one that
     was made inside of its scan."""
     resource = _standing(point, programs)
     observer = _observer(programs, point)
@@ -177,7 +177,7 @@ class _Run:
         self._reached: set[int] = set()
         self._turns = Turns(resource.program)
         self._recovered: int | None = None
-        """The scan behind which the program itself took the error back."""
+        """The scan after which the program itself took the error back."""
         self._ran = False
 
     def through(self, observer: Observer, given: Sequence[Given]) -> Reaction | Refusal:
@@ -371,12 +371,12 @@ def state_words(resource: Resource) -> Words:
     return np.frombuffer(resource.memory, np.uint64, words_of(resource.program))
 
 
-# ---- the journal behind an error -----------------------------------------------------------------------------------
+# ---- the journal after an error -----------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
 class _Following:
-    """What came behind an error from outside, and how long it can be compared."""
+    """What came after an error from outside, and how long it can be compared."""
 
     given: tuple[Given, ...]
     window: int
@@ -393,7 +393,7 @@ def _following(
     end, note = begin + window, ""
     left: list[Entry] = []
     for entry in following:
-        if entry.scan >= end or isinstance(entry.command, Trapped):  # behind a trap nothing is compared
+        if entry.scan >= end or isinstance(entry.command, Trapped):  # after a trap nothing is compared
             break
         if entry.plan.cuts:
             end = entry.scan
@@ -415,7 +415,7 @@ def _following(
 
 
 def _without(generate: Entry, given: Iterable[Given], errors: Collection[str]) -> list[tuple[int, Command | Entry]]:
-    """The commands that the run without these errors gets. What is left of one inside of a scan comes behind that."""
+    """The commands that the run without these errors gets. What is left of one inside of a scan comes after that."""
     found: list[tuple[int, Command | Entry]] = []
     for scan, entry in ((generate.scan, generate), *given):
         left = _spared(entry.command, errors)

@@ -44,7 +44,7 @@ class Readings:
         self._direct: list[tuple[int, Pou | None, Place]] = []
         """In an area of the model."""
         self._behind: dict[tuple[Pou, Place], list[int]] = {}
-        """Behind the in-outs of POUs."""
+        """After the in-outs of POUs."""
         self._given: list[tuple[Pou | None, Pou, Place, Place]] = []
         """Caller, callee, its in-out, and what it is given."""
         for pou in program.tasked:

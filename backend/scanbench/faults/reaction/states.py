@@ -14,7 +14,7 @@ class Trace:
     """States of one program, in order."""
 
     def __init__(self, first: Words, limit: int) -> None:
-        """`first` is the state in front of the first scan; the changes are to take no more than `limit` bytes."""
+        """`first` is the state before the first scan; the changes are to take no more than `limit` bytes."""
         self._first, self._last = first.copy(), first.copy()
         self._changes: list[tuple[NDArray[np.uint32], Words]] = []
         self._left = limit
@@ -28,7 +28,7 @@ class Trace:
         return self._left < 0
 
     def add(self, state: Words) -> None:
-        """The state behind the next scan."""
+        """The state after the next scan."""
         where = np.flatnonzero(state != self._last).astype(np.uint32)
         values = state[where]
         self._last[where] = values
@@ -36,7 +36,7 @@ class Trace:
         self._left -= _BYTES_OF_CHANGE * len(where)
 
     def states(self) -> Iterator[Words]:
-        """The state behind each scan; one array that changes."""
+        """The state after each scan; one array that changes."""
         state = self._first.copy()
         for where, values in self._changes:
             state[where] = values

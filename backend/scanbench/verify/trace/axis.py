@@ -24,7 +24,7 @@ _NEAR = Decimal("0.1")
 
 @dataclass(frozen=True, slots=True)
 class Scans:
-    """The scan of each row, in order; `cold`: the first one is the first scan behind a cold start."""
+    """The scan of each row, in order; `cold`: the first one is the first scan after a cold start."""
 
     of_rows: tuple[int, ...]
     cold: bool
@@ -42,7 +42,7 @@ class Scans:
 
 
 def plain_name(column: str) -> tuple[str, Unit | None]:
-    """A column's name without the unit that stands behind it in brackets."""
+    """A column's name without the unit that stands after it in brackets."""
     found = _NAMED.fullmatch(column)
     if found is None:
         return column, None

@@ -57,7 +57,7 @@ def _delimiter(text: str) -> str:
 
 
 def _cells(cells: list[str], count: int) -> list[str]:
-    """Without empty cells that stand behind the last column."""
+    """Without empty cells that stand after the last column."""
     found = [each.strip() for each in cells]
     while len(found) > count and not found[-1]:
         found.pop()
@@ -81,6 +81,6 @@ def _names(cells: list[str], number: int) -> tuple[str, ...]:
 
 
 def _name(cell: str) -> str:
-    """Our own files put a quote in front of what a spreadsheet would take for a formula."""
+    """Our own files put a quote before what a spreadsheet would take for a formula."""
     text = cell.strip()
     return text[1:] if text[:1] == "'" and text[1:2] in ("=", "+", "-", "@") else text

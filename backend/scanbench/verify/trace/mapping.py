@@ -15,7 +15,7 @@ from scanbench.verify.trace.table import Table
 
 T = TypeVar("T", bound=str)
 Role = Literal["input", "output", "ignore"]
-"""input: the monitor gets it in front of each scan. output: what the monitor comes to is compared with it."""
+"""input: the monitor gets it before each scan. output: what the monitor comes to is compared with it."""
 Gaps = Literal["refuse", "skip", "hold"]
 """Of scans that are missing. refuse: the file. skip: nothing is run there, and the next row is taken over. hold: they are run
 with the inputs as they were, and nothing is compared."""
@@ -76,7 +76,7 @@ class TraceMapping:
 
 
 def propose(table: Table, program: Program) -> TraceMapping:
-    """By names: `Main.x`, `x`, `0.03`, `D100`, a unit behind it in brackets. What the program writes comes out, all else goes
+    """By names: `Main.x`, `x`, `0.03`, `D100`, a unit after it in brackets. What the program writes comes out, all else goes
     in. Of a column that means nothing the path stays empty, and `trace_bind.check` says so, until somebody ignores it."""
     axes = {
         each: unit for each in table.columns if (unit := axis_of(each)) is not None and _symbol(program, each) is None

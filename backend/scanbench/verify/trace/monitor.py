@@ -31,7 +31,7 @@ class Recorded:
     row: int | None
     """None: it has no row."""
     taken_over: bool = False
-    """The trace begins here, or goes on behind a gap: what it says is believed."""
+    """The trace begins here, or goes on after a gap: what it says is believed."""
     skipped: bool = False
     """It is in a gap in which nothing runs."""
 
@@ -59,14 +59,14 @@ class Ran:
 
     recorded: Recorded
     begin: Begin
-    """In front of it, inputs included."""
+    """Before it, inputs included."""
     trap: int
     """Number of the run-time error that ended it, or 0."""
     results: tuple[Result, ...]
 
 
 class TraceMonitor:
-    """Stands in front of a scan, as it is by itself: from a cold start, and where it was told another value by that."""
+    """Stands before a scan, as it is by itself: from a cold start, and where it was told another value by that."""
 
     def __init__(self, program: Program, trace: Trace) -> None:
         self.trace = trace
@@ -98,7 +98,7 @@ class TraceMonitor:
         return Recorded(scan, row, taken_over=begins)
 
     def goto(self, scan: int) -> None:
-        """To the seam in front of a scan of the trace."""
+        """To the seam before a scan of the trace."""
         if scan < self.scan:
             kept = max((each for each in self._kept if each <= scan), default=None)
             assert kept is not None, "the first scan is always kept"
@@ -113,7 +113,7 @@ class TraceMonitor:
 
     def run(self, recorder: Recorder | None, edits: Mapping[int, Sequence[Patch]] | None = None) -> Ran:
         """Runs the scan that is next, on recorded inputs; with `edits` (pass -> patches) as that pass begins. The monitor stands
-        behind it then, until it is settled or gone back to where it began."""
+        after it then, until it is settled or gone back to where it began."""
         memory, recorded = self.side.memory, self.recorded(self.scan)
         self._keep()
         patches = self.inputs(recorded.scan)
@@ -149,7 +149,7 @@ class TraceMonitor:
         self.side.stand(ran.begin)
 
     def settle(self, ran: Ran) -> None:
-        """Goes on behind it, with what the controller had where that was another."""
+        """Goes on after it, with what the controller had where that was another."""
         memory = self.side.memory
         if ran.trap:
             pass_time(memory, 1, self._program.interval_ns)

@@ -101,7 +101,7 @@ class TraceRows:
     # ---- inside of a scan ---------------------------------------------------------------------------------------------
 
     def step(self, monitor: TraceMonitor, scan: int, count: int, range: Resolved) -> Row:
-        """The monitor in front of the statement of a count; behind the last one its results are compared. It stands in front of
+        """The monitor before the statement of a count; after the last one its results are compared. It stands before
         the scan before and after."""
         hook = _Halt(count, monitor)
         ran = monitor.run_with(hook, Listen(count=1, every=True)) if count else None
@@ -175,7 +175,7 @@ class TraceRows:
 
 
 class _Halt:
-    """Halts in front of the statement of one count."""
+    """Halts before the statement of one count."""
 
     def __init__(self, count: int, monitor: TraceMonitor) -> None:
         self._count, self._monitor = count, monitor

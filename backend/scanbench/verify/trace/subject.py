@@ -49,7 +49,7 @@ class TraceSubject:
         self._limit = DEFAULT_LIMIT
         self._rows = TraceRows(self._reader, trace)
         self._last: tuple[Recorder, Ran] | None = None
-        """The scan that was run last. The monitor stands in front of it, or of another one."""
+        """The scan that was run last. The monitor stands before it, or of another one."""
 
     def close(self) -> None:
         """There is nothing to let go of."""
@@ -61,7 +61,7 @@ class TraceSubject:
 
     @property
     def end(self) -> int:
-        """... and the one behind its last."""
+        """... and the one after its last."""
         return self._monitor.end
 
     @property
@@ -100,7 +100,7 @@ class TraceSubject:
         return rows
 
     def step(self, scan: int, count: int) -> Row:
-        """The monitor in front of a statement: the trace says nothing of what was inside of a scan."""
+        """The monitor before a statement: the trace says nothing of what was inside of a scan."""
         if self._recorded(scan).skipped:
             return self._rows.skipped(scan)
         self._monitor.goto(scan)
@@ -144,7 +144,7 @@ class TraceSubject:
         return self._last
 
     def _run(self, scan: int, detail: bool = False) -> tuple[tuple[Row, ...], Recorder, Ran]:
-        """The rows of a scan. The monitor stands in front of it."""
+        """The rows of a scan. The monitor stands before it."""
         self._monitor.goto(scan)
         recorder = self._recorder(detail)
         ran = self._monitor.run(recorder)

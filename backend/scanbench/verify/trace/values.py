@@ -55,7 +55,7 @@ class Exactness:
     digits: int = 0
     """Significant ones; 0: values are compared byte by byte."""
     decimals: int | None = None
-    """The cells have no more than so many behind the point; None: that says nothing."""
+    """The cells have no more than so many after the point; None: that says nothing."""
     scale: float = 1.0
     """What 1 in the file is in the variable: ns of a TIME."""
 

@@ -29,7 +29,7 @@ class Lender(Protocol):
     """One that is attached from the start, and to a client that sees its breakpoints: nothing has to be configured."""
 
     async def launch(self, args: shapes.Launch, say: Callable[[str, Body], None]) -> Debuggee:
-        """A PLC of its own, which stands in front of its first scan; `say` sends an event."""
+        """A PLC of its own, which stands before its first scan; `say` sends an event."""
 
     async def attach(self, args: shapes.Attach) -> Debuggee:
         """One that is there."""
@@ -173,7 +173,7 @@ class Conversation:
             self._respond(request.seq, request.command, body)
         finally:
             if not moved:
-                asyncio.get_running_loop().call_soon(attached.events.end_move, False)  # behind the refusal
+                asyncio.get_running_loop().call_soon(attached.events.end_move, False)  # after the refusal
             else:
                 attached.events.end_move(True)
 

@@ -21,7 +21,7 @@ _EXCEPTIONS = ("error", "violation", "trap")
 
 
 class Events:
-    """Tells a client what it has to know, and holds back what must come behind a response."""
+    """Tells a client what it has to know, and holds back what must come after a response."""
 
     def __init__(self, plc: Debuggee, send: Send, on_gone: Callable[[str], None]) -> None:
         """`on_gone` is called when the PLC was switched off or cannot go on, with a sentence."""

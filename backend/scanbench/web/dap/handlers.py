@@ -18,7 +18,7 @@ class Handler(Generic[A]):
     arguments: type[A]
     serve: Callable[[Debuggee, A], Awaitable[Body]]
     moves: bool = False
-    """It makes the PLC go on: what it does then is told behind the response."""
+    """It makes the PLC go on: what it does then is told after the response."""
 
     async def __call__(self, plc: Debuggee, arguments: Body) -> Body:
         """The body of the response; pydantic's error for arguments that are wrong."""

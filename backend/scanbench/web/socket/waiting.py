@@ -21,7 +21,7 @@ class Waiting:
         return bool(self._texts)
 
     def add(self, text: str) -> None:
-        """Behind all others."""
+        """After all others."""
         if self.over:
             return
         self._texts.append(text)
@@ -32,7 +32,7 @@ class Waiting:
                 self._reader.cancel()
 
     def first(self, text: str) -> None:
-        """In front of all others."""
+        """Before all others."""
         self._texts.appendleft(text)
 
     def take(self) -> str:
