@@ -30,6 +30,7 @@ class Plc:
 
     def __post_init__(self) -> None:
         self.debugging = Debugging(self.debug, lambda _: None, lambda _: None, ())
+        self.instance = self  # and of its instance
 
     async def debug(self, make: Callable[[int], DebugRequest]) -> BreakpointsAre | Places:
         asked = make(1)
