@@ -37,6 +37,17 @@ export class Editor {
     return this.region.locator('.view-line').filter({ hasText: new RegExp(pattern) });
   }
 
+  /** From the menu of a line. Monaco takes no click in the first 100 ms of its menu, to let accidental ones go. */
+  async fromMenu(part: string, item: string): Promise<void> {
+    await this.line(part).first().click({ button: 'right' });
+    const found = this.page.getByRole('menuitem', { name: item });
+    await expect(found).toBeVisible();
+    await expect(async () => {
+      if (await found.isVisible()) await found.click({ timeout: 2_000 });
+      await expect(found).toBeHidden({ timeout: 2_000 });
+    }).toPass();
+  }
+
   /** Above a text that ran in the past: which version it is. */
   get pastNote(): Locator {
     return this.region.getByRole('status').filter({ hasText: 'Program version' });

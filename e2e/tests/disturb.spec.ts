@@ -64,8 +64,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
   await test.step('what a statement writes is corrupted: from the text, by chance, reproducibly', async () => {
     const editor = mika.editor('Main.st');
     await editor.reveal('heartbeat := NOT heartbeat');
-    await editor.line('heartbeat := NOT heartbeat').first().click({ button: 'right' });
-    await mika.page.getByRole('menuitem', { name: 'Corrupt this result…' }).click();
+    await editor.fromMenu('heartbeat := NOT heartbeat', 'Corrupt this result…');
     await expect(disturb.field('Statement')).toHaveValue(/^Main\.st:\d+$/);
     await disturb.when('At random');
     await disturb.field('Probability per scan').fill('120 %');

@@ -76,21 +76,37 @@ export function liveScan(): number {
 let underWay = false;
 let next: { scan: number | null; count: number } | null = null;
 
-/** Shows the PLC as it was before a scan, or in front of its statement of this `count`; null returns to live. While one
+/** Shows the PLC as it was before a scan, or before its statement of this `count`; null returns to live. While one
  * request is answered, only the last wish is kept. */
 export async function travel(scan: number | null, count = 0): Promise<void> {
   set({ aim: scan ?? liveScan(), ...inSight(scan) });
   next = { scan, count };
   if (underWay) return;
   underWay = true;
+  let last: number | null = scan;
   while (next !== null) {
     const wish: { scan: number | null; count: number } = next;
     next = null;
+    last = wish.scan;
     const answer = await send({ type: "travel", ...wish });
     set({ refused: answer.ok ? null : answer.message });
   }
   underWay = false;
-  set({ aim: null });
+  arrive(last);
+}
+
+/** The playhead stays where one goes until the state says so too: the answer may be here before the state is. */
+function arrive(scan: number | null): void {
+  const { state } = usePlc.getState();
+  const shown = state?.past ? state.scan : null;
+  if (get().refused !== null || shown === scan) set({ aim: null });
+  else {
+    const stop = usePlc.subscribe((plc, before) => {
+      if (plc.state === before.state) return;
+      stop();
+      if (!underWay) set({ aim: null });
+    });
+  }
 }
 
 /** One scan back from what is shown: into the past, or further into it. */
