@@ -43,21 +43,12 @@ class HeadlessRun(Generic[T]):
 
 
 def run_headless(
-    program: Program,
-    scans: int,
-    engine_factory: EngineFactory,
-    commands_at: Sequence[tuple[int, Command]] = (),
-    every: int = 0,
-    sample: Callable[[Resource], T] | None = None,
-    *,
-    detect: Detect | None = None,
-    agenda: Agenda | None = None,
-    recording: Recording | None = None,
-    programs: Programs | None = None,
-    until: Condition | None = None,
-    interrupt: Interrupt | None = None,
+    program: Program, scans: int, engine_factory: EngineFactory, commands_at: Sequence[tuple[int, Command]] = (),
+    every: int = 0, sample: Callable[[Resource], T] | None = None, *,
+    detect: Detect | None = None, agenda: Agenda | None = None, recording: Recording | None = None,
+    programs: Programs | None = None, until: Condition | None = None, interrupt: Interrupt | None = None,
     on_begin: Callable[[Resource], None] | None = None,
-) -> HeadlessRun[T]:
+) -> HeadlessRun[T]:  # fmt: skip
     """Runs `scans` scans from a cold start in MONITOR mode.
 
     A command (n, c) is entered in the seam before scan n, counting from 0; several for one seam in the order given.

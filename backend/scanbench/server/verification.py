@@ -105,16 +105,9 @@ class Verification:
         first = live if wanted.first is None else wanted.first
         if self._trace is not None:
             trace = self._trace
+            file, sources = str(trace.file), session.instance.sources
             answer = await self._ask(
-                lambda ref: BeginTrace(
-                    ref,
-                    session.instance.sources,
-                    str(trace.file),
-                    trace.name,
-                    trace.mapping,
-                    wanted.range,
-                    wanted.limit,
-                )
+                lambda ref: BeginTrace(ref, sources, file, trace.name, trace.mapping, wanted.range, wanted.limit)
             )
         else:
             if wanted.first is not None and not wanted.first < self._live_end:
