@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from enum import StrEnum
 from pathlib import Path
+from typing import NoReturn
 
 import typer
 
@@ -103,12 +104,17 @@ def run(
     except TooLarge as error:
         usage(f"{path}: {error}")
     except Differs as difference:
-        if as_json:
-            typer.echo(nothing_ran(problems, difference=str(difference)))
-        typer.echo(f"scanbench: {difference}", err=True)
-        raise typer.Exit(3) from None
+        _differ(difference, problems, as_json)
     report_json(result, shown, problems, hash) if as_json else report_text(result, shown, hash)
     _end(result, commands, until, interrupt.asked)
+
+
+def _differ(difference: Differs, problems: list[dict[str, str | int]], as_json: bool) -> NoReturn:
+    """Says where the engines came to a different image, and ends the command."""
+    if as_json:
+        typer.echo(nothing_ran(problems, difference=str(difference)))
+    typer.echo(f"scanbench: {difference}", err=True)
+    raise typer.Exit(3) from None
 
 
 def _scans(begun: Sequence[Resource]) -> int:

@@ -1,6 +1,6 @@
 """The contract of the debug flavour: code that can halt before any statement, and tells of reads and writes.
 
-A *position* inside of a scan is a count: how many statements with a site (`check.sites`) have begun in the scan, the one in
+A *position* inside of a scan is a count: how many statements with a site (`symbols.sites`) have begun in the scan, the one in
 front of which it stands included; 0 is the seam before the scan. As a run is determined by image and journal, a
 position is reached again by running the scan again from its beginning: so nothing has to be kept of a scan that is halted
 but its beginning, and a step back is a run to a smaller count. The image of a halted scan is whole: all variables stand in

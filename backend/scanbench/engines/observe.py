@@ -1,7 +1,7 @@
 """What a program does, statement by statement, noted beside the image: the contract of observed code.
 
 Code is observed when it was made so (`interpreter.observed`, `native.observed`); other code pays nothing. Observing never
-changes the image. A site is a statement of the user's files (`check.sites`); the system program, the plant and libraries
+changes the image. A site is a statement of the user's files (`symbols.sites`); the system program, the plant and libraries
 have none. What a library reads, the user's statement reads that called it. Nothing is noted while common processing, the
 plant or a condition runs, nor when a task looks whether it is due, nor of what the model's instructions look at themselves. Following an in-out reads what it refers to, and taking
 a reference or writing reads nothing (but for indices). A statement that traps has read what it read before that.

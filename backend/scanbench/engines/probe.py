@@ -21,7 +21,7 @@ class Probe:
     site: int
     """Index into `Sites.statements`."""
     condition: Expr | None = None
-    """A BOOL in the scope of the statement's POU (`check.local`), without calls of the program's POUs; a trap inside of it
+    """A BOOL in the scope of the statement's POU (`check.typed.local`), without calls of the program's POUs; a trap inside of it
     is FALSE. Of a line of a CONFIGURATION, one on the whole program. Only where it holds, the statement counts as
     reached."""
     halt: bool = True

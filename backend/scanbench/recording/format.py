@@ -1,4 +1,4 @@
-"""The bytes of a run file: blocks with checksums, one after the other. What they mean is `recording.py`'s.
+"""The bytes of a run file: blocks with checksums, one after the other. What they mean is `blocks.py`'s.
 
     0   14 bytes  "scanbench run\\n"
     14  u16       format version, 1

@@ -21,7 +21,7 @@ class Waits:
     """Something is due before this one, which is to come."""
     conditions: tuple[Condition, ...] = ()
     sites: frozenset[int] = frozenset()
-    """Statements (`check.sites`): while there are any, the run comes back after every scan."""
+    """Statements (`symbols.sites`): while there are any, the run comes back after every scan."""
     inside: Insider | None = None
     """Who enters something inside of the scan that is next: that one runs alone, in the debug flavour."""
 

@@ -1,6 +1,6 @@
 """Force and Release: values that hold after input refresh and before output, whatever the program writes.
 
-A force is a patch of the force table in the image header (`engines/engine.py` applies it), one entry a byte; forces of
+A force is a patch of the force table in the image header (each engine applies it in every scan: `engines/native/emit_scan.py`, `engines/interpreter/engine.py`), one entry a byte; forces of
 bits in one byte share an entry. Bits that are forced under one path are not forced under another: `D100` and the variable
 there are the same bytes, and whoever releases one of them would release the other.
 """

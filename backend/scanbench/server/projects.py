@@ -66,7 +66,7 @@ class Projects:
         return await asyncio.to_thread(self._store.files.get, id, path)
 
     async def save(self, id: int, path: str, text: str, version: int, author: str) -> FileRow:
-        """Saves what was edited from `version` on; `store.Conflict` when somebody else was first."""
+        """Saves what was edited from `version` on; `store.records.Conflict` when somebody else was first."""
         _check_path(path)
         file = await asyncio.to_thread(self._store.files.save, id, path, text, version, author)
         for session in self._sessions_of(id):

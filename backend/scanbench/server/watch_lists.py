@@ -42,7 +42,7 @@ class WatchLists:
     async def save(
         self, id: int, name: str, shared: bool, content: WatchContent, version: int, user: str
     ) -> WatchListRow:
-        """Saves what was edited from `version` on; `store.ListConflict` when somebody else was first."""
+        """Saves what was edited from `version` on; `store.records.ListConflict` when somebody else was first."""
         before = await self.get(id, user)
         if before.owner == "" and not shared:
             raise Refused(f"{before.name} is shared: others may use it. Duplicate it to have one of your own")

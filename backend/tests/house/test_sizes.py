@@ -13,21 +13,12 @@ FRONTEND = Path(__file__).parents[3] / "frontend" / "src"
 LINES, FUNCTION, METHODS = 450, 50, 30
 
 _OBJECT = "one object with too many duties: to be cut by what changes together"
-_WIRE = "the requests of REST and WebSocket: to be replaced by the dataclasses of wire/"
-FILES = {
-    "host/loop.py": (480, _OBJECT), "session/instance.py": (499, _OBJECT), "session/session.py": (604, _OBJECT),
-    "syntax/tree.py": (525, "the nodes of the tree: a list of small dataclasses, one subject"), "web/messages.py": (706, _WIRE),
-}  # fmt: skip
+FILES = {"syntax/tree.py": (525, "the nodes of the tree: a list of small dataclasses, one subject")}
 CLASSES = {
-    "debug/debugger.py::Debugger": (36, _OBJECT), "host/loop.py::Loop": (37, _OBJECT),
     "recording/recording.py::Recording": (33, _OBJECT), "recording/timeline.py::Timeline": (34, _OBJECT),
-    "runtime/resource.py::Resource": (32, _OBJECT), "server/sweeps.py::Sweeps": (31, _OBJECT),
-    "server/verification.py::Verification": (32, _OBJECT), "session/instance.py::Instance": (39, _OBJECT),
-    "session/session.py::Session": (77, _OBJECT),
+    "server/sweeps.py::Sweeps": (31, _OBJECT), "server/verification.py::Verification": (32, _OBJECT),
 }  # fmt: skip
-FUNCTIONS = {
-    "store/migrations/versions/0001_start.py::upgrade": (77, "a migration: the tables, one after the other"),
-}
+FUNCTIONS: dict[str, tuple[int, str]] = {}
 PAGE = {"wire/messages.gen.ts": (1_000_000, "generated")}
 ROOMS = ("check", "engines/native", "runtime")
 _NATIVE = ("emit_body", "emit_memory", "emit_places", "emit_strings", "flavour")

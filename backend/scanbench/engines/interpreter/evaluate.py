@@ -1,4 +1,4 @@
-"""Values of what people typed about a program (`check.local`), on any image of it: halted, running or kept."""
+"""Values of what people typed about a program (`check.typed.local`), on any image of it: halted, running or kept."""
 
 from collections.abc import Callable
 from dataclasses import replace
