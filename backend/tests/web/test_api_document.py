@@ -9,7 +9,7 @@ import httpx
 
 from scanbench.web.openapi import document
 from tests.api_page import PAGE, page
-from tests.web.server import Server
+from tests.web.server import PATIENCE_S, Server
 
 Json = dict[str, Any]
 TYPES: dict[str, type | tuple[type, ...]] = {
@@ -26,7 +26,7 @@ class Client:
         assert {"bearer"} == {schemes[name].get("scheme") for each in self.document["security"] for name in each} - {
             None
         }
-        self.http = httpx.Client(base_url=address, headers={"Authorization": f"Bearer {token}"})
+        self.http = httpx.Client(base_url=address, headers={"Authorization": f"Bearer {token}"}, timeout=PATIENCE_S)
         self.operations = {
             operation["operationId"]: (method, path, operation)
             for path, operations in self.document["paths"].items()

@@ -8,17 +8,20 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from tests.web.server import Server
+from tests.web.server import PATIENCE_S, Server
 
 
 def test_without_the_token_nothing_is_told(server: Server) -> None:
-    assert httpx.get(f"{server.base}/api").status_code == 401
-    assert httpx.get(f"{server.base}/api", params={"token": "wrong"}).status_code == 401
-    assert httpx.get(f"{server.base}/api", headers={b"Authorization": "Bearer ü".encode()}).status_code == 401
+    assert httpx.get(f"{server.base}/api", timeout=PATIENCE_S).status_code == 401
+    assert httpx.get(f"{server.base}/api", params={"token": "wrong"}, timeout=PATIENCE_S).status_code == 401
+    assert (
+        httpx.get(f"{server.base}/api", headers={b"Authorization": "Bearer ü".encode()}, timeout=PATIENCE_S).status_code
+        == 401
+    )
 
 
 def test_opening_the_printed_address_sets_the_cookie(server: Server) -> None:
-    with httpx.Client(follow_redirects=True) as browser:
+    with httpx.Client(follow_redirects=True, timeout=PATIENCE_S) as browser:
         page = browser.get(server.address)
         assert page.status_code in (200, 503)  # 503: the frontend is not built
         assert "token" not in str(page.url)
@@ -61,14 +64,14 @@ def test_nonsense_on_a_socket_is_answered(server: Server) -> None:
 
 def test_a_link_to_a_scan_keeps_where_it_leads(server: Server) -> None:
     """Also for somebody who opens it with the token, and for one whose browser comes from another site."""
-    with httpx.Client(follow_redirects=True) as browser:
+    with httpx.Client(follow_redirects=True, timeout=PATIENCE_S) as browser:
         page = browser.get(f"{server.base}/i/1/scan/40", params={"panel": "verify", "token": server.token})
         assert page.status_code in (200, 503)
         assert str(page.url) == f"{server.base}/i/1/scan/40?panel=verify"
         again = browser.get(f"{server.base}/i/1/scan/41", headers={"Sec-Fetch-Site": "cross-site"})
         assert again.status_code in (200, 503)
-    assert httpx.get(f"{server.base}/i/1/scan/40").status_code == 401
-    with httpx.Client() as browser:
+    assert httpx.get(f"{server.base}/i/1/scan/40", timeout=PATIENCE_S).status_code == 401
+    with httpx.Client(timeout=PATIENCE_S) as browser:
         reply = browser.get(f"{server.base}//evil.example/i/", params={"token": server.token})
         assert not reply.headers.get("location", "").startswith("//")
 
@@ -84,7 +87,7 @@ def _form(page: httpx.Response) -> tuple[str, dict[str, str]]:
 
 
 def test_without_the_key_there_is_a_field_for_it_that_leads_on(server: Server) -> None:
-    with httpx.Client(base_url=server.base, follow_redirects=True) as browser:
+    with httpx.Client(base_url=server.base, follow_redirects=True, timeout=PATIENCE_S) as browser:
         action, kept = _form(browser.get("/i/1/scan/40", params={"panel": "verify", "scanbench_user": 'Ada "L"'}))
         assert (action, kept) == ("/i/1/scan/40", {"panel": "verify", "scanbench_user": 'Ada "L"'})
         wrong = browser.get(action, params={**kept, "token": "wrong"})
@@ -99,10 +102,10 @@ def test_without_the_key_there_is_a_field_for_it_that_leads_on(server: Server) -
         assert str(page.url) == f"{server.base}/i/1/scan/40?panel=verify"
         assert browser.get("/api").json()["you"]["name"] == 'Ada "L"'
         assert all(cookie.expires for cookie in browser.cookies.jar), "a browser that was closed has to ask again"
-    assert "キー" in httpx.get(server.base, headers={"Accept-Language": "ja,en;q=0.5"}).text
+    assert "キー" in httpx.get(server.base, headers={"Accept-Language": "ja,en;q=0.5"}, timeout=PATIENCE_S).text
 
 
 def test_the_field_for_the_key_cannot_be_made_to_say_something_else(server: Server) -> None:
-    page = httpx.get(f'{server.base}/i/"><script>1</script>', params={'"><script>': '"><script>'})
+    page = httpx.get(f'{server.base}/i/"><script>1</script>', params={'"><script>': '"><script>'}, timeout=PATIENCE_S)
     assert page.status_code == 401
     assert page.text.count("<script") == page.text.count('<script src="/theme.js"></script>') == 1

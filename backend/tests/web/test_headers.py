@@ -11,6 +11,7 @@ import uvicorn
 from scanbench.web.app import bare_app
 from scanbench.web.headers import NoStore
 from scanbench.web.serve import http_config
+from tests.web.server import PATIENCE_S
 
 
 class _Announced(uvicorn.Server):
@@ -46,7 +47,7 @@ async def _served(most: int, ask: Callable[[int], Coroutine[None, None, httpx.Re
 
 def asked(path: str, status: int) -> Callable[[int], Coroutine[None, None, httpx.Response]]:
     async def ask(port: int) -> httpx.Response:
-        async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{port}") as client:
+        async with httpx.AsyncClient(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S) as client:
             answer = await client.get(path)
         assert answer.status_code == status
         return answer
