@@ -37,4 +37,4 @@ def test_scripts_can_be_executed(script: str) -> None:
 
 
 def test_the_integration_runs_what_everybody_runs() -> None:
-    assert (ROOT / ".ci" / "run").read_text(encoding="utf-8").strip().endswith("make test")
+    assert "make test" in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
