@@ -70,10 +70,7 @@ class ProgramCache:
         """See `Programs`."""
         loaded = self._loaded.pop(version, None)
         if loaded is None:
-            try:
-                loaded = self._load(version)
-            except MemoryError as error:
-                raise NoProgram(f"program version {version} does not fit into memory") from error
+            loaded = self._load(version)
         self._loaded[version] = loaded  # the last one used stands last
         return loaded
 
@@ -96,7 +93,15 @@ class ProgramCache:
 
 def cached(programs: Mapping[int, Program], make: Make) -> ProgramCache:
     """These programs, by version."""
-    return ProgramCache(lambda version: make(version, programs[version]))
+    return ProgramCache(lambda version: made(make, version, programs[version]))
+
+
+def made(make: Make, version: int, program: Program) -> Loaded:
+    """Ready to run. Who looks at a run is told that a program is too large; the process of a PLC has its own words for that."""
+    try:
+        return make(version, program)
+    except MemoryError as error:
+        raise NoProgram(f"program version {version} does not fit into memory") from error
 
 
 def programs_of(program_of: Callable[[KeptProgram], Program], make: Make) -> ProgramsOf:
@@ -106,7 +111,7 @@ def programs_of(program_of: Callable[[KeptProgram], Program], make: Make) -> Pro
         def load(version: int) -> Loaded:
             if version not in kept:
                 raise NoProgram(f"there is no program version {version} in the run")
-            return make(version, program_of(kept[version]))
+            return made(make, version, program_of(kept[version]))
 
         return ProgramCache(load)
 

@@ -1,6 +1,6 @@
 """The one way down from a program to a byte of its image: roots, then the members and elements that hold it."""
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from functools import cached_property
 from typing import NamedTuple
@@ -81,7 +81,9 @@ class Descent:
         if starts is None:
             return [each for each in members if each.offset < end and begin < each.offset + each.storage]
         found = []
-        for index in range(max(0, bisect_right(starts, begin) - 1), len(members)):
+        last = bisect_right(starts, begin) - 1
+        first = bisect_left(starts, starts[last]) if last >= 0 else 0  # bits of one byte begin together
+        for index in range(first, len(members)):
             each = members[index]
             if each.offset >= end:
                 break

@@ -37,17 +37,17 @@ class KeptNames:
             if area is not None:
                 left |= (yield from self._in_area(offset + index, part)) << 8 * index
             elif part:
-                yield from self._declared(offset + index)
+                yield from self._declared(offset + index, part)
         if left and area is not None:
             yield self._raw(*area, offset, left)
 
-    def _declared(self, offset: int) -> Iterator[Leaf]:
+    def _declared(self, offset: int, mask: int) -> Iterator[Leaf]:
         root = self._descent.root(offset)
         if root is not None:
-            yield from self._down(root, offset, root.member is None)
+            yield from self._down(root, offset, mask, root.member is None)
         elif offset < self._layout.HEADER_SIZE:
             for each in self._descent.inner(_SYSTEM, offset, offset + 1):
-                yield from self._down(each, offset)
+                yield from self._down(each, offset, mask)
 
     def _in_area(self, offset: int, mask: int) -> Generator[Leaf, None, int]:
         """Variables of one bit come first: a word around them says less. Returns the bits that no variable has."""
@@ -60,15 +60,15 @@ class KeptNames:
             left &= ~(1 << each.bit) if each.bit is not None else 0xFF
         for each in known:
             if each.bit is None and left:
-                yield from self._down(each, offset)
+                yield from self._down(each, offset, mask)
                 left = 0
         return left
 
-    def _down(self, part: Part, offset: int, program: bool = False) -> Iterator[Leaf]:
-        """To the single values that have the byte."""
+    def _down(self, part: Part, offset: int, mask: int, program: bool = False) -> Iterator[Leaf]:
+        """To the single values that have bits of the byte."""
         type = part.type
-        if isinstance(type, Elementary | StringType):
-            yield Leaf(part.name, type, part.offset, None)
+        if isinstance(type, Elementary | StringType) and (part.bit is None or mask >> part.bit & 1):
+            yield Leaf(part.name, type, part.offset, part.bit)
         if not isinstance(type, Record | ArrayType):
             return
         of_library = isinstance(type, Record) and type.name in self._library
@@ -80,7 +80,7 @@ class KeptNames:
             if of_block and section is Section.INPUT and not self._inputs:
                 continue
             if not of_library or section is Section.OUTPUT:
-                yield from self._down(each, offset)
+                yield from self._down(each, offset, mask)
 
     def _raw(self, area: Area, byte: int, offset: int, mask: int) -> Leaf:
         if mask & (mask - 1) == 0:

@@ -52,6 +52,9 @@ def _add(
             inner = [min(inner, key=lambda each: (each.offset != offset, abs(each.type.size - size)))]
         for each in inner:
             _add(descent, each, offset, size, bits, whole, found)
+    elif part.bit is not None:
+        if bits >> part.bit & 1:
+            found.append(Leaf(part.name, BOOL, part.offset, part.bit))
     elif isinstance(type, Elementary | StringType):
         found.append(
             Leaf(part.name, type, part.offset, None)

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from scanbench.engines.engine import Stop
 from scanbench.faults.disturb.disturb import is_disturbance
-from scanbench.recording.programs import ProgramCache, reference
+from scanbench.recording.programs import ProgramCache, made, reference
 from scanbench.runtime.command import Entry, Patch
 from scanbench.runtime.forces import forced_table, table_patches
 from scanbench.runtime.holds import HELD, held
@@ -20,7 +20,7 @@ class Monitor:
 
     def __init__(self, programs: Programs, version: int) -> None:
         """`programs`: those of the control device; it shares what was checked, and nothing else."""
-        self._programs = ProgramCache(lambda version: reference(version, programs.get(version).program))
+        self._programs = ProgramCache(lambda version: made(reference, version, programs.get(version).program))
         self.side = self._made(version)
 
     def _made(self, version: int) -> Side:

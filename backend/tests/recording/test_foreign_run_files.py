@@ -58,7 +58,7 @@ CASES: dict[str, tuple[Blocks, str]] = {
     "a short program": ([FIRST[0], (Kind.PROGRAM, 0, b"\1\0\0\0abc"), STATE], "it is too short"),
     "a state of no program": ([*FIRST, (Kind.KEYFRAME, 0, keyframe(2, b"abc"))], "needs program version 2"),
     "a change to no program": ([*FIRST, STATE, (Kind.ENTRY, 0, CHANGE)], "needs program version 7"),
-    "a change to nonsense": ([*FIRST, STATE, (Kind.ENTRY, 0, NONSENSE)], "which is not in front of it"),
+    "a change to nonsense": ([*FIRST, STATE, (Kind.ENTRY, 0, NONSENSE)], "must be a whole number, not"),
     "an empty keyframe": ([*FIRST, (Kind.KEYFRAME, 0, b"")], "it is too short"),
     "a delta of nothing": ([*FIRST, (Kind.DELTA, 0, b"abc")], "nothing of this kind can be here"),
     "an entry that is none": ([*FIRST, STATE, (Kind.ENTRY, 0, b"\xc1")], "the entry at byte"),
