@@ -1,6 +1,7 @@
 """Where a server listens, and where its data are: the command line wins over the environment, that over the settings file."""
 
 import os
+import stat
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -26,8 +27,9 @@ class Settings:
 
 def settings(host: str | None, port: int | None, data: Path | None) -> Settings:
     """What was given (on the command line, or by SCANBENCH_HOST, _PORT, _DATA), else what the file says, else the defaults."""
-    path = config_file(os.environ)
-    known = read_config(path)
+    if host is not None and port is not None and data is not None:
+        return Settings(host, port, data)  # a service may have no home
+    known = read_config(config_file(os.environ))
     return Settings(
         known.get_text("host", "127.0.0.1") if host is None else host,
         known.get_port() if port is None else port,
@@ -41,8 +43,8 @@ def config_file(environment: Mapping[str, str]) -> Path:
 
 
 def default_data(environment: Mapping[str, str]) -> Path:
-    """The same folder wherever one stands, `$XDG_DATA_HOME/scanbench`, unless a server has used `./data`."""
-    if any((HERE / mark).exists() for mark in _MARKS):
+    """The same folder wherever one stands, `$XDG_DATA_HOME/scanbench`, unless a server of this user has used `./data`."""
+    if any((HERE / mark).exists() for mark in _MARKS) and _is_ours(HERE):
         return HERE
     return _base(environment, "XDG_DATA_HOME", ".local/share") / "scanbench"
 
@@ -50,7 +52,21 @@ def default_data(environment: Mapping[str, str]) -> Path:
 def _base(environment: Mapping[str, str], name: str, usual: str) -> Path:
     """A base directory; one that is not absolute does not count (XDG Base Directory Specification)."""
     named = environment.get(name, "")
-    return Path(named) if os.path.isabs(named) else Path.home() / usual
+    return Path(named) if os.path.isabs(named) else _at_home("~") / usual
+
+
+def _at_home(path: str) -> Path:
+    """With the home directory for `~`."""
+    try:
+        return Path(path).expanduser()
+    except RuntimeError:
+        usage(f"{path}: there is no such home directory: set HOME, or give --host, --port and --data")
+
+
+def _is_ours(folder: Path) -> bool:
+    """Whether nobody else can write there: its programs are run, and its token opens the door."""
+    state = folder.stat()
+    return state.st_uid == os.getuid() and not state.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +96,7 @@ class Config:
         """The folder of the data, if one is named."""
         if "data" not in self.values:
             return None
-        folder = Path(self.get_text("data", "")).expanduser()
+        folder = _at_home(self.get_text("data", ""))
         if not folder.is_absolute():
             usage(f"{self.path}: data = {str(folder)!r}: write a path that begins with / or ~")
         return folder

@@ -91,8 +91,8 @@ class Job:
         try:
             while True:
                 async with asyncio.timeout(self._silent_s):
-                    length = body_length(await reader.readexactly(LENGTH.size))
-                on_message(unpack(await reader.readexactly(length)))
+                    body = await reader.readexactly(body_length(await reader.readexactly(LENGTH.size)))
+                on_message(unpack(body))
         except (asyncio.IncompleteReadError, ConnectionError):
             pass
         except TimeoutError:

@@ -146,7 +146,7 @@ class RunReader:
     def recording(self) -> Recording:
         """The file as it was followed last."""
         if self._recording is None:
-            raise RuntimeError("a run file is followed before it is looked at")
+            raise Unreadable(f"{self.path.name} is not open: it could not be read on")
         return self._recording
 
     # ---- what there is --------------------------------------------------------------------------------------------
@@ -188,7 +188,7 @@ class RunReader:
     def programs(self) -> KeptPrograms:
         """The programs of the run, all on the memory on which it is replayed."""
         if self._programs is None:
-            raise RuntimeError("a run file is followed before it is looked at")
+            raise Unreadable(f"{self.path.name} is not open: it could not be read on")
         return self._programs
 
     def lines(self, version: int, file: str) -> list[str]:

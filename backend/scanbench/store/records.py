@@ -199,7 +199,7 @@ class CellRow:
     difference_count: int = 0
     note: str = ""
     reaction: Json | None = None
-    """To be written; lists of cells come without, `cell_reaction` gives it."""
+    """To be written; lists of cells come without, `Sweeps.reaction` gives it."""
 
 
 @dataclass(frozen=True, slots=True)

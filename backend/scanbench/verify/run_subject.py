@@ -50,7 +50,12 @@ class RunSubject:
 
     def follow(self, until: int) -> None:
         """See `Subject`."""
-        if not self._reader.follow(until):
+        try:
+            same = self._reader.follow(until)
+        except Unreadable:
+            self._both = None
+            raise
+        if not same:
             self._both = None
             self._views = {}
 

@@ -41,7 +41,7 @@ def serve(
     """
     with _bind(host, port, announce) as sock:
         try:
-            data_dir.mkdir(parents=True, exist_ok=True)
+            data_dir.mkdir(0o700, parents=True, exist_ok=True)
             with claimed(data_dir), closing(Store(database_url(data_dir), _name(data_dir))) as store:
                 port = sock.getsockname()[1]
                 gate = Gate(token or kept_token(data_dir), port, known_hosts([host]), kept_guests(data_dir), public)

@@ -85,3 +85,22 @@ def test_the_command_line_wins_over_the_environment_and_that_over_the_file(
     wrong = CliRunner().invoke(app, ["serve"], env={"SCANBENCH_PORT": "many"})
     assert wrong.exit_code == 2
     assert "SCANBENCH_PORT" in wrong.stderr
+
+
+def test_a_folder_in_which_others_can_write_is_not_taken_for_ours(home: Path) -> None:
+    folder = home / "data"
+    folder.mkdir()
+    (folder / "token").touch()
+    folder.chmod(0o777)
+    assert settings(None, None, None).data == home / ".local/share/scanbench"
+
+
+def test_who_says_everything_needs_no_home(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def homeless(_: Path) -> Path:
+        raise RuntimeError
+
+    monkeypatch.setattr(Path, "expanduser", homeless)
+    assert settings("::1", 0, Path("/srv")) == Settings("::1", 0, Path("/srv"))
+    with pytest.raises(typer.Exit):
+        settings("::1", 0, None)
+    assert "set HOME, or give --host, --port and --data" in capsys.readouterr().err

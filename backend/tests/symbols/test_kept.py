@@ -79,11 +79,11 @@ def test_bits_that_share_a_byte_have_each_its_name() -> None:
 TYPE Flags : STRUCT a AT %X0.0 : BOOL; b AT %X0.3 : BOOL; w AT %W2 : WORD; END_STRUCT; END_TYPE
 PROGRAM Main VAR list : ARRAY[0..1] OF Flags; END_VAR END_PROGRAM""")
     flags = resolve(made, "Main.list[1]").offset
+    names = Names(made, sites_of(made))
     for name, bit in (("a", 0), ("b", 3)):
         (leaf,) = KeptNames(made).at(flags & ~1, 1 << bit + 8 * (flags & 1))
         assert (leaf.name, leaf.offset, leaf.bit) == (f"Main.list[1].{name}", flags, bit)
         assert leaf.cut(bytes((1 << bit,)), flags) == b"\x01"
-        names = Names(made, sites_of(made))
         assert names.variable((flags, bit), BOOL) == resolve(made, f"Main.list[1].{name}")
         assert [each.name for each in names.at(flags, 1, 1 << bit)] == [f"Main.list[1].{name}"]
     assert [each.name for each in names.at(flags, 1)] == ["Main.list[1].a", "Main.list[1].b"]

@@ -26,6 +26,7 @@ from scanbench.wire import events
 from scanbench.wire.commands import read_command
 from scanbench.wire.events import Event, User
 from scanbench.wire.host import Ack
+from scanbench.wire.refused import Refused
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
@@ -215,7 +216,11 @@ class Client:
         self._dap = None
 
     async def _serve(self, message: _Wanted) -> None:
-        ack = await self._done(message)
+        try:
+            ack = await self._done(message)
+        except Refused as error:
+            self._answer(message.ref, False, error.message, None, error.near)
+            return
         self._answer(message.ref, ack.ok, ack.message, ack.scan, ack.near)
 
     async def _done(self, message: _Wanted) -> Ack:
