@@ -32,10 +32,10 @@ test('what was tested is filtered, printed, saved and read again', async ({ open
     await history.search('no such error');
     await expect(mika.page.locator('[data-pane=history]')).toContainText('No row matches');
     await history.search('');
-    await history.sortBy('By');
+    await history.sortBy('Author');
     await expect(history.rows().first()).toContainText(ERROR);
-    await history.sortBy('By');
-    await history.sortBy('By');
+    await history.sortBy('Author');
+    await history.sortBy('Author');
   });
 
   await test.step('the printable record is a document with this row', async () => {
