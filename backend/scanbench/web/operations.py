@@ -53,7 +53,8 @@ class Api(FastAPI):
             document["security"] = [{name: []} for name in SCHEMES]
             for operations in document["paths"].values():
                 for operation in operations.values():
-                    operation["summary"] = " ".join(operation["description"].split()).split(". ")[0].removesuffix(".")
+                    said = " ".join(operation.get("description", "").split())
+                    operation["summary"] = said.split(". ")[0].removesuffix(".")
             schemas, document = by_title(document["components"].pop("schemas"), document)
             document["components"]["schemas"] = schemas
             self.openapi_schema = document
