@@ -10,14 +10,14 @@ from scanbench.wire.host import Ack
 
 
 class Answers:
-    """What was entered is told before the answer, and state after it."""
+    """What was entered and how the PLC is now is told before the answer, values after it."""
 
     def __init__(self, timeline: Timeline, services: Services, link: Link, on_answer: Callable[[], None]) -> None:
         self._timeline, self._services, self._link, self._on_answer = timeline, services, link, on_answer
 
     def ack(self, ref: int, ok: bool, message: str, near: tuple[str, ...] = ()) -> None:
         """Done, or not, and why."""
-        self._services.entered()
+        self._services.answers()
         self._link.post(Ack(ref, ok, message, self._timeline.resource.header.scan, near))
         self._on_answer()
 

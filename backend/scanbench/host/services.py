@@ -125,6 +125,12 @@ class Services:
             self._link.post(protocol.Entered(tuple(entries)))
             self._tell_standing()
 
+    def answers(self) -> None:
+        """What an answer comes after: its entries, and the state. Who begins a new run after *paused* begins a paused one."""
+        self.entered()
+        if not self._link.backlogged:
+            self._tell_state(monotonic_ns())
+
     def moved(self) -> None:
         """Another program is shown: every variable may have another place."""
         self._link.post(protocol.Watching(None, self._plan_watch(self._watched)))
@@ -150,10 +156,7 @@ class Services:
         self._tell_forces(
             now >= self._counted_at
         )  # first: who sees it run again after a death also sees the last of them
-        state = self.state
-        if state != self._last_state and (now >= self._state_at or self._differs(state)):
-            self._last_state, self._state_at = state, now + COUNTING_NS
-            self._link.post(state)
+        self._tell_state(now)
         self._tell_standing()  # after it: what is present is read as the past's or as live, by the state
         if now >= self._counted_at:
             self._counted_at = now + COUNTING_NS
@@ -162,6 +165,12 @@ class Services:
         if now >= self._info_at:
             self._info_at = now + _INFO_NS
             self._tell_info()
+
+    def _tell_state(self, now: int) -> None:
+        state = self.state
+        if state != self._last_state and (now >= self._state_at or self._differs(state)):
+            self._last_state, self._state_at = state, now + COUNTING_NS
+            self._link.post(state)
 
     def _tier_note(self, now: int) -> str:
         """What to say of code that is not optimised yet, unless that is soon over."""

@@ -89,7 +89,7 @@ class Child:
 
     def halted(self, after: int = 0) -> Halt:
         """The next halt."""
-        state = self.wait(protocol.PlcState, lambda state: state.halt is not None and state.halt.number > after)
+        state = self.until(lambda state: state.halt is not None and state.halt.number > after)
         assert state.halt is not None
         return state.halt
 

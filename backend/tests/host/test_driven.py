@@ -38,6 +38,20 @@ def drive(child: Child, action: str, speed: float | None = None, **more: object)
     return ack.scan
 
 
+def test_how_it_is_driven_is_told_before_the_answer(tmp_path: Path, cache: Path) -> None:
+    """A parent that begins a new run at the answer to *pause* must not begin one that runs."""
+    with Child(tmp_path / "a.run", COUNTING, cache) as child:
+        for action, speed in (("pause", None), ("continue", None), ("speed", 0), ("pause", 2)):
+            child.send(protocol.Drive(77, action, speed, "Ann"))
+            told: list[object] = []
+            while not any(isinstance(each, protocol.Ack) and each.ref == 77 for each in told):
+                told += child.take()
+            answer = next(at for at, each in enumerate(told) if isinstance(each, protocol.Ack) and each.ref == 77)
+            state = [each for each in told[:answer] if isinstance(each, PlcState)][-1]
+            assert state.paused == (action == "pause")
+            assert speed is None or state.speed == speed
+
+
 @pytest.mark.parametrize("end", [killed, ended])
 def test_paused_at_this_scan_at_this_speed(tmp_path: Path, cache: Path, end: Ended) -> None:
     run = tmp_path / "a.run"

@@ -130,7 +130,7 @@ def test_a_plc_that_was_halted_comes_back_standing(tmp_path: Path, cache: Path) 
         assert child.step("pause").ok
         halt = child.halted()
         assert child.step("back").ok
-        state = child.wait(protocol.PlcState, lambda state: state.halt is not None and state.halt.past)
+        state = child.until(lambda state: state.halt is not None and state.halt.past)
         assert state.live_scan == halt.scan
         os.kill(child.process.pid, signal.SIGKILL)
     with Child(run, STATIONS, cache) as child:

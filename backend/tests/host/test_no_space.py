@@ -71,7 +71,7 @@ def test_paused_it_stays_paused_when_there_is_room(tmp_path: Path) -> None:
         room(child.process.pid, NO_LIMIT)
         done = child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack)
         assert (done.ok, done.scan) == (True, 1)
-        assert child.wait(PlcState, lambda state: state.scan == 1).state == "paused"
+        assert child.until(lambda state: state.scan == 1).state == "paused"
 
 
 def test_a_plc_begins_when_there_is_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
