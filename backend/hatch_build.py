@@ -39,6 +39,7 @@ class Share(BuildHookInterface[BuilderConfig]):
     """Not in an editable install: that looks into the checkout."""
 
     PLUGIN_NAME = "custom"
+    _packed: "tempfile.TemporaryDirectory[str] | None" = None
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """See hatchling."""
@@ -52,6 +53,12 @@ class Share(BuildHookInterface[BuilderConfig]):
             sys.path.insert(0, self.root)
             from scanbench.cli.vsix import NAME, pack
 
-            path = Path(tempfile.mkdtemp(), NAME)
+            self._packed = tempfile.TemporaryDirectory()
+            path = Path(self._packed.name, NAME)
             path.write_bytes(pack(checkout / "vscode"))
             build_data["force_include"][str(path)] = f"{SHARE}/{NAME}"
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
+        """See hatchling."""
+        if self._packed is not None:
+            self._packed.cleanup()

@@ -2,9 +2,12 @@
 
 import os
 import signal
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from scanbench.host.zygote import zygote
 
 # The same examples on every run: a red test stays red until it is mended. SCANBENCH_EXPLORE=1 goes looking for new ones.
 settings.register_profile(
@@ -24,3 +27,10 @@ LONG = ("tests/web/", "tests/test_", "tests/engines/")
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The workers take whole files in this order, and end together."""
     items.sort(key=lambda item: not item.nodeid.startswith(LONG))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def nothing_left_running() -> Iterator[None]:
+    """Sessions that a test starts in this process fork from a process of its own."""
+    yield
+    zygote().close()

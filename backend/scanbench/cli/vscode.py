@@ -47,5 +47,8 @@ def extension() -> Path:
     if not (folder / "package.json").is_file():
         usage(f"this installation has no extension for VS Code: {brought} is missing")
     path = folder / NAME
-    path.write_bytes(pack(folder))
+    try:
+        path.write_bytes(pack(folder))
+    except OSError as error:
+        usage(f"the extension cannot be packed: {path}: {error.strerror}")
     return path
