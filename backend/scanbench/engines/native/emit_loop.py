@@ -1,4 +1,4 @@
-"""The loop that runs scans at a pace, in IR.
+"""The loop that runs scans at a pace, in IR: one module for all programs, which a process compiles once.
 
 It sleeps once for each scan: until the deadline, or until somebody interrupts. On Linux that is one wait on the interrupt itself
 (a futex); elsewhere it sleeps in slices, and looks.
@@ -7,11 +7,11 @@ It sleeps once for each scan: until the deadline, or until somebody interrupts. 
 import platform
 import sys
 
-from scanbench.engines.native.emit_body import Unit
+from scanbench.engines.native.emit_module import ATTRIBUTES, UNLIKELY_BRANCH
 from scanbench.program.layout import Layout
 
 DONE, INTERRUPTED, TRAP, ASKED, CONDITION = 0, 1, 2, 3, 4
-"""What `@run` returns."""
+"""What the loop returns."""
 
 SLICE_NS = 2_000_000
 """Longest sleep between two looks at the interrupt, where nothing can wake the loop."""
@@ -31,7 +31,7 @@ SLEEP_ON_INTERRUPT = """\
 declare i64 @syscall(i64, ...) nounwind
 declare i32 @prctl(i32, ...) nounwind
 
-define internal void @prepare() noinline cold #0 {{
+define internal void @prepare() noinline #0 {{
 ; the kernel may not put off this thread's waking, by 50 us otherwise, to wake others at the same time
   %ok = call i32 (i32, ...) @prctl(i32 {timer_slack}, i64 1, i64 0, i64 0, i64 0)
   ret void
@@ -54,7 +54,7 @@ define internal void @sleep(ptr %ctl, i64 %now, i64 %deadline) noinline #0 {{
 SLEEP_IN_SLICES = """\
 declare i32 @clock_nanosleep(i32, i32, ptr, ptr) nounwind
 
-define internal void @prepare() #0 {{
+define internal void @prepare() noinline #0 {{
   ret void
 }}
 
@@ -74,7 +74,7 @@ define internal void @sleep(ptr %ctl, i64 %now, i64 %deadline) noinline #0 {{
 }}
 """
 
-RUN = """\
+WAITING = """\
 declare i32 @clock_gettime(i32, ptr) nounwind willreturn memory(argmem: readwrite, inaccessiblemem: readwrite)
 declare i64 @llvm.smin.i64(i64, i64)
 declare i64 @llvm.smax.i64(i64, i64)
@@ -156,10 +156,58 @@ define internal void @note(ptr noalias %pace, i64 %began, i64 %counted) noinline
   store i64 %next, ptr %deadlineat, align 8
   ret void
 }}
+"""
 
-define i32 @run(ptr noalias nonnull noundef align 8 dereferenceable({size}) %img, ptr %ctl, i64 %scans, ptr noalias %pace) #0 {{
+APPLY_FORCES = """\
+declare i32 @llvm.umin.i32(i32, i32)
+
+define void @"loop.forces"(ptr %img, i64 %note, i32 %size) cold minsize optsize #0 {{
+; byte = byte & ~mask | value & mask, for every entry in use whose byte there is (an image may come from a file); what it was
+; is kept in the entry, at its byte %note
+entry:
+  %countat = getelementptr inbounds i8, ptr %img, i64 {count}
+  %count = load i32, ptr %countat, align 4
+  %limited = call i32 @llvm.umin.i32(i32 %count, i32 {limit})
+  %n = zext i32 %limited to i64
+  br label %next
+next:
+  %i = phi i64 [ 0, %entry ], [ %after, %apply ], [ %skipped, %one ]
+  %more = icmp ult i64 %i, %n
+  br i1 %more, label %one, label %done
+one:
+  %start = mul i64 %i, 8
+  %at = add i64 %start, {table}
+  %entryat = getelementptr inbounds i8, ptr %img, i64 %at
+  %offset = load i32, ptr %entryat, align 8
+  %skipped = add i64 %i, 1
+  %inside = icmp ult i32 %offset, %size
+  br i1 %inside, label %apply, label %next
+apply:
+  %maskat = getelementptr inbounds i8, ptr %entryat, i64 4
+  %mask = load i8, ptr %maskat, align 1
+  %valueat = getelementptr inbounds i8, ptr %entryat, i64 5
+  %value = load i8, ptr %valueat, align 1
+  %wide = zext i32 %offset to i64
+  %byteat = getelementptr inbounds i8, ptr %img, i64 %wide
+  %byte = load i8, ptr %byteat, align 1
+  %noteat = getelementptr inbounds i8, ptr %entryat, i64 %note
+  store i8 %byte, ptr %noteat, align 1
+  %keep = xor i8 %mask, -1
+  %kept = and i8 %byte, %keep
+  %set = and i8 %value, %mask
+  %forced = or i8 %kept, %set
+  store i8 %forced, ptr %byteat, align 1
+  %after = add i64 %i, 1
+  br label %next
+done:
+  ret void
+}}
+"""
+
+RUN = """\
+define i32 @"loop.run"(ptr noalias nonnull noundef align 8 %img, ptr %ctl, i64 %scans, ptr noalias %pace) #0 {{
 ; %ctl: u32 interrupt, +8 i64 trap, +16 the condition: i32 (ptr image), or null,
-; +24 what samples: void (ptr image, ptr table, ptr ctl), or null, +32 its table
+; +24 what samples: void (ptr image, ptr table, ptr ctl), or null, +32 its table, +40 the scan: i32 (ptr image)
 ; %pace: i64 period, deadline, late, worst, busy, scans, misses; null when nothing is to be measured
 entry:
   %conditionat = getelementptr i8, ptr %ctl, i64 16
@@ -170,6 +218,8 @@ entry:
   %sampling = icmp ne ptr %sample, null
   %tableat = getelementptr i8, ptr %ctl, i64 32
   %table = load ptr, ptr %tableat, align 8
+  %scanat = getelementptr i8, ptr %ctl, i64 40
+  %scan = load ptr, ptr %scanat, align 8
   %measured = icmp ne ptr %pace, null
   br i1 %measured, label %paces, label %head
 paces:
@@ -201,7 +251,7 @@ wait:
   br i1 %called, label %leave, label %go
 go:
   %at = phi i64 [ 0, %ready ], [ %start, %wait ]
-  %status = call i32 @scan(ptr %img)
+  %status = call i32 %scan(ptr %img) nounwind willreturn
   %bad = icmp ne i32 %status, 0
   br i1 %bad, label %trapped, label %good, !prof !0
 good:
@@ -251,13 +301,14 @@ out:
 }}"""
 
 
-def emit(unit: Unit, size: int) -> None:
-    """Adds `@run` to the module, for an image of `size` bytes."""
-    unit.module.declare("@sleep", _sleep())
+RUN_NAME, FORCES_NAME = "loop.run", "loop.forces"
+
+
+def module() -> str:
+    """The same for all programs, so that a process compiles it once: a program brings its scan."""
+    waiting = WAITING.format(late_periods=LATE_PERIODS, late_ns=LATE_NS)
+    forces = APPLY_FORCES.format(count=Layout.FORCE_COUNT, table=Layout.FORCES, limit=Layout.FORCE_LIMIT)
     run = RUN.format(
-        size=size,
-        late_periods=LATE_PERIODS,
-        late_ns=LATE_NS,
         asked_count=Layout.ASKED_COUNT,
         done=DONE,
         interrupted=INTERRUPTED,
@@ -265,7 +316,7 @@ def emit(unit: Unit, size: int) -> None:
         asked=ASKED,
         condition=CONDITION,
     )
-    unit.module.declare("@run", run)
+    return "\n".join([waiting, _sleep(), forces, run, ATTRIBUTES, f"!0 = {UNLIKELY_BRANCH}", ""])
 
 
 def _sleep() -> str:

@@ -1,5 +1,7 @@
 """The text of one LLVM module: functions, constants, declarations, alias tags."""
 
+UNLIKELY_BRANCH = '!{!"branch_weights", i32 1, i32 1048575}'
+"""The first piece of metadata of every module."""
 ATTRIBUTES = "attributes #0 = { nounwind willreturn mustprogress }"
 
 
@@ -12,7 +14,7 @@ class ModuleText:
         self._declarations: dict[str, str] = {}
         self._reserved: list[str] = []
         self._metadata: list[str] = [
-            '!{!"branch_weights", i32 1, i32 1048575}',
+            UNLIKELY_BRANCH,
             '!{!"scanbench"}',
         ]
         self._tags: dict[str, str] = {"": ""}
@@ -90,6 +92,9 @@ class ModuleText:
         return "\n".join(parts)
 
 
+_PLAIN = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 ._@#"
+_ESCAPED = tuple(chr(byte) if byte in _PLAIN else f"\\{byte:02X}" for byte in range(256))
+
+
 def _escape(data: bytes) -> str:
-    plain = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 ._@#"
-    return "".join(chr(byte) if byte in plain else f"\\{byte:02X}" for byte in data)
+    return "".join(map(_ESCAPED.__getitem__, data))

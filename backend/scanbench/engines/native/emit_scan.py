@@ -1,6 +1,6 @@
-"""The scan: the contract of `engines/engine.py` in IR. The loop that runs scans is in `emit_loop`."""
+"""The scan: the contract of `engines/engine.py` in IR. The loop that runs scans is in `emit_loop`, the same for all programs."""
 
-from scanbench.engines.native import emit_expressions, emit_loop, emit_statements
+from scanbench.engines.native import emit_expressions, emit_statements
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import UNLIKELY, FunctionText, Value
 from scanbench.engines.native.emit_memory import store
@@ -14,65 +14,16 @@ from scanbench.program.types import BOOL, Kind, Record
 SCRATCH = '@"t.scan"'
 """Memory of the temporaries of what a configuration connects."""
 
-APPLY_FORCES = """\
-define internal void @forces(ptr %img, i64 %note) noinline cold #0 {{
-; byte = byte & ~mask | value & mask, for every entry in use whose byte there is (an image may come from a file); what it was
-; is kept in the entry, at its byte %note
-entry:
-  %countat = getelementptr inbounds i8, ptr %img, i64 {count}
-  %count = load i32, ptr %countat, align 4
-  %limited = call i32 @llvm.umin.i32(i32 %count, i32 {limit})
-  %n = zext i32 %limited to i64
-  br label %next
-next:
-  %i = phi i64 [ 0, %entry ], [ %after, %apply ], [ %skipped, %one ]
-  %more = icmp ult i64 %i, %n
-  br i1 %more, label %one, label %done
-one:
-  %start = mul i64 %i, 8
-  %at = add i64 %start, {table}
-  %entryat = getelementptr inbounds i8, ptr %img, i64 %at
-  %offset = load i32, ptr %entryat, align 8
-  %skipped = add i64 %i, 1
-  %inside = icmp ult i32 %offset, {size}
-  br i1 %inside, label %apply, label %next
-apply:
-  %maskat = getelementptr inbounds i8, ptr %entryat, i64 4
-  %mask = load i8, ptr %maskat, align 1
-  %valueat = getelementptr inbounds i8, ptr %entryat, i64 5
-  %value = load i8, ptr %valueat, align 1
-  %wide = zext i32 %offset to i64
-  %byteat = getelementptr inbounds i8, ptr %img, i64 %wide
-  %byte = load i8, ptr %byteat, align 1
-  %noteat = getelementptr inbounds i8, ptr %entryat, i64 %note
-  store i8 %byte, ptr %noteat, align 1
-  %keep = xor i8 %mask, -1
-  %kept = and i8 %byte, %keep
-  %set = and i8 %value, %mask
-  %forced = or i8 %kept, %set
-  store i8 %forced, ptr %byteat, align 1
-  %after = add i64 %i, 1
-  br label %next
-done:
-  ret void
-}}
-declare i32 @llvm.umin.i32(i32, i32)"""
-
 
 def emit(unit: Unit, program: Program) -> None:
-    """Adds `@scan` and `@run` to the module."""
-    size = program.layout.size
-    unit.module.declare(
-        "@forces",
-        APPLY_FORCES.format(count=Layout.FORCE_COUNT, table=Layout.FORCES, limit=Layout.FORCE_LIMIT, size=size),
-    )
+    """Adds `@scan` to the module."""
+    unit.module.declare("@loop.forces", 'declare void @"loop.forces"(ptr, i64, i32) cold nounwind willreturn')
     unit.module.add(_scan(unit, program))
-    emit_loop.emit(unit, size)
 
 
 def _scan(unit: Unit, program: Program) -> str:
     size = program.layout.size
-    head = f"define internal i32 @scan(ptr nonnull noundef align 8 dereferenceable({size}) %img) #0"
+    head = f"define i32 @scan(ptr nonnull noundef align 8 dereferenceable({size}) %img) #0"
     text = FunctionText(head, SCRATCH)
     body = _around(unit, text)
     unit.flavour.begin(body)
@@ -92,10 +43,10 @@ def _scan(unit: Unit, program: Program) -> str:
     for instance in (*program.common, *program.plant):
         _program(body, instance)
     body.unit.flavour.silence(body, False)
-    _forces(unit, text, FORCE_BEFORE)
+    _forces(unit, text, FORCE_BEFORE, size)
     for task in program.tasks:
         _task(body, task, number)
-    _forces(unit, text, FORCE_AFTER_PROGRAM)
+    _forces(unit, text, FORCE_AFTER_PROGRAM, size)
     unit.flavour.done(body)
     following = text.op(f"add i64 {number}, 1")
     text.do(f"store i64 {following}, ptr {scan}, align 8{unit.module.tag('#scan')}")
@@ -116,13 +67,13 @@ def _field(text: FunctionText, offset: int) -> str:
     return text.op(f"getelementptr inbounds nuw i8, ptr %img, i64 {offset}")
 
 
-def _forces(unit: Unit, text: FunctionText, note: int) -> None:
+def _forces(unit: Unit, text: FunctionText, note: int, size: int) -> None:
     where = _field(text, Layout.FORCE_COUNT)
     count = text.op(f"load i32, ptr {where}, align 4{unit.module.tag('#forcecount')}")
     apply, on = text.name("force"), text.name("on")
     text.choose(text.op(f"icmp ne i32 {count}, 0"), apply, on, UNLIKELY)
     text.begin(apply)
-    text.do(f"call void @forces(ptr %img, i64 {note})")
+    text.do(f'call void @"loop.forces"(ptr %img, i64 {note}, i32 {size})')
     text.go(on)
     text.begin(on)
 

@@ -26,7 +26,7 @@ class _Control(ctypes.Structure):
 
     _fields_ = [
         ("interrupt", ctypes.c_uint32), ("trap", ctypes.c_int64), ("condition", ctypes.c_void_p),
-        ("sample", ctypes.c_void_p), ("table", ctypes.c_void_p),
+        ("sample", ctypes.c_void_p), ("table", ctypes.c_void_p), ("scan", ctypes.c_void_p),
     ]  # fmt: skip
 
 
@@ -75,12 +75,12 @@ class NativeEngine(Engine):
         self._observer = observer  # the code writes to its memory
         if observer is not None:
             observer.attach(self._code)
-        self._run = _RUN(self._code.function("run"))
+        self._run = _RUN(jit.run_address())
         self._image = (ctypes.c_uint8 * len(memory)).from_buffer(memory)
         self._address = ctypes.addressof(self._image)
         if self._address % 8:
             raise ValueError("the image must start at an address that is a multiple of 8")
-        self._control = _Control()
+        self._control = _Control(scan=self._code.function("scan"))
         self._condition: jit.Code | None = None
         self._samplings: tuple[Sampling, ...] = ()
         self._sampler: tuple[jit.Code, ctypes.Array[ctypes.c_uint64]] | None = None

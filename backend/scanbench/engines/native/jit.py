@@ -12,9 +12,12 @@ from time import perf_counter_ns
 import llvmlite
 import llvmlite.binding as llvm
 
+from scanbench.engines.native import emit_loop
 from scanbench.engines.native.emit_intrinsics import LIBM, LIBM_PREFIX
 
 _ready = False
+_loop: "Code | None" = None
+"""What runs the scans of every program."""
 
 
 @dataclass(slots=True)
@@ -48,7 +51,7 @@ class Code:
 
 
 def _prepare() -> None:
-    global _ready
+    global _ready, _loop
     if _ready:
         return
     llvm.initialize_native_target()
@@ -58,6 +61,15 @@ def _prepare() -> None:
     for name in LIBM.values():
         llvm.add_symbol(LIBM_PREFIX + name, ctypes.cast(getattr(libm, name), ctypes.c_void_p).value)
     _ready = True
+    _loop = link([compile_object(emit_loop.module(), 2, Timings())], Timings())
+    llvm.add_symbol(emit_loop.FORCES_NAME, _loop.function(emit_loop.FORCES_NAME))
+
+
+def run_address() -> int:
+    """Of the loop that runs scans."""
+    _prepare()
+    assert _loop is not None
+    return _loop.function(emit_loop.RUN_NAME)
 
 
 def _machine(opt_level: int) -> "llvm.TargetMachine":

@@ -62,4 +62,4 @@ IF a[j] > a[j + 1] THEN t := a[j]; a[j] := a[j + 1]; a[j + 1] := t; END_IF; END_
     assert bounds
     emitted = emit_program(program)
     assert not any(f"ret i32 {number}\n" in emitted for number in bounds)
-    assert "@run" in jit.optimised_text(emitted)
+    assert "@scan" in jit.optimised_text(emitted)
