@@ -5,9 +5,13 @@ and times are written.
 This module imports nothing of ours: every room may use it.
 """
 
+import ast
+import sys
 from collections.abc import Callable
 from datetime import UTC, datetime
-from inspect import cleandoc
+from functools import cache
+from inspect import cleandoc, getsource
+from itertools import pairwise
 from typing import Annotated, ClassVar, Generic, TypeVar
 
 T = TypeVar("T")
@@ -52,6 +56,8 @@ def _describe(schema: dict[str, object], cls: type) -> None:
     schema["description"] = cleandoc(cls.__doc__ or "")
     fields = schema["properties"]
     assert isinstance(fields, dict)
+    for name, text in _field_docstrings(cls.__module__).get(cls.__name__, {}).items():
+        fields[name]["description"] = text
     if getattr(cls, "GIVEN", False):
         return
     named = {name: field for name, field in fields.items() if "const" not in field}
@@ -60,14 +66,27 @@ def _describe(schema: dict[str, object], cls: type) -> None:
     schema["required"] = list(named)
 
 
+@cache
+def _field_docstrings(module: str) -> dict[str, dict[str, str]]:
+    """By class and field. Read when somebody asks for the description, not at each start as pydantic does: parsing the sources
+    takes longer than all the rest of it."""
+    tree = ast.parse(getsource(sys.modules[module]))
+    return {
+        each.name: {
+            field.target.id: cleandoc(text.value.value)
+            for field, text in pairwise(each.body)
+            if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name)
+            if isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant) and isinstance(text.value.value, str)
+        }
+        for each in tree.body
+        if isinstance(each, ast.ClassDef)
+    }
+
+
 class Public:
     """Base of such a dataclass. Its docstring and those of its fields are the descriptions in OpenAPI."""
 
     __slots__ = ()
     GIVEN: ClassVar = False
     """Whether clients give it, too."""
-    __pydantic_config__: ClassVar[dict[str, object]] = {
-        "extra": "forbid",
-        "json_schema_extra": _describe,
-        "use_attribute_docstrings": True,
-    }
+    __pydantic_config__: ClassVar[dict[str, object]] = {"extra": "forbid", "json_schema_extra": _describe}
