@@ -58,8 +58,9 @@ export class Sweeps {
 
   /** A result by its state, as the head of the column says. */
   async cell(error: string, state: string): Promise<Locator> {
-    const heads = await this.matrix.getByRole('columnheader').allTextContents();
-    expect(heads).toContain(state);
+    const head = this.matrix.getByRole('columnheader');
+    await expect(head.filter({ hasText: state })).toBeVisible();
+    const heads = await head.allTextContents();
     return this.row(error)
       .getByRole('gridcell')
       .nth(heads.indexOf(state) - 1);

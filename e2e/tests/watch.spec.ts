@@ -113,7 +113,7 @@ test('groups, order, filter, CSV and dragging', async ({ openAs }, info) => {
 
   await test.step('many lines are pasted as many entries', async () => {
     await watch.paste('Main.parts.total\nbufferLevel\nMain.heartbeat\nmotor');
-    expect(await watch.paths()).toEqual(['Main.parts.total', 'bufferLevel', 'Main.heartbeat', 'motor']);
+    await expect.poll(() => watch.paths()).toEqual(['Main.parts.total', 'bufferLevel', 'Main.heartbeat', 'motor']);
   });
 
   await test.step('rows are dragged into a group and out of it', async () => {
@@ -121,22 +121,22 @@ test('groups, order, filter, CSV and dragging', async ({ openAs }, info) => {
     await watch.name('motor').dragTo(watch.group('Belt'));
     await expect(watch.group('Belt')).toContainText('1');
     await watch.name('Main.parts.total').dragTo(watch.name('motor'));
-    expect(await watch.paths()).toEqual(['bufferLevel', 'Main.heartbeat', 'Main.parts.total', 'motor']);
+    await expect.poll(() => watch.paths()).toEqual(['bufferLevel', 'Main.heartbeat', 'Main.parts.total', 'motor']);
     await watch.group('Belt').getByRole('button', { name: 'Fold Belt' }).click();
     await expect(watch.row('motor')).toBeHidden();
     await watch.group('Belt').getByRole('button', { name: 'Unfold Belt' }).click();
     await watch.name('motor').dragTo(watch.name('bufferLevel'));
-    expect(await watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
+    await expect.poll(() => watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
   });
 
   await test.step('a column sorts inside of the groups, and gives the order back', async () => {
     const head = watch.table.getByRole('columnheader', { name: 'Target variable' });
     await head.getByRole('button').click();
     await expect(head).toHaveAttribute('aria-sort', 'ascending');
-    expect(await watch.paths()).toEqual(['bufferLevel', 'Main.heartbeat', 'motor', 'Main.parts.total']);
+    await expect.poll(() => watch.paths()).toEqual(['bufferLevel', 'Main.heartbeat', 'motor', 'Main.parts.total']);
     await head.getByRole('button').click();
     await head.getByRole('button').click();
-    expect(await watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
+    await expect.poll(() => watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
   });
 
   await test.step('a filter leaves what is meant', async () => {
@@ -147,7 +147,7 @@ test('groups, order, filter, CSV and dragging', async ({ openAs }, info) => {
     await page.getByRole('button', { name: 'Show: All rows' }).click();
     await page.getByRole('menuitemradio', { name: 'Changed since the filter was set' }).click();
     await expect.poll(() => watch.paths()).toContain('Main.heartbeat');
-    expect(await watch.paths()).not.toContain('motor');
+    await expect.poll(() => watch.paths()).not.toContain('motor');
     await page.getByRole('button', { name: 'Close the filter' }).click();
   });
 
