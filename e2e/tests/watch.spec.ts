@@ -1,7 +1,7 @@
 import { readFile, writeFile } from 'node:fs/promises';
 import { expect, test } from '../fixtures/test';
 
-test('a watch list is shared, and two people change it at once', async ({ openAs }) => {
+test('a watch list is shared, and two people change it at once', async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   await mika.runs();
 
@@ -10,6 +10,8 @@ test('a watch list is shared, and two people change it at once', async ({ openAs
     await mika.watch.list('Share with everybody');
     await expect(mika.watch.picker).toContainText('shared');
     await mika.watch.renameList('Belt 3');
+    const lists = () => server.get<{ name: string }[]>(`/projects/${server.project}/watch-lists`);
+    await expect.poll(async () => (await lists()).map(({ name }) => name)).toEqual(['Belt 3']); // it is saved a moment later
   });
 
   const jo = await openAs('Jo');
