@@ -2,105 +2,138 @@
 
 import asyncio
 import logging
-import socket
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from scanbench.host.zygote import JOB, NoProcess, Process, zygote
-from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
+from scanbench.host.zygote import JOB, NoProcess, Process
+from scanbench.jobs.channel import Channel, OnPart, connect, messages
+from scanbench.wire.codec import BadMessage
+from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
-DIED = "the process that computes it died: try again"
 ANSWER_S = 120.0
 """So long a question of people is waited for; then the process is ended that computes it."""
 WORK_S = 600.0
 """So long a process that does one thing, and tells how far it is, may say nothing; then it is ended."""
+IDLE_S = 60.0
+"""So long without a question, and a process that is there for all ends."""
+DIED = "the process that computes it died: try again"
 SLOW = f"it took longer than {ANSWER_S:g} s, and was given up: ask for fewer scans, or try again"
-_UNREAD_BYTES = 64 << 20
-"""More than this not read by a process: it is ended."""
-_T = TypeVar("_T")
+A = TypeVar("A")
+Make = Callable[[int], object]
+"""Makes a question of the ref that it is given."""
 
 
-async def answered(future: asyncio.Future[_T], seconds: float, count: Callable[[], int]) -> _T:
-    """The answer of a process that answers one question after the other. `TimeoutError` when none at all, of which `count`
-    gives the number, has come for so many seconds: those before it have their own time."""
-    while not future.done():
-        before = count()
-        await asyncio.wait((future,), timeout=seconds)
-        if not future.done() and count() == before:
-            raise TimeoutError
-    return future.result()
+class Gone(Refused):
+    """There is no answer: the process died, or was ended."""
 
 
 class Job:
-    """One job process. `on_message` gets its answers in order; `on_end` is called once with it, when it is gone."""
+    """One job process, which answers one question after the other. To be made in the event loop."""
 
-    def __init__(
-        self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]",
-        silent_s: float | None = None,
-    ) -> None:  # fmt: skip
-        """`cache` is the directory where programs and their code are kept; a process that says nothing for `silent_s` is
-        ended. To be made in the event loop."""
-        self._silent_s = silent_s
-        self._waiting: list[bytes] = []
+    def __init__(self, cache: Path, on_end: Callable[[], None] = lambda: None) -> None:
+        """`cache` is the directory where programs and their code are kept; `on_end` is called once, when the process is gone."""
+        self._channel = Channel("a job", self.kill, Gone, in_turn=True)
         self._process: Process | None = None
-        self._writer: asyncio.StreamWriter | None = None
-        self._ended = False
-        self._task = asyncio.get_running_loop().create_task(self._live(cache, on_message, on_end))
+        self._begun = asyncio.Event()
+        self.gone = False
+        """It is ended, or will be in a moment."""
+        self._task = asyncio.get_running_loop().create_task(self._live(cache, on_end))
 
-    def ask(self, message: object) -> None:
-        """A request; answers come as messages."""
-        packed = pack(message)
-        if self._writer is None:
-            self._waiting.append(packed)
-        else:
-            self._writer.write(packed)
-            if self._writer.transport.get_write_buffer_size() > _UNREAD_BYTES:
-                log.error("a job process does not read what it is asked: it is ended")
-                self._kill()
+    async def ask(
+        self, make: Make, answer: type[A], seconds: float | None = ANSWER_S, on_part: OnPart | None = None
+    ) -> A:  # fmt: skip
+        """The answer; see `Channel.ask`. `Gone` when the process died, or said nothing for so many seconds: then it is ended."""
+        await self._begun.wait()
+        if not self._channel.there:
+            raise Gone(DIED)
+        try:
+            return await self._channel.ask(make, answer, seconds, on_part)
+        except TimeoutError:
+            log.error("a job process has said nothing for %g s: it is ended", seconds)
+            self.kill()
+            raise Gone(SLOW if on_part is None else DIED) from None
 
-    async def end(self) -> None:
+    def kill(self) -> None:
         """Ends the process, whatever it does."""
-        self._ended = True
-        self._kill()
-        await asyncio.gather(self._task, return_exceptions=True)
-
-    def _kill(self) -> None:
+        self.gone = True
         if self._process is not None:
             self._process.kill()
 
-    async def _live(
-        self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]"
-    ) -> None:  # fmt: skip
-        ours, theirs = socket.socketpair()
+    async def end(self) -> None:
+        """Ends the process, and waits for that."""
+        self.kill()
+        await asyncio.wait((self._task,))
+
+    async def _live(self, cache: Path, on_end: Callable[[], None]) -> None:
         try:
-            with theirs:
-                self._process = process = await asyncio.to_thread(zygote().spawn, theirs, cache, JOB)
+            self._process, reader, writer = await connect(cache, JOB)
         except NoProcess:
-            ours.close()
             log.exception("a job process could not be started")
-            on_end(self)
+            self.gone = True
+            self._begun.set()
+            on_end()
             return
-        reader, self._writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
-        if self._ended:
-            self._kill()
-        for packed in self._waiting:
-            self._writer.write(packed)
-        self._waiting.clear()
+        self._channel.begin(writer)
+        self._begun.set()
         try:
-            while True:
-                async with asyncio.timeout(self._silent_s):
-                    body = await reader.readexactly(body_length(await reader.readexactly(LENGTH.size)))
-                on_message(unpack(body))
-        except (asyncio.IncompleteReadError, ConnectionError):
-            pass
-        except TimeoutError:
-            log.error("a job process has said nothing for %g s: it is ended", self._silent_s)
+            if not self.gone:
+                async for message in messages(reader):
+                    await self._channel.take(message)
         except BadMessage:
             log.exception("a job process does not speak the protocol")
         finally:
-            self._kill()
-            self._writer.close()
-            await asyncio.to_thread(process.wait)
-            on_end(self)
+            self.kill()
+            self._channel.end(DIED)
+            writer.close()
+            await asyncio.to_thread(self._process.wait)
+            on_end()
+
+
+class SharedJob:
+    """One job process for the questions of all: the first one starts it, and it ends when nothing was asked for a while."""
+
+    def __init__(self, cache: Path, idle_s: float = IDLE_S, answer_s: float = ANSWER_S) -> None:
+        self._cache, self._idle_s, self._answer_s = cache, idle_s, answer_s
+        self._job: Job | None = None
+        self._open = 0
+        self._idle: asyncio.TimerHandle | None = None
+
+    async def ask(self, make: Make, answer: type[A]) -> A:
+        """See `Job.ask`."""
+        self._open += 1
+        if self._idle is not None:
+            self._idle.cancel()
+        try:
+            job = await self._ready()
+            return await job.ask(make, answer, self._answer_s)
+        finally:
+            self._open -= 1
+            if not self._open and self._job is not None:
+                self._idle = asyncio.get_running_loop().call_later(self._idle_s, self._job.kill)
+
+    async def close(self) -> None:
+        """Ends the process; what is still asked is not answered any more."""
+        if self._idle is not None:
+            self._idle.cancel()
+        if self._job is not None:
+            await self._job.end()
+
+    async def _ready(self) -> Job:
+        before = self._job
+        if before is not None and not before.gone:
+            return before
+        job = self._job = Job(self._cache)
+        if before is not None:
+            await before.end()
+        return job
+
+
+async def alone(cache: Path, make: Make, answer: type[A], on_part: OnPart, silent_s: float = WORK_S) -> A:
+    """The answer of a process that does nothing else, and tells how far it is; cancelled, it ends the process."""
+    job = Job(cache)
+    try:
+        return await job.ask(make, answer, silent_s, on_part)
+    finally:
+        await job.end()

@@ -39,7 +39,7 @@ def fly(ask: RecordFlight, programs: ProgramsOf, on_chunk: Callable[[int, int], 
     first, end = buffer.extent
     write_pages(Path(ask.to), buffer.pieces(0, end))
     return FlightDone(
-        ask.ref, True, flight.signals(), buffer.rows, first, end, resource.program.interval_ns, resource.version
+        ask.ref, flight.signals(), buffer.rows, first, end, resource.program.interval_ns, resource.version
     )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ import socket
 from collections import deque
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, TypeVar
 
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
@@ -25,22 +25,28 @@ from scanbench.jobs import verification as verify_job
 from scanbench.jobs.flight import fly
 from scanbench.jobs.starting import checked_program, model_of, point_in, reaction_in
 from scanbench.program.program import Program
+from scanbench.recording.format import RunFileError
 from scanbench.recording.programs import cached, observed, on
 from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
-from scanbench.wire import verification as verify_protocol
 from scanbench.wire.codec import BadMessage, Splitter, pack
 from scanbench.wire.host import Sources
-from scanbench.wire.jobs import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
-from scanbench.wire.traces import FlightAt, FlightDone, RecordFlight
+from scanbench.wire.jobs import CellFound, FindReaction, JobDone, JobRefused, Reacted, RunSweep, Trying
+from scanbench.wire.refused import Refused
+from scanbench.wire.traces import FlightAt, RecordFlight
+from scanbench.wire.verification import CompareRuns, FindChanges, FindWriter, PastAt, RerunRun
 
 log = logging.getLogger("scanbench")
+X = TypeVar("X")
+Y = TypeVar("Y")
 _NICENESS = 10
 _TELL_EVERY_NS = 250_000_000
 _PROGRAMS = 4
 """Checked programs that stay in memory."""
+Request = FindReaction | RunSweep | RecordFlight | verify_job.Request | history_job.Request
+_REFUSALS = (Unreadable, NoProgram, RunFileError, OSError)
 
 
 class Job:
@@ -58,92 +64,54 @@ class Job:
 
     def on_request(self, request: object) -> None:
         """Answers a request. Nothing that is wrong with it ends the process."""
+        if not isinstance(request, Request):
+            raise BadMessage(f"{type(request).__name__} is no request to a job process")
+        try:
+            answer = self._answer(request)
+        except Refused as why:
+            answer = JobRefused(request.ref, why.message, why.near)
+        except _REFUSALS as why:
+            answer = JobRefused(request.ref, _words(why), getattr(why, "near", ()))
+        except Exception as error:  # whatever it is, somebody waits for the answer
+            answer = JobRefused(request.ref, _unexpected(error))
+        self._say(answer)
+
+    def _answer(self, request: Request) -> object:
         match request:
             case FindReaction():
-                self._say(self._reacted(request))
+                return self._reacted(request)
             case RunSweep():
-                self._say(self._swept(request))
+                return self._swept(request)
             case RecordFlight():
-                self._say(self._flown(request))
-            case (
-                verify_protocol.BeginVerify() | verify_protocol.BeginTrace() | verify_protocol.VerifyScans()
-                | verify_protocol.VerifyStep() | verify_protocol.SetInputs() | verify_protocol.UsesOf()
-            ):  # fmt: skip
-                self._verified(request)
-            case (
-                verify_protocol.FindWriter() | verify_protocol.FindChanges() | verify_protocol.CompareRuns()
-                | verify_protocol.RerunRun()
-            ):  # fmt: skip
-                self._asked_about_past(request)
+                return fly(
+                    request, programs_by(self._program, on(self._flavours)), self._telling(FlightAt, request.ref)
+                )
+            case FindWriter() | FindChanges() | CompareRuns() | RerunRun():
+                if self._past is None:
+                    self._past = history_job.HistoryJob(self._program, self._cache, self._flavours.observed)
+                return self._past.answer(request, self._telling(PastAt, request.ref))
             case _:
-                raise BadMessage(f"{type(request).__name__} is no request to a job process")
-
-    def _verified(self, request: verify_job.Request) -> None:
-        if self._verify is None:
-            self._verify = verify_job.VerifyJob(self._program, self._cache, self._say, self._asked)
-        try:
-            self._verify.on_request(request)
-        except Exception as error:  # whatever it is, somebody waits for the answer
-            self._say(verify_protocol.VerifyRefused(request.ref, _unexpected(error)))
-
-    def _asked_about_past(self, request: history_job.Request) -> None:
-        if self._past is None:
-            self._past = history_job.HistoryJob(self._program, self._cache, self._flavours.observed, self._say)
-        try:
-            self._past.on_request(request)
-        except Exception as error:  # as above
-            self._say(_FAILED[type(request)](request.ref, _unexpected(error)))
+                if self._verify is None:
+                    self._verify = verify_job.VerifyJob(self._program, self._cache, self._say, self._asked)
+                return self._verify.answer(request)
 
     def _reacted(self, ask: FindReaction) -> Reacted:
-        try:
-            found = reaction_in(
-                Path(ask.run), ask.error, ask.scan, ask.end, ask.window, self._program, self._flavours.observed
-            )
-        except Unreadable as why:
-            return Reacted(ask.ref, None, str(why))
-        except Exception as error:  # whatever it is, somebody waits for the answer
-            return Reacted(ask.ref, None, _unexpected(error))
+        found = reaction_in(
+            Path(ask.run), ask.error, ask.scan, ask.end, ask.window, self._program, self._flavours.observed
+        )
         return Reacted(ask.ref, found)
 
-    def _flown(self, ask: RecordFlight) -> FlightDone:
-        told = 0
-
-        def on_chunk(done: int, of: int) -> None:
-            nonlocal told
-            if monotonic_ns() - told > _TELL_EVERY_NS:
-                told = monotonic_ns()
-                self._say(FlightAt(ask.ref, done, of))
-
-        try:
-            return fly(ask, programs_by(self._program, on(self._flavours)), on_chunk)
-        except Unreadable as why:
-            return FlightDone(ask.ref, False, message=str(why), near=why.near)
-        except Exception as error:  # as above
-            return FlightDone(ask.ref, False, message=_unexpected(error))
-
     def _swept(self, ask: RunSweep) -> JobDone:
-        try:
-            for cell in self._cells(ask):
-                self._say(cell)
-        except (Unreadable, NoProgram) as why:
-            return JobDone(ask.ref, False, str(why))
-        except Exception as error:  # as above
-            return JobDone(ask.ref, False, _unexpected(error))
-        return JobDone(ask.ref, True)
+        for cell in self._cells(ask):
+            self._say(cell)
+        return JobDone(ask.ref)
 
     def _cells(self, ask: RunSweep) -> Iterator[CellFound]:
         program = self._program(ask.sources)
         points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
         scans = {name: Header(point.state).scan for name, point in points.items()}
         programs = cached({ask.sources.version: program}, observed(self._flavours.observed))
-        told = 0
-
-        def on_try(error: str, point: str) -> None:
-            nonlocal told
-            if monotonic_ns() - told > _TELL_EVERY_NS:
-                told = monotonic_ns()
-                self._say(Trying(ask.ref, error, point))
-
+        on_try = self._telling(Trying, ask.ref)
         for cell in sweep(points, ask.errors, ask.window, programs, set(ask.done), on_try):
             yield CellFound(ask.ref, cell.error, cell.point, scans[cell.point], cell.reaction, cell.note)
 
@@ -167,17 +135,25 @@ class Job:
             del self._programs[next(iter(self._programs))]
         return program
 
+    def _telling(self, part: Callable[[int, X, Y], object], ref: int) -> Callable[[X, Y], None]:
+        """Tells how far it is, a few times a second at most."""
+        told = 0
+
+        def tell(done: X, of: Y) -> None:
+            nonlocal told
+            if monotonic_ns() - told > _TELL_EVERY_NS:
+                told = monotonic_ns()
+                self._say(part(ref, done, of))
+
+        return tell
+
     def _say(self, message: object) -> None:
         self._answers.write(pack(message))
         self._answers.flush()
 
 
-_FAILED: dict[type, Callable[[int, str], object]] = {
-    verify_protocol.FindWriter: lambda ref, why: verify_protocol.WriterFound(ref, None, why),
-    verify_protocol.FindChanges: lambda ref, why: verify_protocol.ChangesFound(ref, None, why),
-    verify_protocol.CompareRuns: lambda ref, why: verify_protocol.RunsCompared(ref, None, why),
-    verify_protocol.RerunRun: lambda ref, why: verify_protocol.RerunDone(ref, False, 0, (), why),
-}
+def _words(why: Exception) -> str:
+    return why.strerror or str(why) if isinstance(why, OSError) else str(why)
 
 
 def _unexpected(error: Exception) -> str:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
@@ -21,21 +22,23 @@ from scanbench.verify.trace.subject import open_trace
 from scanbench.verify.trace.table import BadTraceFile
 from scanbench.verify.verifier import BadEdit, Verifier
 from scanbench.wire.codec import ENTRIES, pack_body
+from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     BeginTrace,
     BeginVerify,
     PackedRow,
+    ScansDone,
     ScansVerified,
     SetInputs,
     UseRow,
     UsesAre,
     UsesOf,
     VerifyBegun,
-    VerifyRefused,
     VerifyScans,
     VerifyStep,
 )
 
+S = TypeVar("S", bound=ScansVerified)
 _TELL_NS = 100_000_000
 Request = BeginVerify | BeginTrace | VerifyScans | VerifyStep | SetInputs | UsesOf
 REFUSALS = (Unreadable, NoProgram, RunFileError, BadEdit, BadMapping, BadTraceFile, OSError)
@@ -51,54 +54,54 @@ class VerifyJob:
         self._program_of, self._cache, self._say, self._asked = program_of, cache, say, asked
         self._verifier: Verifier | None = None
 
-    def on_request(self, request: Request) -> None:
-        """Answers it."""
+    def answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre:
+        """The answer; `Refused`."""
         try:
-            self._answer(request)
+            return self._answer(request)
         except BadRange as bad:
-            self._say(VerifyRefused(request.ref, str(bad), bad.near))
+            raise Refused(str(bad), bad.near) from bad
         except REFUSALS as why:
-            self._say(VerifyRefused(request.ref, _words(why)))
+            raise Refused(_words(why)) from why
 
-    def _answer(self, request: Request) -> None:
+    def _answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre:
         match request:
             case BeginVerify():
-                self._begin(request)
+                return self._begin(request)
             case BeginTrace():
-                self._begin_trace(request)
+                return self._begin_trace(request)
             case VerifyScans():
-                self._scans(request)
+                return self._scans(request)
             case VerifyStep():
                 verifier = self._begun()
                 verifier.follow(request.until)
-                self._tell(request.ref, [verifier.step(request.scan, request.count)], done=True, whole=False)
+                step = verifier.step(request.scan, request.count)
+                return _told(ScansDone, request.ref, [step], whole=False)
             case SetInputs():
                 rows = self._begun().set_inputs(request.edits)
-                packed = tuple(map(_packed, rows))
-                self._say(ScansVerified(request.ref, -1, 0, packed, (), (), (), 0, done=True))
+                return ScansVerified(request.ref, -1, 0, tuple(map(_packed, rows)), (), (), (), 0)
             case UsesOf():
-                self._uses(request)
+                return self._uses(request)
 
     def _begun(self) -> Verifier:
         if self._verifier is None:
             raise Unreadable("the verification has not begun")
         return self._verifier
 
-    def _begin(self, ask: BeginVerify) -> None:
+    def _begin(self, ask: BeginVerify) -> VerifyBegun:
         programs = programs_by(self._program_of, on(flavours(self._cache)))
         verifier = Verifier(RunSubject(RunReader(Path(ask.run), programs, ENTRIES, texts_in)))
         self._verifier = verifier
         verifier.follow(ask.until)
-        self._say(_begun(ask.ref, verifier.begin(ask.range, ask.limit, ask.first)))
+        return _begun(ask.ref, verifier.begin(ask.range, ask.limit, ask.first))
 
-    def _begin_trace(self, ask: BeginTrace) -> None:
+    def _begin_trace(self, ask: BeginTrace) -> VerifyBegun:
         data = Path(ask.file).read_bytes()
         verifier = open_trace(data, ask.name, ask.mapping, self._program_of(ask.sources), ask.sources.files)
         self._verifier = verifier
         begun = replace(verifier.begin(ask.range, ask.limit), version=ask.sources.version)
-        self._say(_begun(ask.ref, begun))
+        return _begun(ask.ref, begun)
 
-    def _scans(self, ask: VerifyScans) -> None:
+    def _scans(self, ask: VerifyScans) -> ScansDone:
         verifier = self._begun()
         verifier.follow(ask.until)
         batch: list[ScanVerified] = []
@@ -107,36 +110,15 @@ class VerifyJob:
             try:
                 batch.append(verifier.verify(scan))
             except REFUSALS as why:
-                self._tell(ask.ref, batch, done=True, failed=_words(why))
-                return
+                return replace(_told(ScansDone, ask.ref, batch), failed=_words(why))
             if self._asked():
                 break
             if monotonic_ns() - told > _TELL_NS:
-                self._tell(ask.ref, batch, done=False)
+                self._say(_told(ScansVerified, ask.ref, batch))
                 batch, told = [], monotonic_ns()
-        self._tell(ask.ref, batch, done=True)
+        return _told(ScansDone, ask.ref, batch)
 
-    def _tell(
-        self, ref: int, batch: Sequence[ScanVerified], *, done: bool, failed: str = "", whole: bool = True
-    ) -> None:  # fmt: skip
-        """`whole`: they are scans, and not steps of one."""
-        rows = tuple(_packed(row) for each in batch for row in each.rows)
-        skipped: list[tuple[int, int]] = []
-        for each in batch if whole else ():
-            if not each.compared:
-                stretched(skipped, each.scan, each.scan)
-        compared = sum(each.compared for each in batch) if whole else 0
-        self._say(
-            ScansVerified(
-                ref, batch[-1].scan if batch else -1, compared, rows, _columns(batch),
-                tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
-                tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
-                max((each.used for each in batch), default=0), done, failed, bool(failed),
-                tuple(skipped),
-            )
-        )  # fmt: skip
-
-    def _uses(self, ask: UsesOf) -> None:
+    def _uses(self, ask: UsesOf) -> UsesAre:
         verifier = self._begun()
         columns = verifier.columns
         uses = []
@@ -148,12 +130,28 @@ class VerifyJob:
                     use.place.line, use.place.instance,
                 )
             )  # fmt: skip
-        self._say(UsesAre(ask.ref, tuple(uses)))
+        return UsesAre(ask.ref, tuple(uses))
 
 
 def _begun(ref: int, begun: Begun) -> VerifyBegun:
     return VerifyBegun(
         ref, begun.title, begun.instances, begun.first, begun.end, begun.interval_ns, begun.version, begun.note
+    )  # fmt: skip
+
+
+def _told(kind: type[S], ref: int, batch: Sequence[ScanVerified], *, whole: bool = True) -> S:
+    """`whole`: they are scans, and not steps of one."""
+    rows = tuple(_packed(row) for each in batch for row in each.rows)
+    skipped: list[tuple[int, int]] = []
+    for each in batch if whole else ():
+        if not each.compared:
+            stretched(skipped, each.scan, each.scan)
+    compared = sum(each.compared for each in batch) if whole else 0
+    return kind(
+        ref, batch[-1].scan if batch else -1, compared, rows, _columns(batch),
+        tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
+        tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
+        max((each.used for each in batch), default=0), tuple(skipped),
     )  # fmt: skip
 
 

@@ -1,16 +1,16 @@
 """Questions about the past of runs: asked here, answered in job processes, so that no PLC waits for them."""
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
-from scanbench.jobs.client import ANSWER_S, DIED, SLOW, WORK_S, Job, answered
+from scanbench.jobs.client import Make, SharedJob, alone
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
-from scanbench.wire.events import Comparison, Event, Rerun
+from scanbench.wire.events import Comparison, Rerun
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     NOW,
@@ -39,27 +39,27 @@ Open = Callable[[Session, str, Path, str], Awaitable[Session]]
 class _Comparison:
     session: Session
     changed: Comparison
-    job: Job | None
+    task: "asyncio.Task[None] | None" = None
+
+    @property
+    def over(self) -> bool:
+        return self.task is None or self.task.done()
 
 
 @dataclass
 class _Rerun:
     session: Session
     changed: Rerun
-    job: Job
     file: Path
-    ended: bool = False
+    task: "asyncio.Task[None] | None" = None
 
 
 class RunHistory:
     """What was asked of the past of all PLCs of a server."""
 
-    def __init__(self, runs: Path, cache: Path, open: Open, answer_s: float = ANSWER_S) -> None:
-        self._answer_s, self._answered = answer_s, 0
+    def __init__(self, runs: Path, cache: Path, open: Open) -> None:
         self._runs, self._cache, self._open = runs, cache, open
-        self._asking: Job | None = None
-        self._answers: dict[int, asyncio.Future[object]] = {}
-        self._idle: asyncio.TimerHandle | None = None
+        self._questions = SharedJob(cache, IDLE_S)
         self._next = 1
         self._comparisons: dict[int, _Comparison] = {}
         self._reruns: dict[int, _Rerun] = {}
@@ -67,14 +67,11 @@ class RunHistory:
 
     async def close(self) -> None:
         """Ends every process."""
-        if self._idle is not None:
-            self._idle.cancel()
-        jobs = [
-            self._asking,
-            *(each.job for each in self._comparisons.values()),
-            *(each.job for each in self._reruns.values()),
-        ]
-        await asyncio.gather(*(job.end() for job in jobs if job is not None))
+        tasks = [each.task for each in self._comparisons.values()] + [each.task for each in self._reruns.values()]
+        for task in tasks:
+            if task is not None:
+                task.cancel()
+        await self._questions.close()
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
     async def forget_instance(self, instance: int) -> None:
@@ -83,9 +80,8 @@ class RunHistory:
             if instance in (each.changed.a, each.changed.b):
                 await self.forget(id)
         for id, rerun in list(self._reruns.items()):
-            if rerun.session.id == instance:
-                rerun.ended = True
-                await self._over(id)
+            if rerun.session.id == instance and self._reruns.pop(id, None) is not None:
+                await _cancelled(rerun.task)
 
     # ---- questions ------------------------------------------------------------------------------------------------
 
@@ -93,10 +89,7 @@ class RunHistory:
         """Who last wrote a variable before `scan` began, or before what is shown now."""
         state, live, run = session.state, _until(session), str(session.instance.run_file)
         wanted = (state.scan if state.past_by else NOW) if scan is None else scan
-        found = await self._ask(lambda ref: FindWriter(ref, run, path.strip(), wanted, live))
-        assert isinstance(found, WriterFound)
-        if found.writer is None:
-            raise Refused(found.message, found.near)
+        found = await self._questions.ask(lambda ref: FindWriter(ref, run, path.strip(), wanted, live), WriterFound)
         return found.writer
 
     async def changes(self, session: Session, first: int, last: int, other: Session | None) -> Changes:
@@ -104,53 +97,10 @@ class RunHistory:
         live = _until(session)
         live_other = 0 if other is None else _until(other)
         run, second = str(session.instance.run_file), "" if other is None else str(other.instance.run_file)
-        found = await self._ask(lambda ref: FindChanges(ref, run, first, last, live, second, live_other))
-        assert isinstance(found, ChangesFound)
-        if found.changes is None:
-            raise Refused(found.message)
+        found = await self._questions.ask(
+            lambda ref: FindChanges(ref, run, first, last, live, second, live_other), ChangesFound
+        )
         return found.changes
-
-    async def _ask(self, make: Callable[[int], object]) -> object:
-        if self._asking is None:
-            self._asking = Job(self._cache, self._on_answer, self._on_asking_end)
-        job = self._asking
-        if self._idle is not None:
-            self._idle.cancel()
-            self._idle = None
-        ref = self._number()
-        future = self._answers[ref] = asyncio.get_running_loop().create_future()
-        job.ask(make(ref))
-        try:
-            answer = await answered(future, self._answer_s, lambda: self._answered)
-        except TimeoutError:
-            self._answers.pop(ref, None)
-            self._do(job.end())  # what else it was asked is told that it died
-            raise Refused(SLOW) from None
-        if isinstance(answer, str):
-            raise Refused(answer)
-        return answer
-
-    def _on_answer(self, message: object) -> None:
-        self._answered += 1
-        future = self._answers.pop(getattr(message, "ref", 0), None)
-        if future is not None and not future.done():
-            future.set_result(message)
-        if not self._answers and self._idle is None:
-            self._idle = asyncio.get_running_loop().call_later(IDLE_S, self._rest)
-
-    def _rest(self) -> None:
-        job, self._asking, self._idle = self._asking, None, None
-        if job is not None:
-            self._do(job.end())
-
-    def _on_asking_end(self, job: Job) -> None:
-        if job is not self._asking:
-            return
-        self._asking = None
-        answers, self._answers = self._answers, {}
-        for future in answers.values():
-            if not future.done():
-                future.set_result(DIED)
 
     # ---- two runs -------------------------------------------------------------------------------------------------
 
@@ -163,51 +113,36 @@ class RunHistory:
         if a is b:
             raise Refused("a run is the same as itself: choose another instance")
         self._refuse_more()
-        mine = [id for id, each in self._comparisons.items() if each.session is a and each.job is None]
+        mine = [id for id, each in self._comparisons.items() if each.session is a and each.over]
         for id in mine[: max(0, len(mine) - COMPARISONS + 1)]:
             del self._comparisons[id]
         id = self._number()
-        changed = Comparison(id, a.id, b.id, author)
-        job = Job(
-            self._cache, lambda message: self._on_compared(id, message), lambda _job: self._on_compare_end(id), WORK_S
+        comparison = self._comparisons[id] = _Comparison(a, Comparison(id, a.id, b.id, author))
+        run, other, until, other_until = a.instance.run_file, b.instance.run_file, _until(a), _until(b)
+        comparison.task = self._do(
+            self._compare(comparison, lambda ref: CompareRuns(ref, str(run), str(other), until, other_until))
         )
-        self._comparisons[id] = _Comparison(a, changed, job)
-        job.ask(CompareRuns(id, str(a.instance.run_file), str(b.instance.run_file), _until(a), _until(b)))
-        return changed
+        return comparison.changed
+
+    async def _compare(self, comparison: _Comparison, make: Make) -> None:
+        async def on_part(part: object) -> None:
+            if isinstance(part, PastAt):
+                _tell(comparison, done=part.done, of=part.of)
+
+        try:
+            found = await alone(self._cache, make, RunsCompared, on_part)
+            _tell(comparison, done=comparison.changed.of, result=found.divergence)
+        except Refused as why:
+            _tell(comparison, message=why.message)
 
     async def forget(self, id: int) -> None:
         """Cancels one, or forgets what came of it."""
         comparison = self._comparisons.pop(id, None)
         if comparison is None:
             raise NotFound(f"there is no comparison {id}: it was forgotten, or the server has started anew")
-        if comparison.job is not None:
-            await comparison.job.end()
-            comparison.session.tell(replace(comparison.changed, message="cancelled"))
-
-    def _on_compared(self, id: int, message: object) -> None:
-        comparison = self._comparisons.get(id)
-        if comparison is None:
-            return
-        match message:
-            case PastAt():
-                changed = replace(comparison.changed, done=message.done, of=message.of)
-            case RunsCompared():
-                done = comparison.changed.of if message.divergence is not None else comparison.changed.done
-                changed = replace(comparison.changed, done=done, result=message.divergence, message=message.message)
-                job, comparison.job = comparison.job, None
-                if job is not None:
-                    self._do(job.end())
-            case _:
-                return
-        comparison.changed = changed
-        comparison.session.tell(changed)
-
-    def _on_compare_end(self, id: int) -> None:
-        comparison = self._comparisons.get(id)
-        if comparison is not None and comparison.job is not None:
-            comparison.job = None
-            comparison.changed = replace(comparison.changed, message=DIED)
-            comparison.session.tell(comparison.changed)
+        if not comparison.over:
+            await _cancelled(comparison.task)
+            _tell(comparison, message="cancelled")
 
     # ---- what if --------------------------------------------------------------------------------------------------
 
@@ -215,66 +150,48 @@ class RunHistory:
         """The run once more with one error another, as a new instance in the end."""
         self._refuse_more()
         id = self._number()
-        changed = Rerun(id, author, name)
-        file = self._runs / f"rerun-{fresh_token()}"
-        job = Job(self._cache, lambda message: self._on_rerun(id, message), lambda _job: self._on_rerun_end(id), WORK_S)
-        self._reruns[id] = _Rerun(session, changed, job, file)
-        job.ask(RerunRun(id, str(session.instance.run_file), str(file), change, _until(session), author))
-        return changed
+        rerun = self._reruns[id] = _Rerun(session, Rerun(id, author, name), self._runs / f"rerun-{fresh_token()}")
+        run, until = str(session.instance.run_file), _until(session)
+        rerun.task = self._do(
+            self._rerun(id, rerun, lambda ref: RerunRun(ref, run, str(rerun.file), change, until, author))
+        )
+        return rerun.changed
 
     async def cancel_rerun(self, id: int) -> None:
         """Gives a replay up."""
-        rerun = self._reruns.get(id)
-        if rerun is None or rerun.ended:
-            raise NotFound("this replay is over already")
-        rerun.ended = True
-        self._tell(rerun, message="cancelled")
-        await self._over(id)
-
-    def _on_rerun(self, id: int, message: object) -> None:
-        rerun = self._reruns.get(id)
-        if rerun is None or rerun.ended:
-            return
-        match message:
-            case PastAt():
-                self._tell(rerun, done=message.done, of=message.of)
-            case RerunDone():
-                rerun.ended = True
-                self._do(self._landed(id, rerun, message))
-
-    async def _landed(self, id: int, rerun: _Rerun, done: RerunDone) -> None:
-        if not done.ok:
-            self._tell(rerun, message=done.message)
-        else:
-            try:
-                made = await self._open(rerun.session, rerun.changed.name, rerun.file, rerun.changed.by)
-                self._tell(rerun, done=rerun.changed.of, instance=made.id, refused=done.refused)
-            except Exception as error:  # whatever it is, somebody waits for it
-                self._tell(rerun, message=f"the replay cannot be opened: {error}")
-        await self._over(id)
-
-    def _on_rerun_end(self, id: int) -> None:
-        rerun = self._reruns.get(id)
-        if rerun is not None and not rerun.ended:
-            rerun.ended = True
-            self._tell(rerun, message=DIED)
-            self._do(self._over(id))
-
-    async def _over(self, id: int) -> None:
         rerun = self._reruns.pop(id, None)
-        if rerun is not None:
-            await rerun.job.end()
+        if rerun is None:
+            raise NotFound("this replay is over already")
+        _tell(rerun, message="cancelled")
+        await _cancelled(rerun.task)
+
+    async def _rerun(self, id: int, rerun: _Rerun, make: Make) -> None:
+        async def on_part(part: object) -> None:
+            if isinstance(part, PastAt):
+                _tell(rerun, done=part.done, of=part.of)
+
+        try:
+            try:
+                done = await alone(self._cache, make, RerunDone, on_part)
+            finally:
+                self._reruns.pop(id, None)  # from now on it cannot be cancelled
+            made = await self._opened(rerun)
+            _tell(rerun, done=rerun.changed.of, instance=made.id, refused=done.refused)
+        except Refused as why:
+            _tell(rerun, message=why.message)
+        finally:
             await asyncio.to_thread(rerun.file.unlink, True)
 
-    def _tell(self, rerun: _Rerun, **changes: object) -> None:
-        rerun.changed = replace(rerun.changed, **changes)  # type: ignore[arg-type]  # names and types are its own
-        told: Event = rerun.changed
-        rerun.session.tell(told)
+    async def _opened(self, rerun: _Rerun) -> Session:
+        try:
+            return await self._open(rerun.session, rerun.changed.name, rerun.file, rerun.changed.by)
+        except Exception as error:  # whatever it is, somebody waits for it
+            raise Refused(f"the replay cannot be opened: {error}") from error
 
     # ---- all of them ----------------------------------------------------------------------------------------------
 
     def _refuse_more(self) -> None:
-        running = sum(each.job is not None for each in self._comparisons.values()) + len(self._reruns)
+        running = sum(not each.over for each in self._comparisons.values()) + len(self._reruns)
         if running >= MOST:
             raise Refused(f"{running} comparisons and replays go on already: wait for one, or cancel it")
 
@@ -282,13 +199,22 @@ class RunHistory:
         number, self._next = self._next, self._next + 1
         return number
 
-    def _do(self, work: Awaitable[None]) -> None:
-        async def done() -> None:
-            await work
-
-        task = asyncio.get_running_loop().create_task(done())
+    def _do(self, work: Coroutine[None, None, None]) -> "asyncio.Task[None]":
+        task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        return task
+
+
+def _tell(asked: _Comparison | _Rerun, **changes: object) -> None:
+    asked.changed = replace(asked.changed, **changes)  # type: ignore[arg-type]  # names and types are its own
+    asked.session.tell(asked.changed)
+
+
+async def _cancelled(task: "asyncio.Task[None] | None") -> None:
+    if task is not None:
+        task.cancel()
+        await asyncio.wait((task,))
 
 
 def _until(session: Session) -> int:

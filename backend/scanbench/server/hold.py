@@ -1,9 +1,10 @@
 """A PLC that waits for its verification: after each scan, or before each statement."""
 
 from collections.abc import Callable
+from contextlib import suppress
 
 from scanbench.session.session import Session
-from scanbench.wire import debugging as debug_protocol
+from scanbench.wire.debugging import Step
 from scanbench.wire.events import VerifyPace
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
@@ -31,15 +32,17 @@ class Hold:
         session = self._session
         if self.held and not self._hand_over() and session.state.state in ("paused", "halted"):
             if session.state.halt is not None:
-                await session.debug(lambda ref: debug_protocol.Step(ref, "continue", author))
+                with suppress(Refused):
+                    await session.debug(lambda ref: Step(ref, "continue", author), Ack)
             else:
                 await session.drive("continue", None, author)
         self.held = False
 
-    async def advance(self, pace: VerifyPace, author: str) -> Ack:
-        """One scan or statement further."""
+    async def advance(self, pace: VerifyPace, author: str) -> None:
+        """One scan or statement further; `Refused`."""
         if pace == "scan":
-            return await self._session.drive("scan", None, author)
-        answer = await self._session.debug(lambda ref: debug_protocol.Step(ref, "in", author))
-        assert isinstance(answer, Ack)
-        return answer
+            ack = await self._session.drive("scan", None, author)
+        else:
+            ack = await self._session.debug(lambda ref: Step(ref, "in", author), Ack)
+        if not ack.ok:
+            raise Refused(ack.message, ack.near)

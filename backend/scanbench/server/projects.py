@@ -174,7 +174,7 @@ class Projects:
 
         async def change(session: Session) -> Change | None:
             try:
-                preview = await session.instance.ask(lambda ref: Preview(ref, build), Previewed)
+                preview = await session.instance.ask(lambda ref: Preview(ref, build), Previewed, takes_long=True)
                 return Change(session.id, session.name, preview)
             except Unavailable:
                 return None

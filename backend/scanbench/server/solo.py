@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from scanbench.host.load import Loads
 from scanbench.host.run_files import run_path
 from scanbench.host.zygote import zygote
-from scanbench.jobs.reactions import Reactions
+from scanbench.jobs.client import SharedJob
 from scanbench.plcmodel.model import Model
 from scanbench.session.instance import Remembered
 from scanbench.session.session import Session
@@ -25,7 +25,7 @@ class Solo:
     """One session, with everything around it. `start`, use, `close`."""
 
     def __init__(
-        self, session: Session, store: Store, write_behind: WriteBehind, reactions: Reactions, close: Callable[[], None]
+        self, session: Session, store: Store, write_behind: WriteBehind, reactions: SharedJob, close: Callable[[], None]
     ):
         self.session = session
         self._store, self._write_behind, self._reactions, self._remove = store, write_behind, reactions, close
@@ -53,7 +53,7 @@ class Solo:
         try:
             store = Store(f"sqlite:///{data / 'scanbench.db'}")
             row = store.instances.create(store.projects.create(name, model.name).id, name)
-            write_behind, reactions = WriteBehind(store), Reactions(cache)
+            write_behind, reactions = WriteBehind(store), SharedJob(cache)
             memory = Remembered(name, sources, run_path(data, row.id), row.limits, Driven(speed, paused=True))
             session = Session(
                 row, model, memory, write_behind, rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),

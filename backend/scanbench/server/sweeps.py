@@ -14,7 +14,7 @@ from scanbench.faults.inject import Generate
 from scanbench.faults.reaction.compare import Outcome, SweepChange, compare
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef, find_error
-from scanbench.jobs.client import DIED, WORK_S, Job
+from scanbench.jobs.client import WORK_S, Gone, Job, Make
 from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
@@ -62,7 +62,6 @@ class _Running:
 
     row: SweepRow
     job: Job
-    inbox: "asyncio.Queue[object]"
     began: int
     spent: float
     """Seconds of earlier times."""
@@ -70,11 +69,26 @@ class _Running:
     task: "asyncio.Task[None] | None" = None
     now: str = ""
     fresh: list[CellRow] = field(default_factory=list)
+    told: int = 0
+    """When everybody was told last how it stands."""
 
     @property
     def seconds(self) -> float:
         """All the time that it took."""
         return self.spent + (monotonic_ns() - self.began) / 1e9
+
+    def hear(self, part: object) -> bool:
+        """What the job says before its end; whether it is time to tell everybody."""
+        match part:
+            case Trying():
+                name = next((each.name for each in self.row.errors if each.id == part.error), part.error)
+                self.now = f"{name}, {part.point}"
+            case CellFound():
+                self.fresh.append(_cell(part))
+        if monotonic_ns() - self.told < _TOLD_EVERY_NS:
+            return False
+        self.told = monotonic_ns()
+        return True
 
 
 class Sweeps:
@@ -285,13 +299,11 @@ class Sweeps:
         return [StartPoint(name, str(path)) for name, path in files.items()]
 
     def _run(self, row: SweepRow, points: Sequence[StartPoint], sources: Sources, done: Sequence[CellRow]) -> None:
-        inbox: asyncio.Queue[object] = asyncio.Queue()
-        job = Job(self._cache, inbox.put_nowait, lambda _: inbox.put_nowait(None), WORK_S)
-        running = _Running(row, job, inbox, monotonic_ns(), row.seconds)
-        self._running[row.id] = running
-        pairs = tuple((cell.error, cell.state) for cell in done)
-        job.ask(RunSweep(row.id, sources, tuple(points), tuple(each.id for each in row.errors), row.window, pairs))
-        running.task = asyncio.get_running_loop().create_task(self._follow(running))
+        running = self._running[row.id] = _Running(row, Job(self._cache), monotonic_ns(), row.seconds)
+        errors, pairs = tuple(each.id for each in row.errors), tuple((cell.error, cell.state) for cell in done)
+        running.task = asyncio.get_running_loop().create_task(
+            self._follow(running, lambda ref: RunSweep(ref, sources, tuple(points), errors, row.window, pairs))
+        )
 
     async def _stop(self, running: _Running, why: str) -> None:
         running.cancelled = why or "cancelled"
@@ -299,13 +311,13 @@ class Sweeps:
         if running.task is not None:
             await asyncio.gather(running.task, return_exceptions=True)
 
-    async def _follow(self, running: _Running) -> None:
+    async def _follow(self, running: _Running, make: Make) -> None:
         """Keeps and tells what comes, until it is over, however it ends."""
         id = running.row.id
         status: SweepStatus = "failed"
         message = "what it found could not be kept: the server's log says why"
         try:
-            status, message = await self._hear(running)
+            status, message = await self._hear(running, make)
         except Exception:
             log.exception("sweep %s could not be kept", id)
         finally:
@@ -317,24 +329,22 @@ class Sweeps:
             await self._tell(await asyncio.to_thread(change), "", [])
             await self._show(running.row.project)
 
-    async def _hear(self, running: _Running) -> tuple[SweepStatus, str]:
+    async def _hear(self, running: _Running, make: Make) -> tuple[SweepStatus, str]:
         """Takes what the job says to its end; how it ended."""
-        row, told = running.row, 0
-        await self._tell(row, "", [])
-        status: SweepStatus = "interrupted"
-        message = DIED
-        while (heard := await running.inbox.get()) is not None:
-            match heard:
-                case Trying():
-                    running.now = f"{self._name(row, heard.error)}, {heard.point}"
-                case CellFound():
-                    running.fresh.append(_cell(heard))
-                case JobDone():
-                    status, message = ("done" if heard.ok else "failed"), heard.message
-                    break
-            if monotonic_ns() - told >= _TOLD_EVERY_NS and running.inbox.empty():
-                told = monotonic_ns()
+
+        async def on_part(part: object) -> None:
+            if running.hear(part):
                 await self._keep(running)
+
+        status: SweepStatus = "done"
+        message = ""
+        await self._tell(running.row, "", [])
+        try:
+            await running.job.ask(make, JobDone, WORK_S, on_part)
+        except Gone as why:
+            status, message = "interrupted", why.message
+        except Refused as why:
+            status, message = "failed", why.message
         await self._keep(running)
         if running.cancelled and status != "done":
             stopped = running.cancelled == STOPPED_SERVER
@@ -356,10 +366,6 @@ class Sweeps:
         """What a sweep tries now."""
         running = self._running.get(id)
         return "" if running is None else running.now
-
-    @staticmethod
-    def _name(row: SweepRow, error: str) -> str:
-        return next((each.name for each in row.errors if each.id == error), error)
 
 
 def _swept(model: Model, wanted: Sequence[str] | None) -> tuple[SweptError, ...]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import cast
 
 from scanbench.engines.sample import MAX_SIGNALS
-from scanbench.jobs.client import DIED, WORK_S, Job
+from scanbench.jobs.client import Make, alone
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import Json, KeptRow
@@ -53,11 +53,15 @@ class _Flight:
     """A flight under way."""
 
     session: Session
-    job: Job
     changed: FlightChanged
     file: Path
     every: int
-    ended: bool = False
+    task: "asyncio.Task[None] | None" = None
+
+    def tell(self, changed: FlightChanged) -> None:
+        """How it stands now."""
+        self.changed = changed
+        self.session.tell(changed)
 
 
 class TraceRecords:
@@ -82,7 +86,9 @@ class TraceRecords:
 
     async def close(self) -> None:
         """Ends every flight."""
-        await asyncio.gather(*(flight.job.end() for flight in self._flights.values()))
+        for flight in self._flights.values():
+            if flight.task is not None:
+                flight.task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
     # ---- kept records ---------------------------------------------------------------------------------------------
@@ -200,71 +206,54 @@ class TraceRecords:
             raise Refused(f"{len(self._flights)} records of earlier scans are being made: wait for one, or cancel it")
         id, self._next = self._next, self._next + 1
         file = self._directory / f"flight-{fresh_token()}"
-        changed = FlightChanged(id, author, 0, last - first + 1)
-        job = Job(self._cache, lambda message: self._on_message(id, message), lambda _job: self._on_end(id), WORK_S)
-        self._flights[id] = _Flight(session, job, changed, file, every)
-        job.ask(RecordFlight(id, str(session.instance.run_file), signals, every, first, last, str(file)))
-        self._tell(id, changed)
-        return changed
+        flight = self._flights[id] = _Flight(session, FlightChanged(id, author, 0, last - first + 1), file, every)
+        run, to = str(session.instance.run_file), str(file)
+        flight.task = asyncio.get_running_loop().create_task(
+            self._fly(id, flight, lambda ref: RecordFlight(ref, run, signals, every, first, last, to))
+        )
+        self._tasks.add(flight.task)
+        flight.task.add_done_callback(self._tasks.discard)
+        session.tell(flight.changed)
+        return flight.changed
 
     async def cancel(self, id: int) -> None:
         """Gives a flight up."""
-        flight = self._flights.get(id)
-        if flight is None:
-            raise Refused("this record is over already")
-        flight.ended = True
-        self._tell(id, replace(flight.changed, message="cancelled"))
-        await self._over(id)
-
-    def _on_message(self, id: int, message: object) -> None:
-        flight = self._flights.get(id)
-        if flight is None or flight.ended:
-            return
-        match message:
-            case FlightAt():
-                self._tell(id, replace(flight.changed, done=message.done))
-            case FlightDone():
-                flight.ended = True
-                task = asyncio.get_running_loop().create_task(self._landed(id, flight, message))
-                self._tasks.add(task)
-                task.add_done_callback(self._tasks.discard)
-
-    async def _landed(self, id: int, flight: _Flight, done: FlightDone) -> None:
-        changed = replace(flight.changed, message=done.message)
-        if done.ok:
-            try:
-                content: Json = {
-                    "origin": "flight", "signals": [asdict(each) for each in done.signals], "every": flight.every,
-                    "triggered": None, "first": done.first, "end": done.end, "rows": done.rows,
-                    "interval_ns": done.interval_ns, "version": done.version,
-                }  # fmt: skip
-                name = f"Scans {done.first:,} to {max(done.first, done.end - 1):,}"
-                kept = await self._keep(flight.session, name, content, flight.file.replace, changed.by)
-                changed = replace(changed, done=changed.of, record=kept.row.id)
-            except Exception as error:  # whatever it is, somebody waits for it
-                changed = replace(changed, message=f"the record cannot be kept: {error}")
-        self._tell(id, changed)
-        await self._over(id)
-
-    def _on_end(self, id: int) -> None:
-        flight = self._flights.get(id)
-        if flight is not None and not flight.ended:
-            flight.ended = True
-            self._tell(id, replace(flight.changed, message=DIED))
-            self._flights.pop(id, None)
-
-    async def _over(self, id: int) -> None:
         flight = self._flights.pop(id, None)
-        if flight is not None:
-            await flight.job.end()
+        if flight is None or flight.task is None:
+            raise Refused("this record is over already")
+        flight.tell(replace(flight.changed, message="cancelled"))
+        flight.task.cancel()
+        await asyncio.wait((flight.task,))
+
+    async def _fly(self, id: int, flight: _Flight, make: Make) -> None:
+        async def on_part(part: object) -> None:
+            if isinstance(part, FlightAt):
+                flight.tell(replace(flight.changed, done=part.done))
+
+        try:
+            try:
+                done = await alone(self._cache, make, FlightDone, on_part)
+            finally:
+                self._flights.pop(id, None)  # from now on it cannot be cancelled
+            kept = await self._landed(flight, done)
+            flight.tell(replace(flight.changed, done=flight.changed.of, record=kept.row.id))
+        except Refused as why:
+            flight.tell(replace(flight.changed, message=why.message))
+        finally:
             with suppress(OSError):
                 await asyncio.to_thread(flight.file.unlink, True)
 
-    def _tell(self, id: int, changed: FlightChanged) -> None:
-        flight = self._flights.get(id)
-        if flight is not None:
-            flight.changed = changed
-            flight.session.tell(changed)
+    async def _landed(self, flight: _Flight, done: FlightDone) -> TraceRecord:
+        content: Json = {
+            "origin": "flight", "signals": [asdict(each) for each in done.signals], "every": flight.every,
+            "triggered": None, "first": done.first, "end": done.end, "rows": done.rows,
+            "interval_ns": done.interval_ns, "version": done.version,
+        }  # fmt: skip
+        name = f"Scans {done.first:,} to {max(done.first, done.end - 1):,}"
+        try:
+            return await self._keep(flight.session, name, content, flight.file.replace, flight.changed.by)
+        except Exception as error:  # whatever it is, somebody waits for it
+            raise Refused(f"the record cannot be kept: {error}") from error
 
     def _path(self, id: int) -> Path:
         return self._directory / f"{id}{SUFFIX}"

@@ -8,9 +8,9 @@ import asyncio
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
-from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job
+from scanbench.jobs.client import DIED, Gone, Job
 from scanbench.server.hold import Hold
 from scanbench.server.verify_rows import Rows
 from scanbench.server.verify_status import begun, verified, with_stretches
@@ -21,17 +21,18 @@ from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     BeginTrace,
     BeginVerify,
+    ScansDone,
     ScansVerified,
     SetInputs,
     UseRow,
     UsesAre,
     UsesOf,
     VerifyBegun,
-    VerifyRefused,
     VerifyScans,
     VerifyStep,
 )
 
+A = TypeVar("A")
 BEHIND = 256
 """Scans that a verification of a PLC that runs may be behind; then it goes on with the newest ones."""
 CAUGHT_UP = 64
@@ -74,14 +75,12 @@ class Verification:
             id, session.id, author, wanted, "trace" if trace else source, wanted.pace, trace=trace.name if trace else ""
         )
         self._trace, self._on_change = trace, on_change
-        self._job = Job(cache, self._on_message, self._on_end)
-        self._answers: dict[int, asyncio.Future[object]] = {}
-        self._next_ref = 1
+        self._job = Job(cache, self._on_end)
         self._run = session.instance.runs
         self._gone = False
         """Its process has ended."""
-        self._busy: int | None = None
-        """Ref of the request for scans that is under way."""
+        self._busy = False
+        """A request for scans is under way."""
         self._next = 0
         """The scan that is to be verified next."""
         self._count = 0
@@ -107,7 +106,8 @@ class Verification:
             trace = self._trace
             file, sources = str(trace.file), session.instance.sources
             answer = await self._ask(
-                lambda ref: BeginTrace(ref, sources, file, trace.name, trace.mapping, wanted.range, wanted.limit)
+                lambda ref: BeginTrace(ref, sources, file, trace.name, trace.mapping, wanted.range, wanted.limit),
+                VerifyBegun,
             )
         else:
             if wanted.first is not None and not wanted.first < self._live_end:
@@ -115,10 +115,9 @@ class Verification:
             if wanted.first is not None and wanted.last is not None and wanted.last < wanted.first:
                 raise Refused(f"scans {wanted.first:,} to {wanted.last:,} are none")
             path = str(session.instance.run_file)
-            answer = await self._ask(lambda ref: BeginVerify(ref, path, wanted.range, wanted.limit, live, first))
-        if isinstance(answer, VerifyRefused):
-            raise Refused(answer.message, answer.near)
-        assert isinstance(answer, VerifyBegun)
+            answer = await self._ask(
+                lambda ref: BeginVerify(ref, path, wanted.range, wanted.limit, live, first), VerifyBegun
+            )
         self._change(begun(self.status, answer, self._live_scan))  # it took a while until now
         self._next = self.status.first
         session.listen(self._on_event)
@@ -138,7 +137,6 @@ class Verification:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
         await self._job.end()
-        self._give_up("the verification was ended")
 
     @property
     def over(self) -> bool:
@@ -154,7 +152,6 @@ class Verification:
         """Ends the process of one that is over; its rows stay, and can be looked at and kept."""
         self._gone = True
         await self._job.end()
-        self._give_up("its process was ended as others began: begin another verification")
 
     # ---- what users want ------------------------------------------------------------------------------------------
 
@@ -196,22 +193,12 @@ class Verification:
 
     async def set_cells(self, edits: tuple[tuple[int, int, str, str], ...]) -> None:
         """The monitor runs these passes again on edited inputs."""
-        answer = await self._ask(lambda ref: SetInputs(ref, edits))
-        if isinstance(answer, VerifyRefused):
-            raise Refused(answer.message, answer.near)
-        assert isinstance(answer, ScansVerified)
-        if answer.failed:
-            raise Refused(answer.message)
-        self.rows.replace(answer)
+        self.rows.replace(await self._ask(lambda ref: SetInputs(ref, edits), ScansVerified))
         self._change(generation=self.status.generation + 1)
 
     async def uses(self, scan: int, call: int) -> tuple[UseRow, ...]:
         """The used-variable record of one row."""
-        answer = await self._ask(lambda ref: UsesOf(ref, scan, call))
-        if isinstance(answer, VerifyRefused):
-            raise Refused(answer.message, answer.near)
-        assert isinstance(answer, UsesAre)
-        return answer.uses
+        return (await self._ask(lambda ref: UsesOf(ref, scan, call), UsesAre)).uses
 
     # ---- going on -------------------------------------------------------------------------------------------------
 
@@ -242,7 +229,7 @@ class Verification:
     def _poke(self) -> None:
         """Asks for what is to be verified now, unless something is."""
         status, live = self.status, self._live_scan
-        if self._cut is not None and self._cut.scan < live and self._busy is None:
+        if self._cut is not None and self._cut.scan < live and not self._busy:
             if live - self._cut.scan <= BEHIND:  # the program was restarted in it
                 self._next = min(self._next, self._cut.scan)
             else:
@@ -251,7 +238,7 @@ class Verification:
             return
         if status.source != "trace" and self.session.instance.runs != self._run:
             self._fail("a new run began: begin another verification")
-        elif self._busy is not None:
+        elif self._busy:
             return
         elif status.source != "live":
             self._poke_past(live)
@@ -299,12 +286,12 @@ class Verification:
 
     def _step(self, scan: int, count: int, until: int) -> None:
         self._stepping = count or -1
-        self._busy = self._send(lambda ref: VerifyStep(ref, scan, count, until))
+        self._verify(lambda ref: VerifyStep(ref, scan, count, until))
 
     def _scans(self, first: int, last: int, until: int) -> None:
         self._stepping, self._until = 0, until
         last = min(last, first + AT_ONCE - 1)
-        self._busy = self._send(lambda ref: VerifyScans(ref, first, last, until))
+        self._verify(lambda ref: VerifyScans(ref, first, last, until))
         if self.status.state != "verifying":
             self._change(state="verifying", message="")
 
@@ -329,10 +316,11 @@ class Verification:
             raise Refused("the past is shown: return to live first")
         if self._live_end > self._live_scan:
             raise Refused(_TRAPPED)
-        ack = await self.hold.advance(status.pace, author)
-        if not ack.ok:
-            self._change(auto=False, message=ack.message)
-            raise Refused(ack.message, ack.near)
+        try:
+            await self.hold.advance(status.pace, author)
+        except Refused as refused:
+            self._change(auto=False, message=refused.message)
+            raise
 
     def _soon(self) -> None:
         """Goes on by itself."""
@@ -348,56 +336,51 @@ class Verification:
 
     # ---- the process ----------------------------------------------------------------------------------------------
 
-    def _send(self, make: Callable[[int], object]) -> int:
-        ref, self._next_ref = self._next_ref, self._next_ref + 1
-        self._job.ask(make(ref))
-        return ref
-
-    async def _ask(self, make: Callable[[int], object]) -> object:
+    async def _ask(self, make: Callable[[int], object], answer: type[A]) -> A:
         if self._gone:
             raise Refused("its process has ended: begin another verification")
-        future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
-        ref = self._send(make)
-        self._answers[ref] = future
-        try:
-            return await asyncio.wait_for(future, ANSWER_S)
-        except TimeoutError:
-            self._answers.pop(ref, None)
-            self._do(self._job.end())
-            raise Refused(SLOW) from None
+        return await self._job.ask(make, answer)
 
-    def _on_message(self, message: object) -> None:
-        ref = getattr(message, "ref", None)
-        future = self._answers.pop(ref, None) if isinstance(ref, int) else None
-        if future is not None:
-            if not future.done():
-                future.set_result(message)
-        elif isinstance(message, ScansVerified) and ref == self._busy:
-            self._verified(message)
-        elif isinstance(message, VerifyRefused) and ref == self._busy:
-            self._busy = None
-            self._fail(message.message)
+    def _verify(self, make: Callable[[int], object]) -> None:
+        """Has scans verified; how long that takes is theirs, and it can be stopped."""
+
+        async def on_part(part: object) -> None:
+            if isinstance(part, ScansVerified):
+                self._verified(part)
+
+        async def verify() -> None:
+            try:
+                self._verified(await self._job.ask(make, ScansDone, None, on_part))
+            except Gone:  # `_on_end` says so
+                self._busy = False
+            except Refused as refused:
+                self._busy = False
+                self._fail(refused.message)
+
+        self._busy = True
+        self._do(verify())
 
     def _verified(self, came: ScansVerified) -> None:
         status = self.status
         if status.state == "failed":  # what comes after it may be of another run
             return
+        done, failed = isinstance(came, ScansDone), came.failed if isinstance(came, ScansDone) else ""
         came = self._without_known(came)
         self.rows.add(came)
         over = not self._stepping or (self._stepping > 0 and bool(came.rows) and came.rows[-1].count == 0)
         if over:
             self._next, self._count = max(self._next, came.scan + 1), 0
-        if came.done:
-            self._busy = None
+        if done:
+            self._busy = False
         going = status.state in ("verifying", "waiting", "starting")
-        state = "failed" if came.failed else status.state
-        if going and came.done and not came.failed:
+        state = "failed" if failed else status.state
+        if going and done and not failed:
             state = "waiting" if status.pace != "free" or self._next >= self._live_end else "verifying"
         self._change(
-            verified(status, came), state=state, message=came.message or (_TRAPPED if self._cut is not None else ""),
+            verified(status, came), state=state, message=failed or (_TRAPPED if self._cut is not None else ""),
             rows=self.rows.count, forgotten=self.rows.first,
         )  # fmt: skip
-        if came.done and not came.failed:
+        if done and not failed:
             # whole scans that are compared on the way to a halt are no step: the halt is compared next
             stepped = status.pace == "scan" or status.source != "live" or self._stepping != 0
             if status.auto and status.pace != "free" and going and stepped:
@@ -417,12 +400,11 @@ class Verification:
             self._cut = _Cut(came.scan, sum(row.scan == came.scan for row in came.rows))
         return came
 
-    def _on_end(self, _job: Job) -> None:
+    def _on_end(self) -> None:
         """It died, or was ended."""
         self._gone = True
-        self._give_up(DIED)
         if self.status.state not in ("failed", "done"):
-            self._busy = None
+            self._busy = False
             self._fail(DIED)
 
     def _fail(self, why: str) -> None:
@@ -434,12 +416,6 @@ class Verification:
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
-
-    def _give_up(self, why: str) -> None:
-        answers, self._answers = self._answers, {}
-        for ref, future in answers.items():
-            if not future.done():
-                future.set_result(VerifyRefused(ref, why))
 
     def _change(self, status: VerificationStatus | None = None, **changes: object) -> None:
         self.status = replace(status or self.status, **changes)  # type: ignore[arg-type]  # names and types are the status' own

@@ -14,7 +14,7 @@ from scanbench.host.load import Loads
 from scanbench.host.run_files import discard, discard_all, fresh_path, run_path, sources_and_damage, sweep
 from scanbench.host.zygote import zygote
 from scanbench.jobs.checker import Checker
-from scanbench.jobs.reactions import Reactions
+from scanbench.jobs.client import SharedJob
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.reader import Unreadable
@@ -60,7 +60,7 @@ class Workbench:
         self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
-        self._reactions = Reactions(self._cache)
+        self._reactions = SharedJob(self._cache)
         self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
         self.watch_lists = WatchLists(store, self._sessions_of)
         self.states = States(store, data / "states")

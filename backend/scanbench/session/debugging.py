@@ -1,22 +1,27 @@
 """Debugging at one PLC, seen from the parent: the breakpoints that people want, and what the host says of them."""
 
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from scanbench.debug.bound_to import Bound
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
 from scanbench.wire import host as protocol
-from scanbench.wire.debugging import BreakpointsAre, Coverage, CoverageIs, DebugAnswer, DebugRequest
+from scanbench.wire.debugging import BreakpointsAre, Coverage, CoverageIs, DebugRequest
 from scanbench.wire.refused import Refused
 
 SHARED = ""
 """The group of what all browsers at a PLC share."""
 NOT_YET = "the PLC is not there: the breakpoint is set when it is"
 A = TypeVar("A")
-Ask = Callable[[Callable[[int], DebugRequest]], Awaitable[DebugAnswer | protocol.Ack]]
+
+
+class Ask(Protocol):
+    """Asks the host; see `Session.debug`."""
+
+    async def __call__(self, make: Callable[[int], DebugRequest], answer: type[A], /) -> A: ...
 
 
 class Debugging:
@@ -26,7 +31,7 @@ class Debugging:
         self, ask: Ask, publish: Callable[[events.Event], None], keep: Callable[[Sequence[Breakpoint]], None],
         kept: Sequence[Breakpoint],
     ) -> None:  # fmt: skip
-        """`ask` answers with an `Ack` that is not ok where the PLC is away. `keep` keeps those of the shared list, `kept` were kept by an earlier life of the server."""
+        """`keep` keeps those of the shared list, `kept` were kept by an earlier life of the server."""
         self._ask, self._publish, self._keep = ask, publish, keep
         self._verdicts = {each.id: Verdict(each, False, NOT_YET) for each in kept}
         self._next = max(self._verdicts, default=0) + 1
@@ -54,13 +59,14 @@ class Debugging:
             self._verdicts.pop(gone.id, None)
         for each in named:
             self._verdicts[each.id] = Verdict(each, False, NOT_YET)
-        answer = await self._ask(lambda ref: debug_protocol.SetBreakpoints(ref, group, kind, file, tuple(named)))
-        if isinstance(answer, BreakpointsAre):
-            self._verdicts |= {
-                each.breakpoint.id: each for each in answer.verdicts if each.breakpoint.id in self._verdicts
-            }
-        elif isinstance(answer, protocol.Ack):
-            self._verdicts |= {each.id: Verdict(each, False, answer.message) for each in named}
+        try:
+            told = await self._ask(
+                lambda ref: debug_protocol.SetBreakpoints(ref, group, kind, file, tuple(named)), BreakpointsAre
+            )
+            known = {each.breakpoint.id: each for each in told.verdicts if each.breakpoint.id in self._verdicts}
+            self._verdicts |= known
+        except Refused as why:
+            self._verdicts |= {each.id: Verdict(each, False, why.message) for each in named}
         if group == SHARED:
             self._keep([each.breakpoint for each in self.verdicts if each.breakpoint.group == SHARED])
         self._publish(events.BreakpointsChanged(self.verdicts))
@@ -95,25 +101,15 @@ class Debugging:
 
     async def cover(self, on: bool, reset: bool, author: str) -> protocol.Ack:
         """Notes which statements are reached from now on, or no longer."""
-        answer = await self._ask(lambda ref: debug_protocol.SetCoverage(ref, on, reset, author))
-        assert isinstance(answer, protocol.Ack)
-        return answer
+        return await self._ask(lambda ref: debug_protocol.SetCoverage(ref, on, reset, author), protocol.Ack)
 
     async def reached(self) -> Coverage:
         """What was reached so far; `Refused` says why nobody knows."""
-        return (await self._known(debug_protocol.WantCoverage, CoverageIs)).coverage
+        return (await self._ask(debug_protocol.WantCoverage, CoverageIs)).coverage
 
     async def binding(self, path: str) -> Bound:
         """What an in-out is bound to; `Refused` when there is none of this path."""
-        found = await self._known(lambda ref: debug_protocol.WantBinding(ref, path), debug_protocol.BindingIs)
-        return found.bound
-
-    async def _known(self, make: Callable[[int], DebugRequest], kind: type[A]) -> A:
-        answer = await self._ask(make)
-        if isinstance(answer, protocol.Ack):
-            raise Refused(answer.message, answer.near)
-        assert isinstance(answer, kind)
-        return answer
+        return (await self._ask(lambda ref: debug_protocol.WantBinding(ref, path), debug_protocol.BindingIs)).bound
 
     # ---- from the host --------------------------------------------------------------------------------------------
 

@@ -8,23 +8,22 @@ are told so, nothing waits for it, and it goes on by itself when it can.
 import asyncio
 import logging
 import signal
-import socket
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 from scanbench.host.run_files import bring_back, set_aside
-from scanbench.host.zygote import NoProcess, Process, zygote
+from scanbench.host.zygote import HOST, NoProcess, Process
+from scanbench.jobs.channel import Channel, connect, messages
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
-from scanbench.session.conversation import PATIENCE, A, Conversation, Patience
 from scanbench.store.records import Limits, NotFound
 from scanbench.wire import host as protocol
-from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
-from scanbench.wire.debugging import DebugAnswer, DebugRequest
+from scanbench.wire.codec import BadMessage
 from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Unavailable
-from scanbench.wire.traces import TraceRead
 
 log = logging.getLogger("scanbench")
 
@@ -36,8 +35,29 @@ QUICK_DEATHS = 4
 """So many deaths, each within `QUICK_DEATH_NS` of its start, and it is not started again."""
 
 
+A = TypeVar("A")
 OFF = "switched off; its run is kept"
 Telling = protocol.WatchPaths | protocol.UnwatchIds | protocol.WantSnapshot | protocol.Attend | protocol.SetLimits
+
+
+@dataclass(frozen=True, slots=True)
+class Patience:
+    """How long a process is waited for."""
+
+    look_s: float = 1.0
+    """From one look whether something was heard to the next. Looks are counted, so that a server that was held up itself
+    does not take that for silence."""
+    looks: int = 5
+    """So many looks in a row with nothing heard, and it does not answer."""
+    answer_s: float = 120.0
+    """For an answer of a process that does answer others."""
+    work_s: float = 600.0
+    """For what takes a while: builds, copies, the past, debugging."""
+    grace_s: float = 3.0
+    """For the end of a process that was told to end; then it is killed."""
+
+
+PATIENCE = Patience()
 
 
 @dataclass(slots=True)
@@ -77,7 +97,8 @@ class Instance:
         self._memory = memory
         self._on_state, self._on_message = on_state, on_message
         self._process: Process | None = None
-        self._conversation = Conversation(memory.name, patience, self._kill)
+        self._channel = Channel(memory.name, self._kill, Unavailable)
+        self._connected = asyncio.Event()
         self._task: asyncio.Task[None] | None = None
         self._turning = asyncio.Lock()  # one at a time is switched on, off, or to a new run
         self._deaths = 0
@@ -127,7 +148,7 @@ class Instance:
 
     async def _stop(self) -> None:
         self._stopping = True
-        self._conversation.tell(protocol.Quit())
+        self._channel.tell(protocol.Quit())
         if self._task is not None:
             try:
                 await asyncio.wait_for(asyncio.shield(self._task), self._patience.grace_s)
@@ -173,45 +194,40 @@ class Instance:
     async def _live(self) -> str | None:
         """One life of the process; returns why it must not be started again, or None."""
         self._no_space = False
-        ours, theirs = socket.socketpair()
         try:
-            with theirs:
-                self._process = process = await asyncio.to_thread(zygote().spawn, theirs, self._cache)
+            self._process, reader, writer = await connect(self._cache, HOST)
         except NoProcess as error:
-            ours.close()
             return str(error)
-        reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
-        writer.write(pack(self._memory.start()))
-        self._conversation.begin(writer)
+        process = self._process
+        self._channel.begin(writer)
+        self._channel.tell(self._memory.start())
+        self._connected.set()
         if self._stopping:  # while the process was on its way
-            writer.write(pack(protocol.Quit()))
+            self._channel.tell(protocol.Quit())
         if self.state.state not in ("restarting", "no_space"):
             self._set_state(state="starting", message="starting", pid=process.pid)
         failure: str | None = None
-        looking = asyncio.get_running_loop().create_task(self._look(writer))
+        looking = asyncio.get_running_loop().create_task(self._look())
         try:
-            while True:
-                length = body_length(await reader.readexactly(LENGTH.size))
-                message = unpack(await reader.readexactly(length))
+            async for message in messages(reader):
                 self._hear()
                 if isinstance(message, protocol.StartFailed):
                     failure, self._no_space = message.message, message.no_space
                 else:
-                    self._take(message)
-        except (asyncio.IncompleteReadError, ConnectionError):
-            pass
+                    await self._take(message)
         except BadMessage:
             log.exception("the host of this PLC does not speak the protocol: it is restarted")
             process.kill()
         finally:
             looking.cancel()
             self._before_silence = None
-            self._conversation.end()
+            self._connected.clear()
+            self._channel.end("the PLC's process died before it answered. See the log, and repeat")
             writer.close()
             code = await asyncio.to_thread(_reap, process, self._patience.grace_s)
         return failure or _failure_of(code, self._memory.limits.memory_mib)
 
-    async def _look(self, writer: asyncio.StreamWriter) -> None:
+    async def _look(self) -> None:
         """Notices when the process falls silent: one that has nothing to tell is asked whether it is there."""
         missed = 0
         while True:
@@ -219,7 +235,7 @@ class Instance:
             missed = 0 if self._heard else missed + 1
             self._heard = False
             if missed == 1:
-                writer.write(pack(protocol.Ping()))
+                self._channel.tell(protocol.Ping())
             if missed > self._patience.looks and self._before_silence is None:
                 self._fall_silent()
 
@@ -228,7 +244,7 @@ class Instance:
         self._set_state(
             state="silent", message="the PLC's process does not answer; it goes on when it can, or switch it off and on"
         )
-        self._conversation.give_up(
+        self._channel.give_up(
             "the PLC does not answer. What you asked for has not been confirmed: it may be done when the PLC goes on"
         )
 
@@ -238,7 +254,7 @@ class Instance:
             before, self._before_silence = self._before_silence, None
             self._set_state(state=before.state, message=before.message)
 
-    def _take(self, message: object) -> None:
+    async def _take(self, message: object) -> None:
         match message:
             case protocol.Pong():
                 pass
@@ -258,22 +274,11 @@ class Instance:
             case protocol.NowRuns():
                 self._memory.sources = message.sources
                 self._on_message(message)
-            case TraceRead():
-                self._conversation.answer(message.ref, message)
-            case protocol.ForcesAre() if message.ref is not None:
-                self._conversation.answer(message.ref, message)
-            case (
-                protocol.Ack()
-                | protocol.Found()
-                | protocol.SourcesOf()
-                | protocol.Previewed()
-                | protocol.ErrorsPreviewed()
-            ):
-                self._conversation.answer(message.ref, message)
-            case _ if isinstance(message, DebugAnswer) and message.ref is not None:
-                self._conversation.answer(message.ref, message)
-            case _:
+            case protocol.Watching():  # who watches has given it its ref
                 self._on_message(message)
+            case _:
+                if not await self._channel.take(message):
+                    self._on_message(message)
 
     def _see(self, state: protocol.PlcState) -> None:
         self._paused = state.paused
@@ -293,26 +298,27 @@ class Instance:
 
     # ---- speaking to it -------------------------------------------------------------------------------------------
 
-    async def ask(self, make: Callable[[int], object], answer: type[A]) -> A:
-        """Asks something; `make` makes the question with the ref that it is given, `answer` is what comes back. `Unavailable`
-        when the PLC is away, or does not answer in time."""
-        conversation = self._conversation
+    async def ask(self, make: Callable[[int], object], answer: type[A], takes_long: bool = False) -> A:
+        """Asks something; `make` makes the question with the ref that it is given, `answer` is what comes back. `Refused`, or
+        `Unavailable` when the PLC is away, or does not answer in time."""
         if self.why_not:
             raise Unavailable(self.why_not)
-        if not conversation.there and self.state.state == "starting":
-            await conversation.reached(_REACHED_S)
-        if not conversation.open:
+        if not self._channel.there and self.state.state == "starting":
+            with suppress(TimeoutError):
+                async with asyncio.timeout(_REACHED_S):
+                    await self._connected.wait()
+        if not self._channel.open:
             hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
             raise Unavailable(f"the PLC is {self.state.state.replace('_', ' ')}: {self.state.message}. {hint}")
         if self._before_silence is not None:
             raise Unavailable(f"nothing was changed: {self.state.message}")
-        return await conversation.ask(make, answer)
-
-    async def debug(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
-        """Asks something of debugging."""
-        answer = await self.ask(make, object)
-        assert isinstance(answer, DebugAnswer | protocol.Ack)
-        return answer
+        seconds = self._patience.work_s if takes_long else self._patience.answer_s
+        try:
+            return await self._channel.ask(make, answer, seconds)
+        except TimeoutError:
+            raise Unavailable(
+                f"the PLC has not answered this within {seconds:g} s. It may still be done: look before you repeat it"
+            ) from None
 
     async def submit(self, command: Command) -> protocol.Ack:
         """Enters a command in the seam."""
@@ -331,13 +337,13 @@ class Instance:
 
     def tell(self, message: Telling) -> bool:
         """Something whose answer, if any, comes as a message; false when the process is away."""
-        return self._conversation.tell(message)
+        return self._channel.tell(message)
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:
         """Swaps the program; a PLC that failed begins a new run with it."""
         if self.state.state == "failed":
             return await self.begin_anew(sources)
-        return await self.ask(lambda ref: protocol.Build(ref, sources, author), protocol.Ack)
+        return await self.ask(lambda ref: protocol.Build(ref, sources, author), protocol.Ack, takes_long=True)
 
     async def begin_anew(self, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run, at scan 0; the old run file is kept aside."""

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scanbench.faults.reaction.reaction import WINDOW, Reaction
-from scanbench.jobs.reactions import Reactions
+from scanbench.jobs.client import SharedJob
+from scanbench.wire.jobs import FindReaction, Reacted
+from scanbench.wire.refused import Refused
 
 _STANDS = ("fatal", "trapped", "stopped", "off", "failed")
 """States in which no scan comes until somebody does something: what a program did until now is all it will do."""
@@ -25,7 +27,7 @@ class Reacting:
     """Asks for each error raised when its window is over. `on_found` gets the reaction, or why there is none."""
 
     def __init__(
-        self, reactions: Reactions, run: Callable[[], Path], on_found: Callable[[Raised, Reaction | str], None]
+        self, reactions: SharedJob, run: Callable[[], Path], on_found: Callable[[Raised, Reaction | str], None]
     ) -> None:
         self._reactions, self._run, self._on_found = reactions, run, on_found
         self._waiting: dict[str, Raised] = {}
@@ -66,5 +68,11 @@ class Reacting:
         task.add_done_callback(self._asking.discard)
 
     async def _find(self, raised: Raised, end: int) -> None:
-        found = await self._reactions.find(self._run(), raised.error, raised.scan, end, WINDOW)
-        self._on_found(raised, found)
+        run = str(self._run())
+        try:
+            answer = await self._reactions.ask(
+                lambda ref: FindReaction(ref, run, raised.error, raised.scan, end, WINDOW), Reacted
+            )
+            self._on_found(raised, answer.reaction)
+        except Refused as why:
+            self._on_found(raised, why.message)

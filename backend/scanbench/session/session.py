@@ -4,11 +4,12 @@ import asyncio
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, History
 from scanbench.host.load import Load, Loads
-from scanbench.jobs.reactions import Reactions
+from scanbench.jobs.client import SharedJob
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import model_for
 from scanbench.runtime.command import Command, Entry
@@ -26,11 +27,12 @@ from scanbench.session.write_behind import WriteBehind
 from scanbench.store.records import InstanceRow, Json
 from scanbench.wire import events
 from scanbench.wire import host as protocol
-from scanbench.wire.debugging import DebugAnswer, DebugRequest
+from scanbench.wire.debugging import DebugRequest
 from scanbench.wire.events import BuildOutcome, Event, LogEntry, Subscriber, User
 from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Refused, Unavailable
 
+A = TypeVar("A")
 SPEEDS = 0.01, 1000.0
 
 
@@ -39,7 +41,7 @@ class Session:
 
     def __init__(
         self, row: InstanceRow, model: Model, memory: Remembered, write_behind: WriteBehind,
-        rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: Reactions,
+        rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: SharedJob,
         breakpoints: Sequence[Breakpoint], cache: Path | None = None, traces: Mapping[int, Json] | None = None,
         why_not: str = "",
     ) -> None:  # fmt: skip
@@ -144,7 +146,7 @@ class Session:
     async def travel(self, scan: int | None, author: str, count: int = 0) -> protocol.Ack:
         """Shows the past to everybody, before a statement of the scan if there is a count; or live again."""
         return await self._refusing(
-            self.instance.ask(lambda ref: protocol.Travel(ref, scan, author, count), protocol.Ack)
+            self.instance.ask(lambda ref: protocol.Travel(ref, scan, author, count), protocol.Ack, takes_long=True)
         )
 
     async def begin_anew(self, author: str, sources: protocol.Sources | None = None) -> protocol.Ack:
@@ -157,11 +159,15 @@ class Session:
 
     async def roll_back(self, author: str) -> protocol.Ack:
         """Swaps back in what ran before the last change."""
-        return await self._refusing(self.instance.ask(lambda ref: protocol.RollBack(ref, author), protocol.Ack))
+        return await self._refusing(
+            self.instance.ask(lambda ref: protocol.RollBack(ref, author), protocol.Ack, takes_long=True)
+        )
 
     async def copy(self, path: Path, scan: int | None, author: str) -> None:
         """Writes a run file of its own that ends before `scan`, or now; `Refused` or `Unavailable` say why it cannot."""
-        ack = await self.instance.ask(lambda ref: protocol.Copy(ref, str(path), scan, author), protocol.Ack)
+        ack = await self.instance.ask(
+            lambda ref: protocol.Copy(ref, str(path), scan, author), protocol.Ack, takes_long=True
+        )
         if not ack.ok:
             raise Refused(ack.message, ack.near)
 
@@ -181,13 +187,13 @@ class Session:
             self.log.add(author, ack.message, scan=ack.scan)
         return ack
 
-    async def debug(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
+    async def debug(self, make: Callable[[int], DebugRequest], answer: type[A]) -> A:
         """Asks something of debugging; `make` makes the request with the ref that it is given. Breakpoints are set through
-        `debugging`. A refusal is an `Ack` that is not ok, also when the PLC is away."""
+        `debugging`. `Refused`, also when the PLC is away."""
         try:
-            return await self.instance.debug(make)
+            return await self.instance.ask(make, answer, takes_long=True)
         except Unavailable as error:
-            return protocol.Ack(0, False, str(error), self.state.scan)
+            raise Refused(str(error)) from error
 
     # ---- looking --------------------------------------------------------------------------------------------------
 

@@ -256,5 +256,4 @@ DebugRequest = (
     SetBreakpoints | Step | WantStack | WantTasks | WantScopes | WantVariables | Evaluate | SetExpression | WantPlaces | WantBinding
     | SetCoverage | WantCoverage
 )  # fmt: skip
-DebugAnswer = Stack | Tasks | Scopes | Variables | Evaluated | Places | BindingIs | CoverageIs | BreakpointsAre
 __all__ = ["BoundTo", "FrameInfo", "ScopeInfo", "VariableInfo"]

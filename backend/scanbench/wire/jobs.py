@@ -1,7 +1,8 @@
 """What the parent asks a job process, and what it answers: reactions and sweeps. Packed by `codec.py`, length first.
 
-Its process (`jobs/process.py`) reads requests from a socket, in order, and answers on it; it ends when the socket is closed, and
-with its parent. A sweep is cancelled by ending the process. Nothing here changes a PLC.
+Its process (`jobs/process.py`) reads requests from a socket, in order, and answers on it: each with the answer that is named here,
+or with `JobRefused`. It ends when the socket is closed, and with its parent. A sweep is cancelled by ending the process.
+Nothing here changes a PLC.
 """
 
 from dataclasses import dataclass
@@ -55,12 +56,20 @@ class RunSweep:
 
 
 @dataclass(frozen=True, slots=True)
-class Reacted:
-    """Answer to `FindReaction`; without a reaction `message` says why there is none."""
+class JobRefused:
+    """In place of any answer: why there is none, and what to do. `near` was perhaps meant."""
 
     ref: int
-    reaction: Reaction | None
-    message: str = ""
+    message: str
+    near: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Reacted:
+    """Answer to `FindReaction`."""
+
+    ref: int
+    reaction: Reaction
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,8 +96,6 @@ class CellFound:
 
 @dataclass(frozen=True, slots=True)
 class JobDone:
-    """The sweep is over; `message` says why when it could not be done at all (no program, a point that cannot be used)."""
+    """The sweep is over. It is refused where it cannot be done at all (no program, a point that cannot be used)."""
 
     ref: int
-    ok: bool
-    message: str = ""

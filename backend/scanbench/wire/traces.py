@@ -128,15 +128,12 @@ class FlightAt:
 
 @dataclass(frozen=True, slots=True)
 class FlightDone:
-    """The samples are in the file, of these signals; or why they are not."""
+    """The samples are in the file, of these signals."""
 
     ref: int
-    ok: bool
-    signals: tuple[TraceSignal, ...] = ()
-    rows: int = 0
-    first: int = 0
-    end: int = 0
-    interval_ns: int = 0
-    version: int = 0
-    message: str = ""
-    near: tuple[str, ...] = ()
+    signals: tuple[TraceSignal, ...]
+    rows: int
+    first: int
+    end: int
+    interval_ns: int
+    version: int

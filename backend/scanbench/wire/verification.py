@@ -49,8 +49,8 @@ class BeginTrace:
 
 @dataclass(frozen=True, slots=True)
 class VerifyScans:
-    """Verifies scans `first` to `last`, both included, in order. Answered with `ScansVerified` a few times a second, the last
-    one with `done`. It ends early, after the scan that runs, when another request waits."""
+    """Verifies scans `first` to `last`, both included, in order. Answered with `ScansVerified` a few times a second, then
+    `ScansDone`. It ends early, after the scan that runs, when another request waits."""
 
     ref: int
     first: int
@@ -62,7 +62,7 @@ class VerifyScans:
 @dataclass(frozen=True, slots=True)
 class VerifyStep:
     """Both sides at the statement of this count of a scan (0: the end of the scan before it), compared there. Answered
-    with `ScansVerified`, one row of kind `step`."""
+    with `ScansDone`, one row of kind `step`."""
 
     ref: int
     scan: int
@@ -73,7 +73,7 @@ class VerifyStep:
 @dataclass(frozen=True, slots=True)
 class SetInputs:
     """The monitor runs these passes again on edited inputs: (scan, call, column) -> value as typed; an empty text takes an
-    edit back. Answered with `ScansVerified` with the rows as they are now, or `VerifyRefused`."""
+    edit back. Answered with `ScansVerified` with the rows as they are now."""
 
     ref: int
     edits: tuple[tuple[int, int, str, str], ...]
@@ -109,15 +109,6 @@ class VerifyBegun:
 
 
 @dataclass(frozen=True, slots=True)
-class VerifyRefused:
-    """Why not, and what to do."""
-
-    ref: int
-    message: str
-    near: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
 class PackedRow:
     """A row, packed by the codec: whoever keeps thousands of them keeps bytes."""
 
@@ -142,12 +133,16 @@ class ScansVerified:
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     used: int
-    done: bool = False
-    message: str = ""
-    """Why it cannot go on, when it failed; or why there was nothing to do."""
-    failed: bool = False
     skipped: tuple[tuple[int, int], ...] = ()
     """Scans since the last message of which nothing was compared, as stretches, both ends included."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScansDone(ScansVerified):
+    """The last ones."""
+
+    failed: str = ""
+    """Why it cannot go on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,12 +201,10 @@ class FindWriter:
 
 @dataclass(frozen=True, slots=True)
 class WriterFound:
-    """Who, or why that cannot be told."""
+    """Who."""
 
     ref: int
-    writer: Writer | None
-    message: str = ""
-    near: tuple[str, ...] = ()
+    writer: Writer
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,11 +223,10 @@ class FindChanges:
 
 @dataclass(frozen=True, slots=True)
 class ChangesFound:
-    """What, or why that cannot be told."""
+    """What."""
 
     ref: int
-    changes: Changes | None
-    message: str = ""
+    changes: Changes
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,11 +252,10 @@ class PastAt:
 
 @dataclass(frozen=True, slots=True)
 class RunsCompared:
-    """Where they part, or why they cannot be compared."""
+    """Where they part, if they do."""
 
     ref: int
-    divergence: Divergence | None
-    message: str = ""
+    divergence: Divergence
 
 
 @dataclass(frozen=True, slots=True)
@@ -282,11 +273,9 @@ class RerunRun:
 
 @dataclass(frozen=True, slots=True)
 class RerunDone:
-    """The file is there, or why not. `refused`: commands that were not taken this time, and why."""
+    """The file is there. `refused`: commands that were not taken this time, and why."""
 
     ref: int
-    ok: bool
     scan: int
     """The file ends before it."""
     refused: tuple[str, ...] = ()
-    message: str = ""

@@ -1,44 +1,79 @@
-"""How long an answer of a job process is waited for."""
+"""Job processes from the parent: one that says nothing, one that dies, one for the questions of all."""
 
 import asyncio
+import os
+import signal
 from pathlib import Path
 
 import pytest
 
-from scanbench.jobs.client import Job, answered
+from scanbench.jobs import client
+from scanbench.jobs.client import DIED, SLOW, Gone, Job, SharedJob, alone
+from scanbench.wire.host import Sources
+from scanbench.wire.jobs import FindReaction, JobDone, Reacted, RunSweep
+from scanbench.wire.refused import Refused
 
 
-def test_a_question_behind_others_waits_for_them() -> None:
-    async def ask() -> str:
-        future: asyncio.Future[str] = asyncio.get_running_loop().create_future()
-        before = iter(range(5))  # five looks, and each time another question was answered
-
-        def count() -> int:
-            number = next(before, None)
-            if number is None:
-                future.set_result("found")
-                return 0
-            return number
-
-        return await answered(future, 0.001, count)
-
-    assert asyncio.run(ask()) == "found"
+def question(path: Path) -> client.Make:
+    return lambda ref: FindReaction(ref, str(path / "none.run"), "battery-error", 1, 2, 1)
 
 
-def test_where_nothing_is_answered_it_ends() -> None:
-    async def ask() -> None:
-        await answered(asyncio.get_running_loop().create_future(), 0.001, lambda: 7)
-
-    with pytest.raises(TimeoutError):
-        asyncio.run(ask())
+async def ignored(part: object) -> None:
+    pass
 
 
 def test_a_process_that_says_nothing_is_ended(tmp_path: Path) -> None:
-    async def story() -> bool:
-        ended: asyncio.Future[Job] = asyncio.get_running_loop().create_future()
-        job = Job(tmp_path, lambda message: None, ended.set_result, silent_s=0.0)
-        found = await ended is job
-        await job.end()
-        return found
+    async def story() -> None:
+        ended = asyncio.Event()
+        job = Job(tmp_path, ended.set)
+        with pytest.raises(Gone, match=SLOW[:20]):
+            await job.ask(question(tmp_path), Reacted, seconds=0.0)
+        await ended.wait()
+        assert job.gone
+        with pytest.raises(Gone, match=DIED):
+            await job.ask(question(tmp_path), Reacted)
+        with pytest.raises(
+            Gone, match=DIED
+        ):  # one that tells how far it is may take its time, and is a fault when it does not
+            await alone(
+                tmp_path, lambda ref: RunSweep(ref, Sources("", {}, 1, 1), (), (), 1, ()), JobDone, ignored, 0.0
+            )
 
-    assert asyncio.run(story())
+    asyncio.run(story())
+
+
+def test_a_question_that_is_open_when_it_is_killed(tmp_path: Path) -> None:
+    async def story() -> None:
+        job = Job(tmp_path)
+        with pytest.raises(Refused, match=r"^none\.run"):
+            await job.ask(question(tmp_path), Reacted)
+        process = job._process
+        assert process is not None
+        os.kill(process.pid, signal.SIGSTOP)
+        asking = asyncio.ensure_future(job.ask(question(tmp_path), Reacted))
+        await asyncio.sleep(0)
+        os.kill(process.pid, signal.SIGKILL)
+        with pytest.raises(Gone, match=DIED):
+            await asking
+        await job.end()
+
+    asyncio.run(story())
+
+
+def test_one_for_all_is_started_again_when_it_rests_or_dies(tmp_path: Path) -> None:
+    async def story() -> None:
+        shared = SharedJob(tmp_path, idle_s=0.0)
+        seen = []
+        for _ in range(3):
+            asking = [asyncio.ensure_future(shared.ask(question(tmp_path), Reacted)) for _ in range(2)]
+            for found in await asyncio.gather(*asking, return_exceptions=True):
+                assert isinstance(found, Refused)
+                assert found.message.startswith("none.run")
+            job = shared._job
+            assert job is not None
+            seen.append(job)
+            await asyncio.wait((job._task,))  # it rests at once
+        assert len(set(map(id, seen))) == 3
+        await shared.close()
+
+    asyncio.run(story())

@@ -2,13 +2,16 @@
 
 import asyncio
 from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.session.debugging import Debugging
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
-from scanbench.wire import host as protocol
-from scanbench.wire.debugging import BreakpointsAre, DebugAnswer, DebugRequest, SetBreakpoints
+from scanbench.wire.debugging import BreakpointsAre, DebugRequest, SetBreakpoints
+from scanbench.wire.refused import Refused
+
+A = TypeVar("A")
 
 
 class Host:
@@ -18,13 +21,15 @@ class Host:
         self.told: list[SetBreakpoints] = []
         self.away = False
 
-    async def ask(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
+    async def ask(self, make: Callable[[int], DebugRequest], answer: type[A]) -> A:
         if self.away:
-            return protocol.Ack(0, False, "the PLC is off: switch it on first", 0)
+            raise Refused("the PLC is off: switch it on first")
         request = make(7)
         assert isinstance(request, SetBreakpoints)
         self.told.append(request)
-        return BreakpointsAre(7, tuple(Verdict(each, True, "", each.line) for each in request.breakpoints))
+        found = BreakpointsAre(7, tuple(Verdict(each, True, "", each.line) for each in request.breakpoints))
+        assert isinstance(found, answer)
+        return found
 
 
 class Bench:

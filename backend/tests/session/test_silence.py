@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.runtime.write import Write
-from scanbench.session.conversation import Patience
-from scanbench.session.instance import Instance, Remembered
+from scanbench.session.instance import Instance, Patience, Remembered
 from scanbench.store.records import Limits
 from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Unavailable

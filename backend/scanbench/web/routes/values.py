@@ -13,7 +13,6 @@ from scanbench.web.reach import Bench
 from scanbench.web.routes.entering import entered
 from scanbench.web.translate_errors import command_result
 from scanbench.wire.debugging import Evaluate, Evaluated
-from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["values"])
@@ -25,10 +24,7 @@ async def on_read(
 ) -> messages_values.Value:
     """The value of a variable, an address or an expression: `Main.level`, `D100`, `Main.level > 3 AND motor`."""
     author = user_of(request).name
-    answer = await bench.session(instance).debug(lambda ref: Evaluate(ref, None, path, author))
-    if isinstance(answer, Ack):
-        raise Refused(answer.message, answer.near)
-    assert isinstance(answer, Evaluated)
+    answer = await bench.session(instance).debug(lambda ref: Evaluate(ref, None, path, author), Evaluated)
     if answer.variable is None:
         raise Refused(answer.message, answer.near)
     found = answer.variable

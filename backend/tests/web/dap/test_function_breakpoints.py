@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import cast
+from typing import TypeVar, cast
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.halt import Halt
@@ -17,6 +17,7 @@ from scanbench.web.dap.shapes import Body, FunctionBreakpoint, SetFunctionBreakp
 from scanbench.wire.debugging import BreakpointsAre, DebugRequest, PlaceInfo, Places, SetBreakpoints, WantPlaces
 from scanbench.wire.host import PlcState, Sources
 
+A = TypeVar("A")
 POUS = {"Main.st": "Main", "Belt.st": "Belt"}
 
 
@@ -32,8 +33,12 @@ class Plc:
         self.debugging = Debugging(self.debug, lambda _: None, lambda _: None, ())
         self.instance = self  # and of its instance
 
-    async def debug(self, make: Callable[[int], DebugRequest]) -> BreakpointsAre | Places:
-        asked = make(1)
+    async def debug(self, make: Callable[[int], DebugRequest], answer: type[A]) -> A:
+        found = self._found(make(1))
+        assert isinstance(found, answer)
+        return found
+
+    def _found(self, asked: DebugRequest) -> BreakpointsAre | Places:
         if isinstance(asked, WantPlaces):
             return Places(1, (PlaceInfo(3, 1, 3, 9, POUS[asked.file]),))
         assert isinstance(asked, SetBreakpoints)
