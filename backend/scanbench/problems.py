@@ -48,6 +48,7 @@ class Problem:
     def __post_init__(self) -> None:
         if not self.message.isprintable():
             object.__setattr__(self, "message", "".join(map(_shown, self.message)))
+        object.__setattr__(self, "severity", Severity(self.severity))  # over a link it comes as its value
 
     def __str__(self) -> str:
         return f"{self.span}: {self.code} {self.message}"

@@ -21,8 +21,8 @@ import msgpack  # type: ignore[import-untyped]
 
 from scanbench.engines.lifeline import interrupts_held
 
-HOST, JOB = "scanbench.host.host:serve", "scanbench.jobs.process:serve"
-"""Entries of the processes: of one PLC; of jobs."""
+HOST, JOB, CHECK = "scanbench.host.host:serve", "scanbench.jobs.process:serve", "scanbench.jobs.process:serve_checks"
+"""Entries of the processes: of one PLC; of jobs; of what checks programs."""
 _PR_SET_CHILD_SUBREAPER = 36
 _LARGEST_REPLY = 4096
 _THRIFT = {
@@ -168,7 +168,7 @@ class Zygote:
             _adopt_orphans()
             ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             with theirs:
-                command = [sys.executable, "-m", "scanbench.host.forking", str(theirs.fileno()), HOST, JOB]
+                command = [sys.executable, "-m", "scanbench.host.forking", str(theirs.fileno()), HOST, JOB, CHECK]
                 try:
                     with interrupts_held():
                         self._process = subprocess.Popen(

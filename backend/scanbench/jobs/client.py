@@ -29,17 +29,26 @@ class Gone(Refused):
     """There is no answer: the process died, or was ended."""
 
 
+class Slow(Gone):
+    """It was ended, as it said nothing for too long."""
+
+
 class Job:
     """One job process, which answers one question after the other. To be made in the event loop."""
 
-    def __init__(self, cache: Path, on_end: Callable[[], None] = lambda: None) -> None:
+    def __init__(self, cache: Path | None, on_end: Callable[[], None] = lambda: None, entry: str = JOB) -> None:
         """`cache` is the directory where programs and their code are kept; `on_end` is called once, when the process is gone."""
         self._channel = Channel("a job", self.kill, Gone, in_turn=True)
         self._process: Process | None = None
         self._begun = asyncio.Event()
         self.gone = False
         """It is ended, or will be in a moment."""
-        self._task = asyncio.get_running_loop().create_task(self._live(cache, on_end))
+        self._task = asyncio.get_running_loop().create_task(self._live(cache, on_end, entry))
+
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """Of the process; none before it is there."""
+        return () if self._process is None else (self._process.pid,)
 
     async def ask(
         self, make: Make, answer: type[A], seconds: float | None = ANSWER_S, on_part: OnPart | None = None
@@ -53,7 +62,11 @@ class Job:
         except TimeoutError:
             log.error("a job process has said nothing for %g s: it is ended", seconds)
             self.kill()
-            raise Gone(SLOW if on_part is None else DIED) from None
+            raise Slow(SLOW if on_part is None else DIED) from None
+
+    def tell(self, message: object) -> None:
+        """Something that has no answer; lost where the process is away."""
+        self._channel.tell(message)
 
     def kill(self) -> None:
         """Ends the process, whatever it does."""
@@ -66,9 +79,9 @@ class Job:
         self.kill()
         await asyncio.wait((self._task,))
 
-    async def _live(self, cache: Path, on_end: Callable[[], None]) -> None:
+    async def _live(self, cache: Path | None, on_end: Callable[[], None], entry: str) -> None:
         try:
-            self._process, reader, writer = await connect(cache, JOB)
+            self._process, reader, writer = await connect(cache, entry)
         except NoProcess:
             log.exception("a job process could not be started")
             self.gone = True
@@ -92,26 +105,38 @@ class Job:
 
 
 class SharedJob:
-    """One job process for the questions of all: the first one starts it, and it ends when nothing was asked for a while."""
+    """One job process for the questions of all: the first one starts it, and it ends when nothing was asked for a while.
+    One that is gone is replaced by the next question."""
 
-    def __init__(self, cache: Path, idle_s: float = IDLE_S, answer_s: float = ANSWER_S) -> None:
-        self._cache, self._idle_s, self._answer_s = cache, idle_s, answer_s
+    def __init__(self, cache: Path | None, idle_s: float | None = IDLE_S, entry: str = JOB) -> None:
+        """Without `idle_s` it stays."""
+        self._cache, self._idle_s, self._entry = cache, idle_s, entry
         self._job: Job | None = None
         self._open = 0
         self._idle: asyncio.TimerHandle | None = None
 
-    async def ask(self, make: Make, answer: type[A]) -> A:
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """See `Job`."""
+        return () if self._job is None else self._job.pids
+
+    async def ask(self, make: Make, answer: type[A], seconds: float = ANSWER_S) -> A:
         """See `Job.ask`."""
         self._open += 1
         if self._idle is not None:
             self._idle.cancel()
         try:
             job = await self._ready()
-            return await job.ask(make, answer, self._answer_s)
+            return await job.ask(make, answer, seconds)
         finally:
             self._open -= 1
-            if not self._open and self._job is not None:
+            if not self._open and self._job is not None and self._idle_s is not None:
                 self._idle = asyncio.get_running_loop().call_later(self._idle_s, self._job.kill)
+
+    def tell(self, message: object) -> None:
+        """See `Job.tell`."""
+        if self._job is not None:
+            self._job.tell(message)
 
     async def close(self) -> None:
         """Ends the process; what is still asked is not answered any more."""
@@ -124,7 +149,7 @@ class SharedJob:
         before = self._job
         if before is not None and not before.gone:
             return before
-        job = self._job = Job(self._cache)
+        job = self._job = Job(self._cache, entry=self._entry)
         if before is not None:
             await before.end()
         return job

@@ -13,12 +13,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO, TypeVar
 
+from scanbench.check.incremental import Checks
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.sweep import sweep
-from scanbench.host.program_cache import key_of, recall
+from scanbench.host.program_cache import keep, key_of, recall
 from scanbench.host.run_files import programs_by
 from scanbench.jobs import history as history_job
 from scanbench.jobs import verification as verify_job
@@ -32,8 +33,20 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
 from scanbench.wire.codec import BadMessage, Splitter, pack
+from scanbench.wire.events import CheckOutcome
 from scanbench.wire.host import Sources
-from scanbench.wire.jobs import CellFound, FindReaction, JobDone, JobRefused, Reacted, RunSweep, Trying
+from scanbench.wire.jobs import (
+    CellFound,
+    Check,
+    Checked,
+    FindReaction,
+    JobDone,
+    JobRefused,
+    KeepProgram,
+    Reacted,
+    RunSweep,
+    Trying,
+)
 from scanbench.wire.refused import Refused
 from scanbench.wire.traces import FlightAt, RecordFlight
 from scanbench.wire.verification import CompareRuns, FindChanges, FindWriter, PastAt, RerunRun
@@ -45,7 +58,7 @@ _NICENESS = 10
 _TELL_EVERY_NS = 250_000_000
 _PROGRAMS = 4
 """Checked programs that stay in memory."""
-Request = FindReaction | RunSweep | RecordFlight | verify_job.Request | history_job.Request
+Request = FindReaction | RunSweep | RecordFlight | Check | verify_job.Request | history_job.Request
 _REFUSALS = (Unreadable, NoProgram, RunFileError, OSError)
 
 
@@ -60,10 +73,18 @@ class Job:
         self._past: history_job.HistoryJob | None = None
         self._answers = answers
         self._flavours = flavours(self._cache)
+        self._checks = Checks(limit=4)
+        """What was checked last."""
         self._programs: dict[str, Program] = {}
 
     def on_request(self, request: object) -> None:
         """Answers a request. Nothing that is wrong with it ends the process."""
+        if isinstance(request, KeepProgram):
+            try:
+                self._keep(request.sources)
+            except Exception:  # hosts check for themselves what is not kept
+                log.exception("a program could not be kept")
+            return
         if not isinstance(request, Request):
             raise BadMessage(f"{type(request).__name__} is no request to a job process")
         try:
@@ -82,6 +103,8 @@ class Job:
                 return self._reacted(request)
             case RunSweep():
                 return self._swept(request)
+            case Check():
+                return self._checked(request)
             case RecordFlight():
                 return fly(
                     request, programs_by(self._program, on(self._flavours)), self._telling(FlightAt, request.ref)
@@ -94,6 +117,25 @@ class Job:
                 if self._verify is None:
                     self._verify = verify_job.VerifyJob(self._program, self._cache, self._say, self._asked)
                 return self._verify.answer(request)
+
+    def _checked(self, ask: Check) -> Checked:
+        sources = ask.sources
+        found = self._checks.diagnose(sources.files, model_of(sources), sources.interval_ns)
+        return Checked(ask.ref, CheckOutcome(found.problems, found.pous, found.checks))
+
+    def _keep(self, sources: Sources) -> None:
+        """Writes the program from a copy of this process, so that the next check need not wait."""
+        model = model_of(sources)
+        program = self._checks.check(sources.files, model, sources.interval_ns).program
+        signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how the copy ended
+        if program is None or self._cache is None or os.fork():
+            return
+        try:
+            os.closerange(3, os.sysconf("SC_OPEN_MAX"))  # what is said is not its own: it must not hold the link open
+            os.nice(_NICENESS)
+            keep(self._cache, key_of(sources, model), program)
+        finally:
+            os._exit(0)
 
     def _reacted(self, ask: FindReaction) -> Reacted:
         found = reaction_in(
@@ -167,8 +209,13 @@ def _unexpected(error: Exception) -> str:
 
 def serve(sock: socket.socket, cache: Path | None, parent: int) -> int:
     """Answers on the socket until the process `parent` closes it, or is gone; the exit code."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's business
     os.nice(_NICENESS)
+    return serve_checks(sock, cache, parent)
+
+
+def serve_checks(sock: socket.socket, cache: Path | None, parent: int) -> int:
+    """As `serve`, for what people wait for while they type: it gives way to nobody."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's business
     with sock:
         fd = sock.fileno()
         return _served(fd, os.fdopen(os.dup(fd), "wb"), cache, parent)

@@ -142,7 +142,7 @@ class Projects:
         if await self._runs_already(project, sources, sessions):
             return BuildOutcome(True, f"nothing to build: version {project.version} is what is saved", found, project)
         build = Sources(project.model, sources, INTERVAL_NS, project.version + 1)
-        self._checker.keep(build, self.model(project.model))
+        self._checker.keep(build)
         changes = await self._changes(sessions, build)
         question = _question(changes)
         if question and not agreed:

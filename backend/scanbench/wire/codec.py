@@ -9,6 +9,7 @@ from dataclasses import fields
 
 import msgpack  # type: ignore[import-untyped]
 
+from scanbench.check.build import PouInfo
 from scanbench.debug.assign import Assign
 from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
@@ -26,7 +27,8 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
 from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence, RerunChange, Writer
-from scanbench.problems import Span
+from scanbench.problems import Problem, Span
+from scanbench.program.sites import CheckSite
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Freed, Held, Numbered, Patch, Plan, Restarted, Swapped
@@ -73,7 +75,8 @@ _CLASSES: dict[str, type] = {
         symbols.WatchItem, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Difference, Line, Reaction, Reader,
-        job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Reacted,
+        job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
+        events.CheckOutcome, Problem, PouInfo, CheckSite, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,

@@ -1,4 +1,4 @@
-"""What the parent asks a job process, and what it answers: reactions and sweeps. Packed by `codec.py`, length first.
+"""What the parent asks a job process, and what it answers: reactions, sweeps and checks. Packed by `codec.py`, length first.
 
 Its process (`jobs/process.py`) reads requests from a socket, in order, and answers on it: each with the answer that is named here,
 or with `JobRefused`. It ends when the socket is closed, and with its parent. A sweep is cancelled by ending the process.
@@ -8,6 +8,7 @@ Nothing here changes a PLC.
 from dataclasses import dataclass
 
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.wire.events import CheckOutcome
 from scanbench.wire.host import Sources
 
 # ---- parent to job -------------------------------------------------------------------------------------------------
@@ -52,6 +53,21 @@ class RunSweep:
     """(error, name of the point)."""
 
 
+@dataclass(frozen=True, slots=True)
+class Check:
+    """What is wrong with these sources, and what they declare. Answered with `Checked`."""
+
+    ref: int
+    sources: Sources
+
+
+@dataclass(frozen=True, slots=True)
+class KeepProgram:
+    """Keeps the program of these sources, which were checked just now, for hosts to start with. Not answered."""
+
+    sources: Sources
+
+
 # ---- job to parent -------------------------------------------------------------------------------------------------
 
 
@@ -70,6 +86,14 @@ class Reacted:
 
     ref: int
     reaction: Reaction
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """Answer to `Check`."""
+
+    ref: int
+    outcome: CheckOutcome
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,7 @@ def checking(story: Callable[[Checker, int], Awaitable[None]]) -> int:
     """Tells a story of a checker that has checked once; the process that did."""
 
     async def told() -> int:
-        checker = Checker(grace_s=0.2)
+        checker = Checker()
         try:
             assert (await checker.check(FILES, PLC)).errors == 1
             (pid,) = checker.pids
