@@ -82,7 +82,7 @@ class Job:
     async def _live(self, cache: Path | None, on_end: Callable[[], None], entry: str) -> None:
         try:
             self._process, reader, writer = await connect(cache, entry)
-        except NoProcess:
+        except (NoProcess, OSError):
             log.exception("a job process could not be started")
             self.gone = True
             self._begun.set()
@@ -112,6 +112,7 @@ class SharedJob:
         """Without `idle_s` it stays."""
         self._cache, self._idle_s, self._entry = cache, idle_s, entry
         self._job: Job | None = None
+        self._closed = False
         self._open = 0
         self._idle: asyncio.TimerHandle | None = None
 
@@ -139,13 +140,16 @@ class SharedJob:
             self._job.tell(message)
 
     async def close(self) -> None:
-        """Ends the process; what is still asked is not answered any more."""
+        """Ends the process; what is still asked, or is asked later, is not answered any more."""
+        self._closed = True
         if self._idle is not None:
             self._idle.cancel()
         if self._job is not None:
             await self._job.end()
 
     async def _ready(self) -> Job:
+        if self._closed:
+            raise Gone(DIED)
         before = self._job
         if before is not None and not before.gone:
             return before

@@ -75,5 +75,8 @@ def test_one_for_all_is_started_again_when_it_rests_or_dies(tmp_path: Path) -> N
             await asyncio.wait((job._task,))  # it rests at once
         assert len(set(map(id, seen))) == 3
         await shared.close()
+        with pytest.raises(Gone):  # nothing is started any more
+            await shared.ask(question(tmp_path), Reacted)
+        assert shared._job is seen[-1]
 
     asyncio.run(story())
