@@ -20,6 +20,7 @@ from scanbench.web import translate
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
 from scanbench.web.headers import NoStore
+from scanbench.web.invalid import said
 from scanbench.web.operations import Api, operation_id
 from scanbench.web.pages import frontend_directory, not_built_page
 from scanbench.web.routes import binding as routes_binding
@@ -123,7 +124,7 @@ async def _on_conflict(_request: Request, error: Exception) -> JSONResponse:
 
 async def _on_invalid(_request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, RequestValidationError)
-    lines = [f"{'.'.join(map(str, one['loc'][1:]))}: {one['msg']}" for one in error.errors()]
+    lines = [said(one, ".".join(map(str, one["loc"][1:]))) for one in error.errors()]
     return JSONResponse(wire.Refusal(message="; ".join(lines)).model_dump(), 422)
 
 

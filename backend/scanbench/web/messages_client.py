@@ -1,15 +1,14 @@
-"""What a browser says on the WebSocket. `ref` is chosen by the sender and comes back in `Done`, so that a refusal lands in the row
-that caused it.
+"""What a browser says on the WebSocket, beside the commands (`messages_commands.py`). `ref` is chosen by the sender and comes back
+in `Done`, so that a refusal lands in the row that caused it.
 """
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.web.messages import Mode, RestartKind
 from scanbench.web.messages_base import Scan, Wire
+from scanbench.web.messages_commands import Command
 from scanbench.web.messages_debug import DapOut, SetCoverage
-from scanbench.web.messages_errors import Arm, Disarm, Generate, Recover
 
 
 class Watch(Wire):
@@ -23,42 +22,6 @@ class Unwatch(Wire):
     ids: list[int]
 
 
-class WriteValue(Wire):
-    """Write a variable or an address, with the rights of a tool."""
-
-    path: str
-    value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
-    site: str = Field(
-        default="", description="of an in-out: what this call (file:line) passes, instead of the last one"
-    )
-
-
-class Write(WriteValue):
-    """`WriteValue` on the socket."""
-
-    type: Literal["write"] = "write"
-    ref: int
-
-
-class Force(WriteValue):
-    """Holds it at the value until it is released."""
-
-    type: Literal["force"] = "force"
-    ref: int
-
-
-class Release(Wire):
-    type: Literal["release"] = "release"
-    ref: int
-    path: str | None = Field(description="null releases all")
-
-
-class SetMode(Wire):
-    type: Literal["mode"] = "mode"
-    ref: int
-    mode: Mode
-
-
 class Run(Wire):
     """`continue` with `scans`: so many, then pause; with `until`: up to the first scan after which the condition holds."""
 
@@ -68,12 +31,6 @@ class Run(Wire):
     speed: float | None = Field(default=None, description="0.01 to 1000; 0 is as fast as possible")
     scans: Annotated[int, Field(ge=1, lt=1 << 53)] | None = None
     until: str | None = Field(default=None, description="a BOOL expression over instance paths and addresses")
-
-
-class Restart(Wire):
-    type: Literal["restart"] = "restart"
-    ref: int
-    kind: RestartKind
 
 
 class NewRun(Wire):
@@ -90,7 +47,7 @@ class Travel(Wire):
     ref: int
     scan: Scan | None
     count: Scan = Field(
-        default=0, description="inside of the scan, in front of its statement of this count; 0: its beginning"
+        default=0, description="inside of the scan, before its statement of this count; 0: its beginning"
     )
 
 
@@ -101,29 +58,7 @@ class RollBack(Wire):
     ref: int
 
 
-class ClearDiagnostics(Wire):
-    type: Literal["clear_diagnostics"] = "clear_diagnostics"
-    ref: int
-
-
 ClientMessage = Annotated[
-    Watch
-    | Unwatch
-    | Write
-    | Force
-    | Release
-    | Generate
-    | Recover
-    | Arm
-    | Disarm
-    | SetMode
-    | Run
-    | Restart
-    | NewRun
-    | Travel
-    | RollBack
-    | ClearDiagnostics
-    | SetCoverage
-    | DapOut,
+    Watch | Unwatch | Command | Run | NewRun | Travel | RollBack | SetCoverage | DapOut,
     Field(discriminator="type"),
 ]

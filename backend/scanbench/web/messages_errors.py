@@ -122,19 +122,6 @@ class GenerateErrors(Wire):
     again: bool = False
 
 
-class Generate(GenerateErrors):
-    """`GenerateErrors` on the socket."""
-
-    type: Literal["generate"] = "generate"
-    ref: int
-
-
-class Recover(Wire):
-    type: Literal["recover"] = "recover"
-    ref: int
-    ids: list[str] | None = Field(description="null recovers every error that is generated")
-
-
 class FaultStart(Wire):
     """When a fault begins: now, before `scan`, when `condition` holds, when the statement at `file`:`line` is reached."""
 
@@ -167,24 +154,10 @@ class ArmFaults(Wire):
     gap: Annotated[int, Field(ge=0, le=1_000_000_000)] = 0
 
 
-class Arm(ArmFaults):
-    """`ArmFaults` on the socket."""
-
-    type: Literal["arm"] = "arm"
-    ref: int
-
-
 class DisarmFaults(Wire):
     """Takes faults back: nothing more is raised, and what they raised and is still present is recovered."""
 
     ids: list[Id] | None = Field(default=None, description="null is all of them")
-
-
-class Disarm(DisarmFaults):
-    """`DisarmFaults` on the socket."""
-
-    type: Literal["disarm"] = "disarm"
-    ref: int
 
 
 class PreviewErrors(GenerateErrors):

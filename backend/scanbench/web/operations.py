@@ -16,6 +16,7 @@ _NAMES = {
     ("GET", "instances/{instance}/complete"): "complete_symbol",
     ("GET", "instances/{instance}/instances-of"): "list_block_instances",
     ("POST", "instances/import"): "import_instance",
+    ("POST", "instances/{instance}/commands"): "command_instance",
     ("POST", "instances/{instance}/write"): "write_value",
     ("POST", "instances/{instance}/force"): "force_value",
     ("POST", "instances/{instance}/release"): "release_forces",

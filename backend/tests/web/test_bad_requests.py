@@ -115,10 +115,13 @@ class Api:
     def _good(self, name: str, schema: Json) -> object:
         """A value that the schema allows."""
         resolved = self._resolved(schema)
+        if "oneOf" in resolved:
+            return self._good(name, cast(list[Json], resolved["oneOf"])[0])
         kind = resolved.get("type")
         if kind == "object":
             properties = cast(dict[str, Json], resolved.get("properties", {}))
             required = cast(list[str], resolved.get("required", []))
+            required = [*required, *(each for each in properties if "const" in properties[each])]
             return {each: self._good(each, properties[each]) for each in required} or KNOWN.get(name, {})
         if kind == "array" and self._kind(cast(Json, resolved["items"])) == "object":
             return [self._good("", cast(Json, resolved["items"]))]
@@ -133,7 +136,10 @@ class Api:
         """Values with one thing in them that is odd."""
         resolved = self._resolved(schema)
         kind = resolved.get("type")
-        if kind == "object" and "properties" in resolved:
+        if "oneOf" in resolved:
+            for one in cast(list[Json], resolved["oneOf"]):
+                yield from self._odd(name, one)
+        elif kind == "object" and "properties" in resolved:
             good = cast(Json, self._good(name, schema))
             for each, inner in cast(dict[str, Json], resolved["properties"]).items():
                 yield from ({**good, each: odd} for odd in self._odd(each, inner))

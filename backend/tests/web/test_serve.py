@@ -6,6 +6,7 @@ import json
 import os
 import socket
 from pathlib import Path
+from typing import get_args
 
 import httpx
 import pytest
@@ -16,6 +17,7 @@ from scanbench.store.records import StoreError
 from scanbench.web import (
     messages,
     messages_client,
+    messages_commands,
     messages_errors,
     messages_models,
     messages_records,
@@ -28,6 +30,7 @@ from scanbench.web.handles import most_connections
 from scanbench.web.kept_guests import kept_guests
 from scanbench.web.messages_base import Wire
 from scanbench.web.serve import CannotServe, serve
+from scanbench.wire.commands import COMMANDS
 
 
 def test_a_taken_port_is_named(tmp_path: Path) -> None:
@@ -88,9 +91,11 @@ def test_every_message_is_in_the_openapi_document(tmp_path: Path) -> None:
         for name, each in vars(file).items()
         if isinstance(each, type) and issubclass(each, Wire) and each is not Wire
     }
+    shapes |= {each.__name__ for each in get_args(messages_commands.Command)}
     assert shapes <= set(schemas)
     assert {getattr(each, "PUBLIC", each.__name__) for each in Public.__subclasses__()} <= set(schemas)
-    assert {"write", "run"} <= set(schemas["ClientMessage"]["discriminator"]["mapping"])
+    assert {*COMMANDS, "run"} <= set(schemas["ClientMessage"]["discriminator"]["mapping"])
+    assert set(COMMANDS) == set(schemas["PlcCommand"]["discriminator"]["mapping"])
     assert {"hello", "written"} <= set(schemas["ServerMessage"]["discriminator"]["mapping"])
     assert openapi.main([]) == 2
 

@@ -173,6 +173,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/commands": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Any command, by its `type`: write, force, generate, arm, disturb and so on
+         * @description Any command, by its `type`: write, force, generate, arm, disturb and so on. The routes of single commands do the same.
+         */
+        post: operations["command_instance"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/comparisons": {
         parameters: {
             query?: never;
@@ -2208,7 +2228,7 @@ export interface components {
         };
         /**
          * Arm
-         * @description `ArmFaults` on the socket.
+         * @description Errors that begin later, or come and go.
          */
         Arm: {
             /** Errors */
@@ -2218,7 +2238,11 @@ export interface components {
              * @default 0
              */
             gap: number;
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @default {
@@ -2557,6 +2581,29 @@ export interface components {
              */
             type: "built";
         };
+        /**
+         * Calm
+         * @description Withdraws disturbances.
+         */
+        Calm: {
+            /**
+             * Ids
+             * @description null is all of them
+             * @default null
+             */
+            ids: number[] | null;
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "calm";
+        };
         /** CellRef */
         CellRef: {
             /** Error */
@@ -2617,15 +2664,62 @@ export interface components {
             file: string;
             mapping: components["schemas"]["TraceMapping"];
         };
-        /** ClearDiagnostics */
+        /**
+         * Clear
+         * @description Clears errors as a tool does it on the device (FINS 2101).
+         */
+        Clear: {
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "clear_errors";
+            /**
+             * What
+             * @description `current` (the most serious), `all`, or an error code as a number
+             * @default current
+             */
+            what: ("current" | "all") | number;
+        };
+        /**
+         * ClearDiagnostics
+         * @description Forgets the subrange violations that were counted.
+         */
         ClearDiagnostics: {
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "clear_diagnostics";
+        };
+        /**
+         * ClearErrorLog
+         * @description Empties the PLC's own error log, as a tool does it on the device (FINS 2103).
+         */
+        ClearErrorLog: {
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "clear_error_log";
         };
         /**
          * ClearErrors
@@ -2639,7 +2733,7 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["Restart"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"];
         /**
          * CommandResult
          * @description What became of a command that came by REST.
@@ -2879,7 +2973,7 @@ export interface components {
         };
         /**
          * Disarm
-         * @description `DisarmFaults` on the socket.
+         * @description Disarms faults; what they raised is recovered.
          */
         Disarm: {
             /**
@@ -2888,7 +2982,11 @@ export interface components {
              * @default null
              */
             ids: number[] | null;
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -2906,6 +3004,75 @@ export interface components {
              * @description null is all of them
              */
             ids?: number[] | null;
+        };
+        /**
+         * Disturb
+         * @description Disturbs the PLC, now or later.
+         */
+        Disturb: {
+            /**
+             * Bit
+             * @description flip, result: which bit; null: any, by the seed
+             * @default null
+             */
+            bit: number | null;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "flip" | "late" | "stuck" | "result";
+            /**
+             * Path
+             * @description variable or address; empty with late, stuck: all inputs
+             * @default
+             */
+            path: string;
+            /**
+             * Probability
+             * @description of each scan, from `scan` on; 0: once
+             * @default 0
+             */
+            probability: number;
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * Scan
+             * @description in which scan; null with probability 0: the next one
+             * @default null
+             */
+            scan: number | null;
+            /**
+             * Scans
+             * @description late, stuck: how long; stuck with 1,000,000: until taken back
+             * @default 1
+             */
+            scans: number;
+            /**
+             * Seed
+             * @default 0
+             */
+            seed: number;
+            /**
+             * Site
+             * @description result: `Main.st:34`
+             * @default
+             */
+            site: string;
+            /**
+             * Times
+             * @description with a probability: at most so often; 0: for ever
+             * @default 0
+             */
+            times: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "disturb";
         };
         /**
          * DisturbanceInfo
@@ -3374,7 +3541,11 @@ export interface components {
         Force: {
             /** Path */
             path: string;
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * Site
@@ -3445,7 +3616,7 @@ export interface components {
         };
         /**
          * Generate
-         * @description `GenerateErrors` on the socket.
+         * @description Raises errors, all in one seam, or none of them.
          */
         Generate: {
             /**
@@ -3455,7 +3626,11 @@ export interface components {
             again: boolean;
             /** Errors */
             errors: components["schemas"]["GenerateOne"][];
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -4249,6 +4424,11 @@ export interface components {
             live_scan: number;
         };
         /**
+         * PlcCommand
+         * @description A command by its `type`.
+         */
+        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
+        /**
          * Pou
          * @description What a file declares, for the explorer.
          */
@@ -4694,14 +4874,21 @@ export interface components {
             /** Window */
             window: number;
         };
-        /** Recover */
+        /**
+         * Recover
+         * @description Recovers errors that were raised.
+         */
         Recover: {
             /**
              * Ids
              * @description null recovers every error that is generated
              */
             ids: string[] | null;
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -4727,14 +4914,21 @@ export interface components {
              */
             near?: string[];
         };
-        /** Release */
+        /**
+         * Release
+         * @description Ends a force, or all.
+         */
         Release: {
             /**
              * Path
              * @description null releases all
              */
             path: string | null;
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -4783,14 +4977,21 @@ export interface components {
              */
             type: "rerun";
         };
-        /** Restart */
+        /**
+         * Restart
+         * @description Restarts the program, in every mode; afterwards it runs.
+         */
         Restart: {
             /**
              * Kind
              * @enum {string}
              */
             kind: "cold" | "warm" | "power";
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -5043,14 +5244,21 @@ export interface components {
              */
             type: "set_coverage";
         };
-        /** SetMode */
+        /**
+         * SetMode
+         * @description Changes the mode. MONITOR and RUN are refused while a fatal error is present.
+         */
         SetMode: {
             /**
              * Mode
              * @enum {string}
              */
             mode: "PROGRAM" | "MONITOR" | "RUN";
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -5706,7 +5914,7 @@ export interface components {
         Travel: {
             /**
              * Count
-             * @description inside of the scan, in front of its statement of this count; 0: its beginning
+             * @description inside of the scan, before its statement of this count; 0: its beginning
              * @default 0
              */
             count: number;
@@ -6711,12 +6919,16 @@ export interface components {
         };
         /**
          * Write
-         * @description `WriteValue` on the socket.
+         * @description Writes a variable or an address, with the rights of a tool.
          */
         Write: {
             /** Path */
             path: string;
-            /** Ref */
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
             ref: number;
             /**
              * Site
@@ -7125,6 +7337,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunChanges"];
+                };
+            };
+        };
+    };
+    command_instance: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PlcCommand"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
                 };
             };
         };

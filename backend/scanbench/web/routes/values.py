@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request
 
 from scanbench.runtime.forces import ForcedValue
-from scanbench.web import messages_client, messages_values
+from scanbench.web import messages_commands, messages_values
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.messages_errors import CommandResult
@@ -33,8 +33,17 @@ async def on_read(
     )
 
 
+@router.post("/commands")
+async def on_command(
+    bench: Bench, request: Request, instance: Id, wanted: messages_commands.PlcCommand
+) -> CommandResult:
+    """Any command, by its `type`: write, force, generate, arm, disturb and so on. The routes of single commands do the same."""
+    command = wanted.root
+    return await entered(bench, request, instance, command.type, command.model_dump(exclude={"type", "ref"}))
+
+
 @router.post("/write")
-async def on_write(bench: Bench, request: Request, instance: Id, wanted: messages_client.WriteValue) -> CommandResult:
+async def on_write(bench: Bench, request: Request, instance: Id, wanted: messages_commands.WriteValue) -> CommandResult:
     """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
     return await entered(bench, request, instance, "write", wanted)
 
@@ -46,7 +55,7 @@ async def on_forces(bench: Bench, instance: Id) -> tuple[ForcedValue, ...]:
 
 
 @router.post("/force")
-async def on_force(bench: Bench, request: Request, instance: Id, wanted: messages_client.WriteValue) -> CommandResult:
+async def on_force(bench: Bench, request: Request, instance: Id, wanted: messages_commands.WriteValue) -> CommandResult:
     """Holds a variable or an address at a value until it is released."""
     return await entered(bench, request, instance, "force", wanted)
 

@@ -16,11 +16,12 @@ from pydantic import TypeAdapter, ValidationError
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import messages_client as client
+from scanbench.web import messages_commands as commands
 from scanbench.web import messages_debug as debugger
-from scanbench.web import messages_errors as simulator
 from scanbench.web import translate, translate_debug, translate_verify
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
+from scanbench.web.invalid import said
 from scanbench.web.socket.waiting import Waiting
 from scanbench.wire import events
 from scanbench.wire.commands import read_command
@@ -32,19 +33,7 @@ WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
 ALIVE_AFTER_S = 5.0
 """So long without anything to tell: an `Alive` is sent. Browsers give up after 12 s of silence."""
-_Commanding = (
-    client.Write
-    | client.Force
-    | client.Release
-    | simulator.Generate
-    | simulator.Recover
-    | simulator.Arm
-    | simulator.Disarm
-    | client.SetMode
-    | client.Restart
-    | client.ClearDiagnostics
-)
-_Wanted = _Commanding | client.Run | client.Travel | client.NewRun | client.RollBack | debugger.SetCoverage
+_Wanted = commands.Command | client.Run | client.Travel | client.NewRun | client.RollBack | debugger.SetCoverage
 
 _INCOMING: TypeAdapter[client.ClientMessage] = TypeAdapter(client.ClientMessage)
 _OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
@@ -182,7 +171,7 @@ class Client:
         except ValidationError as error:
             first = error.errors()[0]
             place = ".".join(map(str, first["loc"]))
-            self._answer(_ref_of(text), False, f"not a message of this server: {place}: {first['msg']}")
+            self._answer(_ref_of(text), False, f"not a message of this server: {said(first, place)}")
             return
         match message:
             case client.Watch():
