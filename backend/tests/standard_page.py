@@ -28,7 +28,7 @@ def page() -> str:
         "",
         "Made by `python -m tests.standard_page` (in `backend/`); do not edit.",
         "",
-        "Names may have a type behind them: `ADD_INT`, `MAX_LREAL`, `SHL_WORD`. Arguments are given in order or by name;",
+        "Names may end in a type: `ADD_INT`, `MAX_LREAL`, `SHL_WORD`. Arguments are given in order or by name;",
         "EN and ENO go with every function. Results wrap at the width of their type; a division of integers by zero traps.",
         "",
         "## Functions",

@@ -325,7 +325,7 @@ class Debugger:
         self._timeline.return_live()
         self._past_halt = None
         if self._live_halt is None:
-            self._halted(Found("step", "this is where the PLC stands", ""))
+            self._halted(Found("step", "this is where the PLC is", ""))
 
 
 class _Acting(Actions):

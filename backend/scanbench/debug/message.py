@@ -32,7 +32,7 @@ class Message:
                 continue
             if match.group(1) is None:
                 return BadCondition(
-                    f"`{match.group()}` stands alone; write `{{level}}`, or `{match.group() * 2}` for a brace."
+                    f"`{match.group()}` is alone; write `{{level}}`, or `{match.group() * 2}` for a brace."
                 )
             local = locals.value(pou, match.group(1))
             if isinstance(local, BadCondition):

@@ -137,7 +137,7 @@ class Placing:
     def _data(self, placed: Placed, scan: int) -> None:
         breakpoint = placed.breakpoint
         if breakpoint.assign:
-            raise BadText("what is assigned stands at a line: set a line breakpoint for it")
+            raise BadText("a value is assigned at a line: set a line breakpoint for it")
         placed.symbol = self._symbol(breakpoint.path)
         if placed.symbol.type.size == 0:
             raise BadText(f"{placed.symbol.path} takes no memory, so nothing can be read or written there")

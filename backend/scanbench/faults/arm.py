@@ -214,7 +214,7 @@ def _bad_errors(wanted: Wanted, view: View) -> Refusal | None:
         if isinstance(chosen, Refusal):
             return chosen
         if entry.id in seen:
-            return Refusal(f"{entry.id} stands twice: one error can be present only once")
+            return Refusal(f"{entry.id} is there twice: one error can be present only once")
         seen.add(entry.id)
         if entry.severity != "fatal":
             continue
@@ -225,7 +225,7 @@ def _bad_errors(wanted: Wanted, view: View) -> Refusal | None:
             )
         if wanted.gap and index < len(wanted.errors) - 1:
             return Refusal(
-                f"{entry.id} is fatal: it stops the program, so the errors behind it would never come. Put it last, or "
+                f"{entry.id} is fatal: it stops the program, so the errors after it would never come. Put it last, or "
                 "raise all at once (gap 0)"
             )
     return None

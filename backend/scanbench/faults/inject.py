@@ -218,7 +218,7 @@ def _choose_all(view: View, refs: Iterable[ErrorRef]) -> list[Chosen] | Refusal:
         if isinstance(chosen, Refusal):
             return chosen
         if any(entry is other.error for other in all_):
-            return Refusal(f"{entry.id} stands twice: one error can be present only once")
+            return Refusal(f"{entry.id} is there twice: one error can be present only once")
         all_.append(chosen)
     return all_
 

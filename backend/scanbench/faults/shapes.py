@@ -96,7 +96,7 @@ def flaw(wanted: Wanted) -> str | None:
             "make `scans` smaller than `period`, or let it stay"
         )
     if start.kind == "scan" and start.scan is None:
-        return "say in front of which scan it begins"
+        return "say before which scan it begins"
     return None
 
 
@@ -111,7 +111,7 @@ def describe_shape(wanted: Wanted) -> str:
 def _begins(start: Start) -> str:
     match start.kind:
         case "scan":
-            return f"in front of scan {start.scan}"
+            return f"before scan {start.scan}"
         case "condition":
             return f"when {start.condition}"
         case "line":

@@ -314,13 +314,13 @@ def _sentence(
         what = f"{change.path} is {change.before_shown} in A and {change.after_shown} in B"
     if begun and not before:
         why = ", as different programs run" if differ else ""
-        return f"they are different where they begin, in front of scan {scan}{why}: {what}"
-    text = f"in front of scan {scan} {what}" if begun else f"behind scan {scan} {what}"
+        return f"they are different where they begin, before scan {scan}{why}: {what}"
+    text = f"before scan {scan} {what}" if begun else f"after scan {scan} {what}"
     if place is not None:
         text += f", written at {place.file}:{place.line} in {place.instance}, task {place.task}"
     if before:
         only = before[0]
-        text += f"; {only.entry.command.author} entered only in {only.side}, in front of scan {only.entry.scan}: "
+        text += f"; {only.entry.command.author} entered only in {only.side}, before scan {only.entry.scan}: "
         return text + entered(only.entry)
     if differ:
         return text + "; different programs run"

@@ -100,7 +100,7 @@ class _Again:
             left = [each for each in self._waiting if each.scan < end]
             text = f"a run-time error stopped the program in scan {timeline.live_scan}"
             if left:
-                text += f": {len(left)} commands that came later were not entered, the first in front of scan {left[0].scan}"
+                text += f": {len(left)} commands that came later were not entered, the first before scan {left[0].scan}"
             self._refused.append(text)
         if self._left:
             self._refused.append(f"{self._left} more commands were refused")
@@ -124,9 +124,7 @@ class _Again:
             if len(self._refused) >= _TOLD:
                 self._left += 1
             else:
-                self._refused.append(
-                    f"in front of scan {self._timeline.live_scan}: {_named(command)}: {outcome.message}"
-                )
+                self._refused.append(f"before scan {self._timeline.live_scan}: {_named(command)}: {outcome.message}")
         elif isinstance(outcome.plan.effect, Numbered) and given.number is not None:
             self._numbers[given.number] = outcome.plan.effect.number
 

@@ -84,8 +84,8 @@ def _raised(reader: RunReader, change: RerunChange) -> int:
     found = [(index, each) for index, each in of if each.scan == change.scan]
     if not found:
         scans = ", ".join(str(each.scan) for _, each in of[:5])
-        where = f"it was in front of scan {scans}" if of else "it was not raised in this run at all"
-        raise Unreadable(f"{change.error} was not raised in front of scan {change.scan}: {where}")
+        where = f"it was before scan {scans}" if of else "it was not raised in this run at all"
+        raise Unreadable(f"{change.error} was not raised before scan {change.scan}: {where}")
     index, entry = found[0]
     if isinstance(entry.command, Generate) and entry.command.origin != "simulator":
         by = "the PLC" if entry.command.origin == "plc" else "the program"
@@ -147,7 +147,7 @@ def _began(entry: Entry, raised: Entry, change: RerunChange) -> int:
     elif step:
         raise Unreadable(
             "it came back as an armed fault that waited for a condition or a line: move the first time that it came, or arm "
-            "it anew"
+            "it again"
         )
     return began + change.by
 
@@ -178,8 +178,8 @@ def _rest(
             command, scan = moved, scan + change.by * (len(command.ids or ()) == 1)
         if entry.step:
             notes.append(
-                f"{type(command).__name__} by {command.author} was entered inside of scan {entry.scan}, and is entered in front "
-                "of it this time"
+                f"{type(command).__name__} by {command.author} was entered inside of scan {entry.scan}, and is entered "
+                "before it this time"
             )
         given.append(Given(scan, command, _number(entry)))
     return given, notes

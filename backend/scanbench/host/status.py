@@ -70,7 +70,7 @@ def host_state(timeline: Timeline, pacer: Pacer, past_by: str, note: str, debugg
 
 
 def _halted(halt: Stopped) -> str:
-    where = f" in front of {halt.span}" if halt.span is not None else ""
+    where = f" before {halt.span}" if halt.span is not None else ""
     return f"halted{where}: {halt.text}"
 
 

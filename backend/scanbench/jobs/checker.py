@@ -38,7 +38,7 @@ class Checker:
                 return (await self._job.ask(lambda ref: Check(ref, wanted), Checked, self.deadline_s)).outcome
             except Slow as error:
                 raise Unavailable(
-                    f"the process that checks programs has not answered within {self.deadline_s:g} s, and was started anew: "
+                    f"the process that checks programs has not answered within {self.deadline_s:g} s, and was started again: "
                     "nothing was checked; try again"
                 ) from error
             except Gone:

@@ -74,7 +74,7 @@ def _lacks(error: DraftError) -> Iterator[tuple[str, str]]:
     if not any(text.language == "en" and text.name.strip() for text in error.texts):
         yield "texts.0.name", "give it a name in English"
     if not error.group or not all(name.strip() for name in error.group):
-        yield "group", "say which group it stands in"
+        yield "group", "say which group it is in"
     for name, value in (("id", error.id), ("code", error.code), ("flag", error.flag), ("priority", error.priority)):
         if not value.strip():
             yield name, "is missing"
@@ -84,7 +84,7 @@ def _says_missing(problem: Problem, path: str, known: set[str]) -> bool:
     """Whether the schema says once more that there is no name."""
     return (
         problem.code == "M002"
-        and (problem.message.endswith("here can stand <Name>") or "lacks <Name>" in problem.message)
+        and (problem.message.endswith("only <Name> is allowed") or "lacks <Name>" in problem.message)
         and f"{path}.texts.0.name" in known
     )
 

@@ -16,7 +16,7 @@ def instructions(layers: Sequence[Reader], errors: dict[str, ErrorEntry]) -> tup
     for reader, node in _nodes(layers, "Instruction"):
         name = node.get("Name", "")
         if any(other.name.upper() == name.upper() for other in found):
-            reader.problem("M004", f"Instruction {name!r} stands twice", node, "Name")
+            reader.problem("M004", f"Instruction {name!r} is there twice", node, "Name")
         instruction = _instruction(reader, node, errors)
         if instruction is not None:
             found.append(instruction)

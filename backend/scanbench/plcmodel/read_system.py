@@ -132,7 +132,7 @@ def specials(layers: Sequence[Reader]) -> tuple[Special, ...]:
     for reader, node in merged(layers, "System/Special", "Name", "Specials").values():
         symbol = node.get("Symbol", "")
         if symbol and any(other.symbol.upper() == symbol.upper() for other in found):
-            reader.problem("M004", f"Symbol {symbol!r} stands twice", node, "Symbol")
+            reader.problem("M004", f"Symbol {symbol!r} is there twice", node, "Symbol")
         special = _special(reader, node)
         if special is not None:
             found.append(special)

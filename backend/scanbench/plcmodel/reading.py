@@ -109,7 +109,7 @@ def merged(layers: Sequence[Reader], path: str, key: str, kind: str) -> dict[str
         for node in reader.root.iterfind(path):
             name = node.get(key, "")
             if name in own:
-                reader.problem("M004", f"{node.tag} {name!r} stands twice", node, key)
+                reader.problem("M004", f"{node.tag} {name!r} is there twice", node, key)
             own.add(name)
             found[name] = reader, node
     return found

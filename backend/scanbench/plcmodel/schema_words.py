@@ -10,7 +10,7 @@ _LOOKS = {
     "[a-z][a-z0-9]*(-[a-z0-9]+)*": "write small letters and digits, with hyphens between the words, as in `pump-too-hot`",
     r"[%A-Za-z0-9. _\-]{1,64}": "write an address of the model, as `W10.05`",
     "_?[A-Za-z](_?[A-Za-z0-9])*": "write a name as a variable has, as `P_Ready`",
-    r"[0-9]{1,6}(\.[0-9]{1,6})?(us|ms|s|min)": "write a number with us, ms, s or min behind it, as `0.1s`",
+    r"[0-9]{1,6}(\.[0-9]{1,6})?(us|ms|s|min)": "write a number with us, ms, s or min after it, as `0.1s`",
     "[0-9A-Fa-f]{1,8}": "write the code's digits, as `4F02`",
     "[0-9]{1,9}|16#[0-9A-Fa-f]{1,8}": "write a whole number, as `12` or `16#1F`",
     r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d{1,6})?(Z|[+\-]\d\d:\d\d)": "write a moment as 2026-11-21T12:00:00+00:00",
@@ -60,12 +60,14 @@ def _looks(place: str, found: re.Match[str]) -> str:
 
 def _type(place: str, found: re.Match[str]) -> str:
     meant = _TYPES.get(found[2])
-    return f"{place} is {found[1]!r}: write {meant}" if meant else f"{place} is {found[1]!r}, which cannot stand there"
+    return (
+        f"{place} is {found[1]!r}: write {meant}" if meant else f"{place} is {found[1]!r}, which is not allowed there"
+    )
 
 
 def _misplaced(place: str, found: re.Match[str]) -> str:
     expected = [f"<{_plain(each.strip())}>" for each in (found[1] or "").split(",") if each.strip()]
-    return f"{place} does not belong here: " + (f"here can stand {_or(expected)}" if expected else "remove it")
+    return f"{place} does not belong here: " + (f"only {_or(expected)} is allowed" if expected else "remove it")
 
 
 def _lacks(place: str, found: re.Match[str]) -> str:
@@ -97,7 +99,7 @@ _SAYINGS: tuple[tuple[str, Say], ...] = (
     (r"This element is not expected\.(?: Expected is (?:one of )?\((.*)\)\.)?", _misplaced),
     (r"Missing child element\(s\)\. Expected is (?:one of )?\((.*)\)\.", _lacks),
     (r"Character content (?:other than whitespace )?is not allowed.*",
-     lambda place, _: f"text stands in {place}, where none belongs: remove it"),
+     lambda place, _: f"there is text in {place}, where none belongs: remove it"),
     (r"Duplicate key-sequence \[(.*)\] in .*constraint '(.*)'\.",
-     lambda place, found: f"{found[1]} stands twice, in {place} again ({found[2]}): give one of them another"),
+     lambda place, found: f"{found[1]} is there twice, in {place} again ({found[2]}): give one of them another"),
 )  # fmt: skip

@@ -212,7 +212,7 @@ class Reader:
             case _:
                 raise self._file.unreadable(block, "nothing of this kind can be here")
         if block.scan < self._scan:
-            raise self._file.unreadable(block, f"it is of scan {block.scan}, behind one of scan {self._scan}")
+            raise self._file.unreadable(block, f"it is of scan {block.scan}, after one of scan {self._scan}")
         self._scan = found.last_scan = block.scan
 
     def _checkpoint(self, block: Block, base: Block) -> None:
@@ -220,7 +220,7 @@ class Reader:
 
     def _need(self, block: Block, version: object) -> None:
         if not isinstance(version, int) or version not in self.found.programs:
-            raise self._file.unreadable(block, f"it needs program version {version}, which is not in front of it")
+            raise self._file.unreadable(block, f"it needs program version {version}, which is not before it")
 
     def _payload(self, block: Block) -> bytes:
         payload = self._file.payload(block)

@@ -340,7 +340,7 @@ class Recording:
         except FileNotFoundError as error:
             raise Replaced(f"{file.path.name} is gone: its run was deleted, or moved away") from error
         if not os.path.samestat(here, there):
-            raise Replaced(f"{file.path.name} was made smaller, or put in place anew: open it again")
+            raise Replaced(f"{file.path.name} was made smaller, or put in place again: open it again")
         if here.st_size < file.end:
             raise RunFileError(f"{file.path.name} was cut off at byte {here.st_size} while it was read")
         entries = reader.read_on()

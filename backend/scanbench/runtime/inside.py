@@ -124,7 +124,7 @@ class Passage:
                 self._apply(entry)
         elif ended and waiting:
             raise Diverged(
-                f"scan {waiting[0].scan} has {self.engine.count} statements, and something was entered in front of "
+                f"scan {waiting[0].scan} has {self.engine.count} statements, and something was entered before "
                 f"statement {waiting[0].step} when it was recorded"
             )
 

@@ -118,7 +118,7 @@ def _at_site(view: View, path: str, site: str) -> Spot | Refusal | None:
     """What another call would pass now."""
     formal = formal_of(view.program, path)
     if formal is None:
-        return Refusal(f"{path} is behind a reference, and no call passes anything for that")
+        return Refusal(f"{path} is reached through a reference, and no call passes anything for that")
     sites = Calls(view.statements).sites(formal, view.memory)
     wanted = [each for each in sites if site in (str(each.span), f"{each.span.file}:{each.span.line}")]
     if not wanted:

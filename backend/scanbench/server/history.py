@@ -139,7 +139,7 @@ class RunHistory:
         """Cancels one, or forgets what came of it."""
         comparison = self._comparisons.pop(id, None)
         if comparison is None:
-            raise NotFound(f"there is no comparison {id}: it was forgotten, or the server has started anew")
+            raise NotFound(f"there is no comparison {id}: it was forgotten, or the server has started again")
         if not comparison.over:
             await _cancelled(comparison.task)
             _tell(comparison, message="cancelled")

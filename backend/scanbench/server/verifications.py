@@ -184,7 +184,7 @@ class Verifications:
     def _one(self, id: int) -> Verification:
         verification = self._all.get(id)
         if verification is None:
-            raise NotFound(f"there is no verification {id}: it was ended, or the server has started anew")
+            raise NotFound(f"there is no verification {id}: it was ended, or the server has started again")
         return verification
 
     async def _drop(self, id: int) -> None:

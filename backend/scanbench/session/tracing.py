@@ -106,7 +106,7 @@ class Tracing:
             status, (samples, _, _) = answer.status, Samples.unpack(answer.data)
             assert status is not None
             if generation not in (None, status.generation):
-                raise Refused(f"the trace {status.definition.name} was begun anew meanwhile: stop it, then try again")
+                raise Refused(f"the trace {status.definition.name} has begun again meanwhile: stop it, then try again")
             generation = status.generation
             yield status, samples
             if not len(samples) or samples.scans[0] <= max(first, status.first):

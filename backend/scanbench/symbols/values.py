@@ -80,7 +80,7 @@ def _parse_number(type: Elementary, text: str) -> int:
                 return 0
             raise ValueError(
                 f"`{text}` is not {type}; as a number a reference would be any place in memory: write NULL, or the "
-                "variable that it refers to (behind a ^)"
+                "variable that it refers to (after a ^)"
             )
     return _parse_integer(base_of(type), text)
 

@@ -152,7 +152,7 @@ def _characters(text: str, code: re.Pattern[str]) -> list[str | int]:
             at = found.end()
         else:
             digits = "two" if code is NARROW else "four"
-            raise ValueError(f"behind $ comes one of $ ' \" L N P R T or {digits} hex digits")
+            raise ValueError(f"after $ comes one of $ ' \" L N P R T or {digits} hex digits")
     return made
 
 

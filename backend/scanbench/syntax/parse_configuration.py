@@ -88,7 +88,7 @@ def _resource(c: Cursor) -> tree.ResourceDeclaration:
         c.name("the type of the resource")
     parts = _parts(c, "END_RESOURCE")
     for where in [each.span for each in parts.settings] + [each.span for each in parts.accesses]:
-        c.report("S003", "VAR_CONFIG and VAR_ACCESS stand outside of a RESOURCE.", where)
+        c.report("S003", "VAR_CONFIG and VAR_ACCESS belong outside of a RESOURCE.", where)
     parse_declaration.end(c, "END_RESOURCE", f"RESOURCE {c.texts[name]}")
     return tree.ResourceDeclaration(
         c.texts[name], tuple(parts.globals), tuple(parts.tasks), tuple(parts.programs), c.span_of(name)
@@ -99,10 +99,10 @@ def _task(c: Cursor) -> tree.TaskDeclaration:
     c.take()
     name = c.name("the name of the task")
     known: dict[str, tree.Expression | None] = {"INTERVAL": None, "PRIORITY": None, "SINGLE": None}
-    c.expect("(", "behind the name of the task")
+    c.expect("(", "after the name of the task")
     while not c.is_(")"):
         key = c.name("INTERVAL, SINGLE or PRIORITY")
-        c.expect(":=", f"behind {c.texts[key]}")
+        c.expect(":=", f"after {c.texts[key]}")
         value = parse_expression.expression(c)
         word = c.texts[key].upper()
         if word not in known:
@@ -113,7 +113,7 @@ def _task(c: Cursor) -> tree.TaskDeclaration:
         if not c.accept(","):
             break
     c.expect(")", "to close the task")
-    c.close(";", "behind the task")
+    c.close(";", "after the task")
     return tree.TaskDeclaration(c.texts[name], known["INTERVAL"], known["PRIORITY"], c.span_of(name), known["SINGLE"])
 
 
@@ -124,7 +124,7 @@ def _program(c: Cursor) -> tree.ProgramDeclaration:
         c.take()
     name = c.name("the name of the program instance")
     task = c.texts[c.name("the name of a task")] if c.accept_word("WITH") else None
-    c.expect(":", "behind the program instance, then its type")
+    c.expect(":", "after the program instance, then its type")
     type_name = c.qualified("the name of a PROGRAM")
     connections: list[tree.Argument] = []
     blocks: list[tuple[str, str, Span]] = []
@@ -134,7 +134,7 @@ def _program(c: Cursor) -> tree.ProgramDeclaration:
             if not c.accept(","):
                 break
         c.expect(")", "to close the connections of the program")
-    c.close(";", "behind the program instance")
+    c.close(";", "after the program instance")
     span = c.span_of(name)
     return tree.ProgramDeclaration(c.texts[name], task, type_name, span, tuple(connections), tuple(blocks), retain)
 
@@ -166,11 +166,11 @@ def _settings(c: Cursor) -> list[tree.Variable]:
             path = _instance_path(c)
             span = c.span_from(first)
             address, address_span = parse_type.located(c)
-            c.expect(":", "behind the path, then its type")
+            c.expect(":", "after the path, then its type")
             spec = parse_type.type_spec(c)
             arguments = parse_expression.arguments(c, "initial values") if c.is_("(") else ()
             initial = parse_initial.initial(c) if c.accept(":=") else None
-            c.close(";", f"behind the setting of `{path}`")
+            c.close(";", f"after the setting of `{path}`")
             found.append(tree.Variable(path, spec, initial, address, span, address_span, arguments))
         except Unexpected:
             parse_type.skip_declaration(c)
@@ -185,14 +185,14 @@ def _accesses(c: Cursor) -> list[tree.AccessDeclaration]:
     while not c.is_("END_VAR") and c.kinds[c.at] is NAME:
         try:
             name = c.take()
-            c.expect(":", "behind the name, then the path of the variable")
+            c.expect(":", "after the name, then the path of the variable")
             path = _instance_path(c)
-            c.expect(":", "behind the path, then the type of the variable")
+            c.expect(":", "after the path, then the type of the variable")
             spec = parse_type.type_spec(c)
             writable = c.word() == "READ_WRITE"
             if c.word() in ("READ_WRITE", "READ_ONLY"):
                 c.take()
-            c.close(";", f"behind the access path `{c.texts[name]}`")
+            c.close(";", f"after the access path `{c.texts[name]}`")
             found.append(tree.AccessDeclaration(c.texts[name], path, spec, writable, c.span_of(name)))
         except Unexpected:
             parse_type.skip_declaration(c)

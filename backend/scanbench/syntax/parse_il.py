@@ -92,7 +92,7 @@ def _il_body(c: Cursor) -> tree.IlBody:
             elif instruction.operator == ")":
                 depth = c.depth = max(opened, c.depth - 1)
             if not c.ended() and _same_line(c, c.at - 1, c.at) and not c.is_(")", ";"):
-                raise c.fail("the end of the line expected behind the instruction")
+                raise c.fail("the end of the line expected after the instruction")
         except Unexpected:
             c.depth = depth
             _skip_line(c, line)
@@ -146,7 +146,7 @@ def _instruction(c: Cursor) -> tree.IlInstruction:
         return _call_block(c, start, label, mnemonic)
     operands = _operands(c) if _on_line(c, at) else ()
     if not operands and mnemonic[0] not in ("RET", "NOT"):
-        raise c.fail(f"an operand expected behind {text}")
+        raise c.fail(f"an operand expected after {text}")
     return _made(c, start, label, mnemonic, False, operands[0] if operands else None, _rest(c, operands))
 
 

@@ -50,9 +50,9 @@ def _repeated(c: Cursor) -> tuple[tree.Expression | None, tree.Initial]:
     count = parse_literal.literal(c, at) if c.kinds[at] is Lex.INTEGER else tree.Name(c.texts[at], c.span_of(at))
     if c.kinds[at + 2] is NAME and c.texts[at + 3] == ":=":
         return count, _struct_initial(c)
-    c.expect("(", "behind the count")
+    c.expect("(", "after the count")
     value = initial(c)
-    c.expect(")", "behind the repeated value")
+    c.expect(")", "after the repeated value")
     return count, value
 
 
@@ -67,7 +67,7 @@ def _struct_initial(c: Cursor) -> tree.StructInit:
     members = []
     while not c.is_(")"):
         name = c.name("the name of a member")
-        c.expect(":=", "behind the name of the member")
+        c.expect(":=", "after the name of the member")
         members.append((c.texts[name], initial(c), c.span_of(name)))
         if not c.accept(","):
             break

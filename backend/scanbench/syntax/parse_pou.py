@@ -77,7 +77,7 @@ def _in_out(c: Cursor, first: int) -> str:
 def check_pragmas(c: Cursor) -> None:
     """Reports pragmas `in_out` that stand where they mean nothing."""
     for each in c.in_out_pragmas:
-        message = "A pragma `in_out` stands in front of a FUNCTION_BLOCK or behind its name; move it there."
+        message = "A pragma `in_out` belongs before a FUNCTION_BLOCK or after its name; move it there."
         c.report("S003", message, _span_of(c, each))
 
 
@@ -157,7 +157,7 @@ def using_names(c: Cursor) -> tuple[str, ...]:
     """`USING A.B, C;`"""
     c.take()
     found = _names(c, "the name of a NAMESPACE")
-    c.close(";", "behind USING")
+    c.close(";", "after USING")
     return found
 
 

@@ -135,11 +135,11 @@ def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
     if c.word() == "EXTENDS":
         c.take()
         extends = c.qualified("the name of a structure")
-    c.expect(":", "behind the name of the type")
+    c.expect(":", "after the name of the type")
     spec = parse_type.structure(c, extends) if extends and c.is_("STRUCT") else parse_type.type_spec(c, named=True)
     initial = parse_initial.initial(c) if c.accept(":=") else None
     if not isinstance(spec, tree.StructSpec) or c.is_(";"):
-        c.close(";", f"behind the declaration of `{c.texts[name]}`")
+        c.close(";", f"after the declaration of `{c.texts[name]}`")
     return tree.TypeDeclaration(
         c.texts[name], spec, initial, c.span_of(name), c.namespace, c.visible, access, qualified_only
     )

@@ -90,7 +90,7 @@ def _simple(c: Cursor, name: bool) -> tree.Statement:
         word = c.word()
         if word == "CONTINUE" and (c.texts[start + 1] == ";" or c.texts[start + 1] in STOPS):
             c.take()
-            c.close(";", "behind CONTINUE")
+            c.close(";", "after CONTINUE")
             return tree.ContinueStatement(c.span_of(start))
         _refused(c, word)
     target = expression(c)
@@ -144,7 +144,7 @@ def _refused(c: Cursor, word: str) -> None:
 
 def _exit(c: Cursor) -> tree.Statement:
     start = c.take()
-    c.close(";", f"behind {c.texts[start]}")
+    c.close(";", f"after {c.texts[start]}")
     span = c.span_of(start)
     return tree.ExitStatement(span) if c.texts[start] == "EXIT" else tree.ReturnStatement(span)
 
@@ -159,7 +159,7 @@ def _condition(c: Cursor, keyword: str) -> tree.Expression:
             raise
         return tree.Literal("bool", 0, None, c.span_of(start))
     if not c.accept(keyword):
-        c.close(keyword, "behind the selector" if keyword == "OF" else "behind the condition")
+        c.close(keyword, "after the selector" if keyword == "OF" else "after the condition")
     return condition
 
 
@@ -224,7 +224,7 @@ def _labels(c: Cursor) -> tuple[tuple[tree.Expression, tree.Expression | None], 
             labels.append((first, expression(c) if c.accept("..") else None))
             if not c.accept(","):
                 break
-        c.expect(":", "behind the label of the CASE")
+        c.expect(":", "after the label of the CASE")
     except Unexpected:
         c.depth = depth
         _skip(c, c.at)
@@ -244,12 +244,12 @@ def _at_label(c: Cursor) -> bool:
 def _for(c: Cursor) -> tree.Statement:
     start = c.take()
     variable = expression(c)
-    c.expect(":=", "behind the control variable of the FOR")
+    c.expect(":=", "after the control variable of the FOR")
     first = expression(c)
-    c.expect("TO", "behind the start value of the FOR")
+    c.expect("TO", "after the start value of the FOR")
     last = expression(c)
     step = expression(c) if c.accept_word("BY") else None
-    c.close("DO", "behind the bounds of the FOR")
+    c.close("DO", "after the bounds of the FOR")
     span = c.span_from(start)
     body = statements(c)
     _close_block(c, "END_FOR", start)

@@ -106,7 +106,7 @@ class _Parser:
             names.pop()
         if not names:
             raise self._refuse(
-                "There are no variables in the heading: write them behind the first column.", start, start + 1
+                "There are no variables in the heading: write them after the first column.", start, start + 1
             )
         columns, at = [], start + len(line.partition(delimiter)[0]) + 1
         for text, part in zip(names, line[at - start :].split(delimiter), strict=False):

@@ -123,7 +123,7 @@ def _string_type(c: Cursor, wide: bool) -> tree.StringSpec:
 
 def _array(c: Cursor) -> tree.TypeSpec:
     start = c.take()
-    c.expect("[", "behind ARRAY")
+    c.expect("[", "after ARRAY")
     ranges: list[tuple[tree.Expression, tree.Expression]] = []
     stars = 0
     while True:
@@ -136,7 +136,7 @@ def _array(c: Cursor) -> tree.TypeSpec:
         if not c.accept(","):
             break
     c.expect("]", "to close the bounds of the array")
-    c.expect("OF", "behind the bounds of the array")
+    c.expect("OF", "after the bounds of the array")
     element = type_spec(c)
     span = c.span_from(start)
     if stars and ranges:
@@ -176,7 +176,7 @@ def _variables(c: Cursor) -> list[tree.Variable]:
         names.append(c.name("the name of a variable"))
     if address is None:
         address, address_span = located(c)
-    c.expect(":", f"behind `{c.texts[names[-1]]}`, then its type")
+    c.expect(":", f"after `{c.texts[names[-1]]}`, then its type")
     spec = type_spec(c)
     edge = c.word()[0] if c.word() in ("R_EDGE", "F_EDGE") else ""
     if edge:
@@ -194,7 +194,7 @@ def _variables(c: Cursor) -> list[tree.Variable]:
         initial = tree.Call(
             tree.Name("REF", c.span_of(where)), (tree.Argument(None, False, bound, bound.span),), bound.span
         )
-    c.close(";", f"behind the declaration of `{c.texts[names[0]]}`")
+    c.close(";", f"after the declaration of `{c.texts[names[0]]}`")
     return [
         tree.Variable(c.texts[name], spec, initial, address, c.span_of(name), address_span, arguments, edge)
         for name in names
@@ -211,12 +211,12 @@ def _nameless(c: Cursor) -> list[tree.Variable]:
     """`AT %IX1.0 : BOOL;`: the address is used as it is, nothing is declared."""
     start = c.at
     located(c)
-    c.expect(":", "behind the address, then its type")
+    c.expect(":", "after the address, then its type")
     type_spec(c)
     if c.accept(":="):
         parse_initial.initial(c)
         c.report("X001", "An initial value needs a variable with a name before AT.", c.span_from(start))
-    c.close(";", "behind the declaration")
+    c.close(";", "after the declaration")
     return []
 
 
@@ -228,7 +228,7 @@ def located(c: Cursor) -> tuple[str | None, Span | None]:
     while not c.is_(":", ";", ":=", "END_VAR") and not c.ended():
         c.take()
     if c.at == start:
-        raise c.fail("an address expected behind AT")
+        raise c.fail("an address expected after AT")
     return c.source.text[c.starts[start] : c.end_of(c.at - 1)], c.span_from(start)
 
 

@@ -275,7 +275,7 @@ class Trace:
             return
         if others:
             self._anew()
-            self.note = f"begun anew at scan {scan}: {', '.join(others)} has another type"
+            self.note = f"begun again at scan {scan}: {', '.join(others)} has another type"
         self._aim_trigger(program, scan)
 
     def _aim(self, found: "list[Signal | BadCondition]") -> None:

@@ -262,7 +262,7 @@ class Both:
         for leaf in self.leaves(view, found, control, monitor):
             was, right = _cut(leaf, control), _cut(leaf, monitor)
             one, other = values(leaf, was, right)
-            text = f"{leaf.name} is {one}, the reference gives {other}, behind scan {scan}"
+            text = f"{leaf.name} is {one}, the reference gives {other}, after scan {scan}"
             made.append(mismatch("outside", leaf, was, right, None, text))
         return made
 
@@ -338,7 +338,7 @@ class Both:
         for leaf in self.leaves(view, found, recorded, here):
             was, again = _cut(leaf, recorded), _cut(leaf, here)
             one, other = values(leaf, was, again)
-            text = f"{leaf.name} was {one} behind scan {scan} when it was recorded, and the same code gives {other} now"
+            text = f"{leaf.name} was {one} after scan {scan} when it was recorded, and the same code gives {other} now"
             self.extra.append(mismatch("recorded", leaf, was, again, None, text))
         side.memory[: len(recorded)] = recorded
         self.monitor.take_over(side)

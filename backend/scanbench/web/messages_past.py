@@ -13,7 +13,7 @@ class NewRerun(Wire):
     """The run of this instance once more, with one error another; see `verify.findings.RerunChange`."""
 
     name: str = Field(min_length=1, max_length=100, description="of the new instance")
-    scan: Scan = Field(description="in front of which the error was raised")
+    scan: Scan = Field(description="before which the error was raised")
     error: str = Field(min_length=1, max_length=200)
     by: int = Field(default=0, ge=-1_000_000, le=1_000_000)
     instead: str = Field(default="", max_length=200)

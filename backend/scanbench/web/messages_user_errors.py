@@ -57,7 +57,7 @@ class UserAlso(Wire):
 
 class UserError(Wire):
     id: Typed = ""
-    group: Path = Field(description="names of the groups it stands in, the outermost first")
+    group: Path = Field(description="names of the groups it is in, the outermost first")
     code: Typed = ""
     flag: Typed = ""
     severity: Typed = "nonfatal"

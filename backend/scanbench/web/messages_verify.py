@@ -25,7 +25,7 @@ class VerifyRange(Wire):
     """A stretch of one POU; all empty: the whole scan."""
 
     pou: Text = Field(
-        default="", description="name of a POU, or FB.method; empty: the one in which the lines of `file` stand"
+        default="", description="name of a POU, or FB.method; empty: the one that has the lines of `file`"
     )
     file: Text = ""
     first: int = Field(default=0, ge=0, le=10_000_000, description="line, from 1; 0: from the POU's first statement")
@@ -71,7 +71,7 @@ class VerificationInfo(Wire):
     scan: int | None = Field(description="verified last")
     compared: int = Field(description="scans of which anything was compared")
     skipped: int = Field(
-        description="scans of which nothing was: left out, not in the trace, or the program stood still"
+        description="scans of which nothing was: left out, not in the trace, or the program did not run"
     )
     stretches: list[tuple[int, int]] = Field(description="those scans, the last 100 stretches, both ends included")
     differing: int = Field(description="rows that differ")
@@ -167,7 +167,7 @@ class TraceMapping(Wire):
     unit: Literal["scan", "ns", "us", "ms", "s"] = "scan"
     gaps: Literal["refuse", "skip", "hold"] = Field(
         default="refuse",
-        description="scans that are missing: refuse the file, compare nothing there and begin anew, or hold the values",
+        description="scans that are missing: refuse the file, compare nothing there and begin again, or hold the values",
     )
     columns: list[TraceColumnMap] = Field(max_length=1000)
 

@@ -32,30 +32,30 @@ class _Words:
     why: str
     wrong: str
     blank: str
-    key: str
+    token: str
     open: str
     where: str
 
 
 _WORDS = {
     "en": _Words(
-        "This bench has a key",
-        "Enter the key once in this browser; the page that you came for opens then.",
-        "This is not the key of this server. Compare it with the address that was printed when the server started.",
-        "Enter the key: the field was empty.",
-        "Key, or the whole address with <code>?token=</code>",
+        "This server requires its token",
+        "Enter the token once in this browser; the page that you came for opens then.",
+        "This is not the token of this server. Compare it with the address that was printed when the server started.",
+        "Enter the token: the field was empty.",
+        "Token, or the whole address with <code>?token=</code>",
         "Open",
-        "If you have no key, ask the person who started the server: it is in the address that was printed at the start, after "
+        "If you have no token, ask the person who started the server: it is in the address that was printed at the start, after "
         "<code>?token=</code>, and in the file <code>token</code> in the server's data directory.",
     ),
     "ja": _Words(
-        "このベンチにはキーが必要です",
-        "このブラウザで一度だけキーを入力してください。入力後、開こうとしたページが表示されます。",
-        "このサーバーのキーではありません。サーバー起動時に表示されたアドレスと比べてください。",
-        "キーを入力してください。欄が空でした。",
-        "キー、または <code>?token=</code> を含むアドレス全体",
+        "このベンチにはトークンが必要です",
+        "このブラウザで一度だけトークンを入力してください。入力後、開こうとしたページが表示されます。",
+        "このサーバーのトークンではありません。サーバー起動時に表示されたアドレスと比べてください。",
+        "トークンを入力してください。欄が空でした。",
+        "トークン、または <code>?token=</code> を含むアドレス全体",
         "開く",
-        "キーが分からない場合は、サーバーを起動した人に聞いてください。起動時に表示されたアドレスの <code>?token=</code> の後、"
+        "トークンが分からない場合は、サーバーを起動した人に聞いてください。起動時に表示されたアドレスの <code>?token=</code> の後、"
         "またはサーバーのデータディレクトリのファイル <code>token</code> にあります。",
     ),
 }
@@ -80,7 +80,7 @@ def sign_in_page(path: str, query: Iterable[tuple[str, str]], *, typed: str | No
     refused = words.wrong if typed is not None and typed.strip() else words.blank
     alert = f'<p role="alert">{refused}</p>' if typed is not None else ""
     form = (
-        f'<form method="get" action="{escape(path)}">{kept}<label><span>{words.key}</span>'
+        f'<form method="get" action="{escape(path)}">{kept}<label><span>{words.token}</span>'
         '<input type="password" name="token" autocomplete="current-password" required autofocus></label>'
         f"<button>{words.open}</button></form>"
     )

@@ -19,7 +19,7 @@ WRONG = [
     ("LD b\nS x", "T002", 4, "Only a BOOL can be set"),
     ("LD b\nJMPC gone", "T001", 4, "There is no label `gone`"),
     ("LD b\nJMPC ent\nend: LD x", "T001", 4, "Did you mean `end`"),
-    ("LD b\nJMPC a\na: LD b\nA: LD c", "D001", 6, "stands already in line 5"),
+    ("LD b\nJMPC a\na: LD b\nA: LD c", "D001", 6, "is already in line 5"),
     ("LD x\nJMPC a\na: LD x", "T006", 4, "JMPC asks for a current result of BOOL, not INT"),
     ("LD x\nRETC", "T006", 4, "RETC"),
     ("LD b\nAND( c", "S003", 4, "is never closed"),

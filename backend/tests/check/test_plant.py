@@ -110,7 +110,7 @@ PROGRAMS = [
     (
         {"main.st": MAIN, "plant/c.st": "PROGRAM A\nEND_PROGRAM\nCONFIGURATION C\nRESOURCE R ON PLC\nPROGRAM m : Main;\nEND_RESOURCE\n"
          "END_CONFIGURATION"},
-        "plant/c.st:3:1: D010 A CONFIGURATION stands outside of plant/",
+        "plant/c.st:3:1: D010 A CONFIGURATION belongs outside of plant/",
     ),
     (
         {"main.st": "PROGRAM Main\nVAR x : INT; END_VAR\nx := Twice(x);\nEND_PROGRAM",

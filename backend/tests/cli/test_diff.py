@@ -59,7 +59,7 @@ def test_the_first_difference_is_named(program: str, tmp_path: Path) -> None:
     assert found.exit_code == 1, found.output
     text = found.stdout
     for part in (
-        "Behind scan 1283 Main.belt[3].load is 7 in A and 90 in B",
+        "After scan 1283 Main.belt[3].load is 7 in A and 90 in B",
         "scan       1283",
         "task       Main",
         "instance   Main",
@@ -87,8 +87,7 @@ def test_another_program(program: str, tmp_path: Path) -> None:
     found = call("diff", one, other)
     assert found.exit_code == 1, found.output
     assert (
-        "Behind scan 0 Main.belt[3].speed is 536 in A and 600 in B, written at main.st:7 in Main.belt[3]"
-        in found.stdout
+        "After scan 0 Main.belt[3].speed is 536 in A and 600 in B, written at main.st:7 in Main.belt[3]" in found.stdout
     )
     assert "different programs run" in found.stdout
 

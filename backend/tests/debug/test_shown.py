@@ -262,7 +262,7 @@ def test_messages(method: Scene) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "message", "column"), [("n {lost}", "`lost`", 4), ("n {io", "stands alone", 1), ("}", "stands alone", 1)]
+    ("text", "message", "column"), [("n {lost}", "`lost`", 4), ("n {io", "is alone", 1), ("}", "is alone", 1)]
 )
 def test_wrong_messages(method: Scene, text: str, message: str, column: int) -> None:
     bad = Message.of(method.locals, method.frames[1].pou, text)

@@ -1,5 +1,6 @@
 """One word for one thing: what the glossary does not want is written nowhere that people read."""
 
+import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,6 +18,10 @@ GENERATED = ("features.md", "standard-library.md")
 PAGES = [
     path for path in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")) if path.name not in (*GENERATED, GLOSSARY.name)
 ]
+ROOMS = sorted(
+    path.parent for path in (ROOT / "backend" / "scanbench").glob("*/__init__.py") if path.parent.name != "engines"
+)
+"""Whose messages are read. The texts of `engines` are those of LLVM, with comments."""
 TEXTS = sorted((ROOT / "frontend" / "src" / "text" / "en").glob("*.ts"))
 CALQUES = ("in front of", "anew", "mended", "some times slower")
 """Of other languages; each has a plain English word."""
@@ -63,6 +68,27 @@ def test_the_help_of_the_command_line() -> None:
     found = {place: words for place, text in helps(typer.main.get_command(app), "scanbench")
              if (words := said((*unwanted(), *CALQUES), text))}  # fmt: skip
     assert found == {}
+
+
+def messages(path: Path) -> Iterator[str]:
+    """Texts of a module that are no docstrings: messages, descriptions of fields, parts of both."""
+    tree = ast.parse(path.read_text("utf-8"))
+    blocks = [each for node in ast.walk(tree) if isinstance(each := getattr(node, "body", None), list)]
+    docs = {id(each.value) for block in blocks for each in block if isinstance(each, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docs:
+            yield node.value
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=lambda path: path.name)
+def test_messages(room: Path) -> None:
+    found = [
+        (path.name, text, words)
+        for path in room.rglob("*.py")
+        for text in messages(path)
+        if (words := said((*CALQUES, "behind"), text))
+    ]
+    assert found == []
 
 
 def test_problems() -> None:

@@ -360,7 +360,7 @@ def test_an_error_that_the_project_has_no_more_ends_it(kind: Kind) -> None:
         (arm(), "no error is named"),
         (arm(ErrorRef("batery-error")), "CJ1M-CPU63 knows no error 'batery-error'. Did you mean `battery-error`"),
         (arm(ErrorRef(UNIT.id, (("unit", "99"),))), "unit=99 is outside"),
-        (arm(BATTERY, BATTERY), "battery-error stands twice"),
+        (arm(BATTERY, BATTERY), "battery-error is there twice"),
         (arm(BATTERY, shape=Shape("for", 0)), "scans is 0"),
         (arm(BATTERY, start=Start("scan", 4)), "scan 4 is over: the PLC is at scan 5"),
         (arm(BATTERY, start=Start("condition", condition="Mian.n > 3")), "Did you mean `Main`?"),

@@ -56,14 +56,14 @@ def test_numbers_that_mean_nothing_are_told(shape: Shape, gap: int, words: str) 
     found = flaw(Wanted(BATTERY, Start(), shape, gap))
     assert found is not None
     assert words in found
-    assert flaw(Wanted(BATTERY, Start("scan"), Shape())) == "say in front of which scan it begins"
+    assert flaw(Wanted(BATTERY, Start("scan"), Shape())) == "say before which scan it begins"
 
 
 def test_words() -> None:
     two = (*BATTERY, ErrorRef("io-bus-error"))
     assert describe_shape(Wanted(BATTERY)) == "now, until it is recovered"
     assert describe_shape(Wanted(two, Start("scan", 9), Shape("for", 1), 3)) == (
-        "in front of scan 9, for 1 scan, 3 scans from one to the next"
+        "before scan 9, for 1 scan, 3 scans from one to the next"
     )
     assert describe_shape(Wanted(BATTERY, Start("line", file="a.st", line=3), Shape("chatter", times=1))) == (
         "when a.st:3 was reached, on and off in turn, 1 time"

@@ -64,7 +64,7 @@ def test_what_was_entered_in_between(tmp_path: Path) -> None:
     assert found.entries[0].text.startswith("Write: Main.quiet")
     assert _shown(found)["D100"] == ("16#0000", "16#0007")
     assert not any(each.path.startswith("A") for each in found.changes), "the clock is nobody's change"
-    assert not _between(path, 4, 5, 8).entries, "they were entered in front of scan 4"
+    assert not _between(path, 4, 5, 8).entries, "they were entered before scan 4"
 
 
 def test_another_program_in_between(tmp_path: Path) -> None:

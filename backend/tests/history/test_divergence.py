@@ -92,7 +92,7 @@ def test_a_command_in_one_of_them(engine: EngineFactory, tmp_path: Path) -> None
     }
     assert found.changes.changes[0].path in found.text
     assert found.entries == (BetweenEntry(12, "B", "Ada", "Write: Main.level := 3"),)
-    assert "Ada entered only in B, in front of scan 12" in found.text
+    assert "Ada entered only in B, before scan 12" in found.text
     assert found.marks == ((12, 29),)
 
 

@@ -56,7 +56,7 @@ def _again(timeline: Timeline, change: RerunChange) -> tuple[Rerun, Timeline]:
 
 
 def _with_an_error(folder: Path) -> Timeline:
-    """Raised in front of scan 10, recovered in front of 15; something is written in front of 5, 12 and 20; 30 scans."""
+    """Raised before scan 10, recovered in front of 15; something is written in front of 5, 12 and 20; 30 scans."""
     timeline = _begun(folder / "run")
     for scan, command in (
         (5, Write("Ada", "Main.level", "2")),
@@ -135,7 +135,7 @@ def test_what_follows_is_planned_anew(tmp_path: Path) -> None:
     made, again = _again(timeline, RerunChange(10, BATTERY, by=25))
     assert len(made.refused) == 1
     assert "Generate by Ada" in made.refused[0], "it is raised already"
-    assert "in front of scan 3" in made.refused[0]
+    assert "before scan 3" in made.refused[0]
     assert again.live_scan == 35
 
 
@@ -196,7 +196,7 @@ def test_the_new_run_is_one(tmp_path: Path) -> None:
     ("change", "says"),
     [
         (RerunChange(10, SETUP, 1), "was not raised in this run at all"),
-        (RerunChange(11, BATTERY, 1), "it was in front of scan 10"),
+        (RerunChange(11, BATTERY, 1), "it was before scan 10"),
         (RerunChange(10, BATTERY), "nothing would be another"),
         (RerunChange(10, BATTERY, 1, leave_out=True), "choose one"),
         (RerunChange(10, BATTERY, instead="batery-error"), "batery-error"),

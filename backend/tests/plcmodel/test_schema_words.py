@@ -27,8 +27,8 @@ GOOD = """<UserErrors>
         ('"1000"', '"first"', "Priority of <Error> is 'first'"),
         (' Priority="1000"', ' Priority="1000" Colour="red"', "<Error> takes no Colour: remove it"),
         ("<Name>Lift blocked</Name>", "", "<Error> lacks <Name>: write one inside of it"),
-        ("<Name>Lift blocked</Name>", "<Nam>x</Nam>", "<Nam> does not belong here: here can stand <Name>"),
-        ("<ErrorGroup>", "<ErrorGroup>Lift", "text stands in <ErrorGroup>, where none belongs: remove it"),
+        ("<Name>Lift blocked</Name>", "<Nam>x</Nam>", "<Nam> does not belong here: only <Name> is allowed"),
+        ("<ErrorGroup>", "<ErrorGroup>Lift", "there is text in <ErrorGroup>, where none belongs: remove it"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_said_in_words(old: str, new: str, says: str) -> None:

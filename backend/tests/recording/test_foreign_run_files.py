@@ -52,7 +52,7 @@ CASES: dict[str, tuple[Blocks, str]] = {
     "about is long": ([(Kind.ABOUT, 0, b" " * 70_000)], "70000 bytes, and 65536 is the most"),
     "about of something else": ([(Kind.ABOUT, 0, b'{"model": 1}')], "does not say what was recorded"),
     "about with a list": ([(Kind.ABOUT, 0, about(model=[1]))], "model is not right"),
-    "no program": ([FIRST[0], STATE], "needs program version 1, which is not in front of it"),
+    "no program": ([FIRST[0], STATE], "needs program version 1, which is not before it"),
     "no checkpoint": (FIRST, "before its first checkpoint"),
     "a second about": ([*FIRST, FIRST[0]], "nothing of this kind can be here"),
     "a short program": ([FIRST[0], (Kind.PROGRAM, 0, b"\1\0\0\0abc"), STATE], "it is too short"),
@@ -64,7 +64,7 @@ CASES: dict[str, tuple[Blocks, str]] = {
     "an entry that is none": ([*FIRST, STATE, (Kind.ENTRY, 0, b"\xc1")], "the entry at byte"),
     "an entry that is something else": ([*FIRST, STATE, (Kind.ENTRY, 0, b"\x01")], "the entry at byte"),
     "an entry of another scan": ([*FIRST, STATE, (Kind.ENTRY, 3, entry(2))], "of scan 2, and is kept at scan 3"),
-    "time goes back": ([*FIRST, (Kind.KEYFRAME, 5, STATE[2]), (Kind.ENTRY, 2, entry(2))], "behind one of scan 5"),
+    "time goes back": ([*FIRST, (Kind.KEYFRAME, 5, STATE[2]), (Kind.ENTRY, 2, entry(2))], "after one of scan 5"),
 }
 
 

@@ -62,8 +62,8 @@ def test_broken_configurations() -> None:
     for text, complaint in (
         ("TASK t(INTERVALL := T#1s);", "X001 2:8 INTERVALL of a task is not supported."),
         ("TASK t(PRIORITY := 1, PRIORITY := 2);", "D001 2:23 PRIORITY of this task is given twice."),
-        ("TASK t;", "S003 2:7 `(` expected behind the name of the task, found `;`."),
-        ("PROGRAM p WITH t;", "S003 2:17 `:` expected behind the program instance, then its type, found `;`."),
+        ("TASK t;", "S003 2:7 `(` expected after the name of the task, found `;`."),
+        ("PROGRAM p WITH t;", "S003 2:17 `:` expected after the program instance, then its type, found `;`."),
         ("PROGRAM p : q(5);", "S003 2:15 `input := value`, `output => variable` or `instance WITH task` expected, found `5`."),
         ("x := 1;", "S003 2:1 RESOURCE, TASK, PROGRAM, VAR_GLOBAL or END_CONFIGURATION expected, found `x`."),
         ("RESOURCE r ON P\nRESOURCE s ON P\nEND_RESOURCE", "S003 3:1 RESOURCE, TASK, PROGRAM, VAR_GLOBAL or END_RESOURCE expected, found `RESOURCE`."),

@@ -76,7 +76,7 @@ def test_bad_declarations_are_skipped_one_by_one() -> None:
     ]
     text = "PROGRAM p\nVAR\na : INT;\nx := 1;\nEND_PROGRAM"
     assert complaints(text) == [
-        "S003 4:3 `:` expected behind `x`, then its type, found `:=`.",
+        "S003 4:3 `:` expected after `x`, then its type, found `:=`.",
         "S003 5:1 `END_VAR` expected to close the VAR of line 2, found `END_PROGRAM`.",
     ]
 

@@ -101,10 +101,10 @@ def test_il_in_methods() -> None:
 
 
 BROKEN = [
-    ("LD a b\nST c", "S003 2:6 the end of the line expected behind the instruction, found `b`."),
-    ("LD a\nST\nLD b", "S003 4:1 an operand expected behind ST, found `LD`."),
+    ("LD a b\nST c", "S003 2:6 the end of the line expected after the instruction, found `b`."),
+    ("LD a\nST\nLD b", "S003 4:1 an operand expected after ST, found `LD`."),
     ("LD a\n:= 3\nST b", "S003 3:1 an instruction (an operator, and what it works on) expected, found `:=`."),
-    ("LD a\nST b := 3\nLD c", "S003 3:6 the end of the line expected behind the instruction, found `:=`."),
+    ("LD a\nST b := 3\nLD c", "S003 3:6 the end of the line expected after the instruction, found `:=`."),
     ("LD a\nCAL\nST c", "S003 4:4 the end of the line"),
     ("LD a\nLIMIT 1,\nST c", "S003 4:4 the end of the line"),
 ]

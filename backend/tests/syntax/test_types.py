@@ -87,7 +87,7 @@ def test_initial_value(text: str, shown: str | None) -> None:
 BROKEN = [
     ("TYPE A : (); END_TYPE", "S003 1:10 An enumeration needs at least one value."),
     ("TYPE A : (1, 2); END_TYPE", "S003 1:11 the name of a value expected, found `1`."),
-    ("TYPE A INT; END_TYPE", "S003 1:8 `:` expected behind the name of the type, found `INT`."),
+    ("TYPE A INT; END_TYPE", "S003 1:8 `:` expected after the name of the type, found `INT`."),
     ("TYPE IF : INT; END_TYPE", "S003 1:6 the name of a type expected; `IF` is a keyword and cannot be a name, found `IF`."),
     ("TYPE A : ARRAY[1..] OF INT; END_TYPE", "S003 1:19 an expression (a value, variable or call) expected, found `]`."),
     ("TYPE A : INT (1..; END_TYPE", "S003 1:18 an expression (a value, variable or call) expected, found `;`."),

@@ -77,7 +77,7 @@ def test_a_link_to_a_scan_keeps_where_it_leads(server: Server) -> None:
 
 
 def _form(page: httpx.Response) -> tuple[str, dict[str, str]]:
-    """Where the form leads, and what it sends besides the key."""
+    """Where the form leads, and what it sends besides the token."""
     assert page.status_code == 401
     action = re.search(r'<form method="get" action="([^"]*)"', page.text)
     hidden = re.findall(r'<input type="hidden" name="([^"]*)" value="([^"]*)"', page.text)
@@ -86,26 +86,26 @@ def _form(page: httpx.Response) -> tuple[str, dict[str, str]]:
     return unescape(action[1]), {unescape(name): unescape(value) for name, value in hidden}
 
 
-def test_without_the_key_there_is_a_field_for_it_that_leads_on(server: Server) -> None:
+def test_without_the_token_there_is_a_field_for_it_that_leads_on(server: Server) -> None:
     with httpx.Client(base_url=server.base, follow_redirects=True, timeout=PATIENCE_S) as browser:
         action, kept = _form(browser.get("/i/1/scan/40", params={"panel": "verify", "scanbench_user": 'Ada "L"'}))
         assert (action, kept) == ("/i/1/scan/40", {"panel": "verify", "scanbench_user": 'Ada "L"'})
         wrong = browser.get(action, params={**kept, "token": "wrong"})
-        assert _form(wrong) == (action, kept), "the wrong key must not be sent again"
-        assert '<p role="alert">This is not the key' in wrong.text
+        assert _form(wrong) == (action, kept), "the wrong token must not be sent again"
+        assert '<p role="alert">This is not the token' in wrong.text
         for blank in ("", "  "):
             again = browser.get(action, params={**kept, "token": blank})
             assert _form(again) == (action, kept)
-            assert '<p role="alert">Enter the key' in again.text
+            assert '<p role="alert">Enter the token' in again.text
         page = browser.get(action, params={**kept, "token": server.address})  # the whole address is as good
         assert page.status_code in (200, 503)
         assert str(page.url) == f"{server.base}/i/1/scan/40?panel=verify"
         assert browser.get("/api").json()["you"]["name"] == 'Ada "L"'
         assert all(cookie.expires for cookie in browser.cookies.jar), "a browser that was closed has to ask again"
-    assert "キー" in httpx.get(server.base, headers={"Accept-Language": "ja,en;q=0.5"}, timeout=PATIENCE_S).text
+    assert "トークン" in httpx.get(server.base, headers={"Accept-Language": "ja,en;q=0.5"}, timeout=PATIENCE_S).text
 
 
-def test_the_field_for_the_key_cannot_be_made_to_say_something_else(server: Server) -> None:
+def test_the_field_for_the_token_cannot_be_made_to_say_something_else(server: Server) -> None:
     page = httpx.get(f'{server.base}/i/"><script>1</script>', params={'"><script>': '"><script>'}, timeout=PATIENCE_S)
     assert page.status_code == 401
     assert page.text.count("<script") == page.text.count('<script src="/theme.js"></script>') == 1

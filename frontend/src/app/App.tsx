@@ -119,7 +119,7 @@ function KeyForm() {
         <input key={name} type="hidden" name={name} value={value} />
       ))}
       <label className="field">
-        <span>{t("shut.locked.key")}</span>
+        <span>{t("shut.locked.token")}</span>
         <input className="inp" type="password" name="token" autoComplete="current-password" required />
       </label>
       <button type="submit" className="btn primary">

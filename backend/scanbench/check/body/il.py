@@ -85,7 +85,7 @@ class InstructionList:
             known = first.setdefault(node.label.upper(), node.span)
             if known is not node.span:
                 self._report.error(
-                    "D001", f"The label `{node.label}` stands already in line {known.line}; rename one.", node.span
+                    "D001", f"The label `{node.label}` is already in line {known.line}; rename one.", node.span
                 )
 
     def _find_wanted(self) -> None:
@@ -149,7 +149,7 @@ class InstructionList:
     def _unreachable(self, node: tree.IlInstruction) -> None:
         """Told once for each stretch that a JMP or RET leaves behind."""
         if not self._dead:
-            self._report.warn("W001", "This is never reached: no label stands between it and what leaves.", node.span)
+            self._report.warn("W001", "This is never reached: there is no label between it and what leaves.", node.span)
             self._current = BROKEN
         self._dead = True
 
@@ -157,7 +157,7 @@ class InstructionList:
         if self._open:
             # it is told once, and the parentheses count as closed
             self._report.error(
-                "T010", f"The label `{name}` stands inside parentheses; close them with `)` before it.", span
+                "T010", f"The label `{name}` is inside parentheses; close them with `)` before it.", span
             )
             self._open.clear()
             self._current = BROKEN
@@ -291,7 +291,7 @@ class InstructionList:
             hint = did_you_mean(written, [label.name for label in labels.values()])
             raise self._report.reject("T001", f"There is no label `{written}` to jump to.{hint}", operand.span)
         if self._open:
-            raise self._report.reject("T010", "JMP stands inside parentheses; close them with `)` first.", node.span)
+            raise self._report.reject("T010", "JMP is inside parentheses; close them with `)` first.", node.span)
         target = labels[operand.name.upper()].block
         back = target < len(self._blocks)
         trap = self._body.trap(TrapKind.LOOP, node.span, "the jump back never ends") if back else 0

@@ -58,7 +58,7 @@ def as_reference(body: Body, expr: Expr, type: Reference, span: Span) -> Expr | 
             body.report.warn(
                 "W004",
                 f"A {source} begins with its length, in two bytes; its characters follow. In other tools the first byte "
-                "behind this pointer is the first character.",
+                "after this pointer is the first character.",
                 span,
             )
         return expr

@@ -56,11 +56,11 @@ def statement(body: Body, node: tree.Statement) -> Stmt | None:
             return Repeat(inner, condition(body, node.until), trap, node.span)
         case tree.ExitStatement(span):
             if body.loops == 0:
-                raise body.report.reject("T009", "EXIT stands in no loop; RETURN leaves the POU.", span)
+                raise body.report.reject("T009", "EXIT is in no loop; RETURN leaves the POU.", span)
             return Exit(span)
         case tree.ContinueStatement(span):
             if body.loops == 0:
-                raise body.report.reject("T009", "CONTINUE stands in no loop; RETURN leaves the POU.", span)
+                raise body.report.reject("T009", "CONTINUE is in no loop; RETURN leaves the POU.", span)
             return Continue(span)
         case tree.ReturnStatement(span):
             return Return(span)

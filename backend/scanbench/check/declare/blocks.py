@@ -19,7 +19,7 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
         if kind in (Section.TEMP, Section.EXTERNAL):
             continue
         if kind is Section.GLOBAL:
-            declared.report.error("D008", "VAR_GLOBAL stands outside of POUs.", section.span)
+            declared.report.error("D008", "VAR_GLOBAL belongs outside of POUs.", section.span)
             continue
         if declaration.kind == "program" and kind is Section.IN_OUT:
             declared.report.error("D008", "A PROGRAM has no VAR_IN_OUT here; use VAR_EXTERNAL.", section.span)

@@ -38,7 +38,7 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
         if kind is Section.EXTERNAL or (not function and kind is not Section.TEMP):
             continue
         if kind is Section.GLOBAL:
-            declared.report.error("D008", "VAR_GLOBAL stands outside of POUs.", section.span)
+            declared.report.error("D008", "VAR_GLOBAL belongs outside of POUs.", section.span)
             continue
         for variable in section.variables:
             if variable.address is not None:

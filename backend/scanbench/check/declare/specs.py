@@ -102,7 +102,7 @@ def enumeration(declared: Declarations, spec: tree.EnumSpec, name: str) -> Enume
     low, high = bounds(base)
     for value_name, stated, span in spec.values:
         if value_name.upper() in values:
-            declared.report.error("D001", f"`{value_name}` stands twice in this enumeration; rename one.", span)
+            declared.report.error("D001", f"`{value_name}` is twice in this enumeration; rename one.", span)
             continue
         number = number + 1 if stated is None else int(declared.constant_of(stated, base).value)
         if not low <= number <= high:

@@ -59,7 +59,7 @@ class Plant:
         for file in parsed:
             for configuration in file.configurations if file.name in self.files else ():
                 self.report.error(
-                    "D010", "A CONFIGURATION stands outside of plant/: programs of the plant run by themselves.",
+                    "D010", "A CONFIGURATION belongs outside of plant/: programs of the plant run by themselves.",
                     configuration.span,
                 )  # fmt: skip
         for caller, called in self.pous.uses.items():
@@ -70,6 +70,6 @@ class Plant:
                     self.report.error(
                         "T010",
                         f"`{caller.name}` uses `{callee.name}`, which is of the plant ({callee.span.file}) and only for what "
-                        "stands there. Move it to a file outside of plant/.",
+                        "is there. Move it to a file outside of plant/.",
                         caller.span,
                     )

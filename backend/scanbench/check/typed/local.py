@@ -183,7 +183,7 @@ class Locals:
         for each in found:
             if not isinstance(each, tree.Assignment) or each.operator in ("REF=", "?="):
                 span = each.span
-                return Bad("Only assignments can stand here: `a := a + 1; b := TRUE;`.", (), span.column)
+                return Bad("Only assignments are allowed here: `a := a + 1; b := TRUE;`.", (), span.column)
             made.append(each)
         return tuple(made)
 
@@ -323,7 +323,7 @@ class _Text:
         callee = _function(body, name)
         if callee is not None:
             if any((each.name or "").upper() in ("EN", "ENO") for each in node.arguments):
-                raise body.report.reject("X001", "EN and ENO cannot stand here.", node.span)
+                raise body.report.reject("X001", "EN and ENO are not allowed here.", node.span)
             self.calls = True
             return as_value(body, invoke(body, node, callee, callee.name, None, None), node.span)
         value = standard_call(body, node, name.upper(), wanted) if "." not in name else None

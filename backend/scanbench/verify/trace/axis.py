@@ -151,7 +151,7 @@ def _in_order(found: list[int], table: Table, axis: str, gaps: str, problems: Pr
         if scan == before:
             problems.add(row, axis, f"Scan {scan} has two rows.")
         elif scan < before:
-            problems.add(row, axis, f"Scan {scan} comes behind scan {before}: the rows must be in order of time.")
+            problems.add(row, axis, f"Scan {scan} comes after scan {before}: the rows must be in order of time.")
         elif scan > before + 1:
             missing += scan - before - 1
             if gaps == "refuse":
@@ -159,7 +159,7 @@ def _in_order(found: list[int], table: Table, axis: str, gaps: str, problems: Pr
                 problems.add(
                     row,
                     axis,
-                    f"In front of this row {stretch} missing. Choose what to do in gaps: hold the inputs, or skip them.",
+                    f"Before this row {stretch} missing. Choose what to do in gaps: hold the inputs, or skip them.",
                 )
         if problems.full:
             break

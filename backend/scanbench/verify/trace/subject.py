@@ -87,7 +87,7 @@ class TraceSubject:
     def _beginning(self) -> str:
         if self._trace.scans.cold:
             return ""
-        return f"The trace begins in the middle of a run: the values of scan {self.first} are taken over, and compared behind it."
+        return f"The trace begins in the middle of a run: the values of scan {self.first} are taken over, and compared after it."
 
     def run(self, scan: int) -> tuple[Row, ...]:
         """See `Subject`."""

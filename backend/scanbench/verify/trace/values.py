@@ -42,7 +42,7 @@ def _duration(type: Elementary, text: str, unit: Unit | None, comma: bool) -> by
             return parse_value(type, text)
         except ValueError:
             raise ValueError(
-                f"`{text}` is not a TIME: write T#1s500ms, or put the unit behind the column's name, as [s]"
+                f"`{text}` is not a TIME: write T#1s500ms, or put the unit after the column's name, as [s]"
             ) from None
     ns = round(number(text, comma) * UNITS_NS[unit])
     return parse_value(Elementary("LINT", Kind.INT, type.size), str(ns))

@@ -93,7 +93,7 @@ export const past = {
   "link.copied.here": "Copied; the link works on this computer only",
   "link.copy": "Copy link",
   "link.copy.hint":
-    "Copies the address of this scan, for a colleague or a report. Whoever opens this server for the first time must enter its key",
+    "Copies the address of this scan, for a colleague or a report. Whoever opens this server for the first time must enter its token",
   "link.copy.hint.here":
     "Copies the address of this scan. It names this computer ({host}), so it works here only: for a colleague, open this page under the network name of the server first",
   "link.copy.scan": "Copy link to scan {scan}",

@@ -63,10 +63,10 @@ export const plc = {
   "run.speed": "Speed {speed}",
   "shut.failed": "The server does not answer",
   "shut.failed.about": "Start the server with make run, or check its output. Then choose Try again.",
-  "shut.locked": "This server requires its key",
+  "shut.locked": "This server requires its token",
   "shut.locked.about":
-    "Enter the key once in this browser. The server printed it at its start, in its address after ?token=; ask the person who started the server. Your unsaved text is kept in this browser.",
-  "shut.locked.key": "Key, or the whole address with ?token=",
+    "Enter the token once in this browser. The server printed it at its start, in its address after ?token=; ask the person who started the server. Your unsaved text is kept in this browser.",
+  "shut.locked.token": "Token, or the whole address with ?token=",
   "shut.locked.open": "Open",
   "silent.about":
     "Its process is blocked. The values shown are the last ones it sent, and nothing can be changed. The PLC continues when it can; to end it, switch it off.",
