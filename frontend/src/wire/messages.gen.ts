@@ -4263,7 +4263,7 @@ export interface components {
             name: string;
             /**
              * Scan
-             * @description in front of which the error was raised
+             * @description before which the error was raised
              */
             scan: number;
         };
@@ -5717,7 +5717,7 @@ export interface components {
             columns: components["schemas"]["TraceColumnMap"][];
             /**
              * Gaps
-             * @description scans that are missing: refuse the file, compare nothing there and begin anew, or hold the values
+             * @description scans that are missing: refuse the file, compare nothing there and begin again, or hold the values
              * @default refuse
              * @enum {string}
              */
@@ -6121,7 +6121,7 @@ export interface components {
             flag: string;
             /**
              * Group
-             * @description names of the groups it stands in, the outermost first
+             * @description names of the groups it is in, the outermost first
              */
             group: string[];
             /**
@@ -6379,7 +6379,7 @@ export interface components {
             scan: number | null;
             /**
              * Skipped
-             * @description scans of which nothing was: left out, not in the trace, or the program stood still
+             * @description scans of which nothing was: left out, not in the trace, or the program did not run
              */
             skipped: number;
             /**
@@ -6614,7 +6614,7 @@ export interface components {
             last: number;
             /**
              * Pou
-             * @description name of a POU, or FB.method; empty: the one in which the lines of `file` stand
+             * @description name of a POU, or FB.method; empty: the one that has the lines of `file`
              * @default
              */
             pou: string;
