@@ -86,7 +86,7 @@ def test_what_fits_on_one_page_is_asked_for_once() -> None:
 def test_pages_of_two_records_are_refused() -> None:
     generations = iter((1, 1, 2))
     answer = lambda ask: TraceRead(ask.ref, page(500, 10).pack(10, 900, 1), status=status(next(generations)))  # noqa: E731
-    with pytest.raises(Refused, match="begun anew"):
+    with pytest.raises(Refused, match="begun again"):
         asyncio.run(gathered(tracing(answer)))
 
 
