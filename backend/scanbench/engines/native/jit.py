@@ -3,6 +3,7 @@
 import ctypes
 import ctypes.util
 import hashlib
+import threading
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
@@ -15,9 +16,9 @@ import llvmlite.binding as llvm
 from scanbench.engines.native import emit_loop
 from scanbench.engines.native.emit_intrinsics import LIBM, LIBM_PREFIX
 
-_ready = False
 _loop: "Code | None" = None
-"""What runs the scans of every program."""
+"""What runs the scans of every program; there once LLVM is ready."""
+_preparing = threading.Lock()
 
 
 @dataclass(slots=True)
@@ -50,26 +51,31 @@ class Code:
         self._engine.close()
 
 
-def _prepare() -> None:
-    global _ready, _loop
-    if _ready:
-        return
+def _prepare() -> Code:
+    """Gets LLVM ready, once a process, whichever thread comes first."""
+    global _loop
+    if _loop is None:
+        with _preparing:
+            if _loop is None:
+                _loop = _prepared()
+    return _loop
+
+
+def _prepared() -> Code:
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     # under names of ours: LLVM would replace a `pow` or `sin` that it knows by something that rounds differently
     libm = ctypes.CDLL(ctypes.util.find_library("m") or None)
     for name in LIBM.values():
         llvm.add_symbol(LIBM_PREFIX + name, ctypes.cast(getattr(libm, name), ctypes.c_void_p).value)
-    _ready = True
-    _loop = link([compile_object(emit_loop.module(), 2, Timings())], Timings())
-    llvm.add_symbol(emit_loop.FORCES_NAME, _loop.function(emit_loop.FORCES_NAME))
+    loop = _link([_object(emit_loop.module(), 2, Timings())], Timings())
+    llvm.add_symbol(emit_loop.FORCES_NAME, loop.function(emit_loop.FORCES_NAME))
+    return loop
 
 
 def run_address() -> int:
     """Of the loop that runs scans."""
-    _prepare()
-    assert _loop is not None
-    return _loop.function(emit_loop.RUN_NAME)
+    return _prepare().function(emit_loop.RUN_NAME)
 
 
 def _machine(opt_level: int) -> "llvm.TargetMachine":
@@ -114,6 +120,10 @@ def assembly(ir: str, opt_level: int = 2) -> str:
 def compile_object(ir: str, opt_level: int, timings: Timings) -> bytes:
     """Object code of a module."""
     _prepare()
+    return _object(ir, opt_level, timings)
+
+
+def _object(ir: str, opt_level: int, timings: Timings) -> bytes:
     machine = _machine(opt_level)
     module = _optimised(ir, machine, opt_level, timings)
     start = perf_counter_ns()
@@ -139,6 +149,10 @@ def object_key(ir: str, opt_level: int) -> str:
 def link(codes: Iterable[bytes], timings: Timings) -> Code:
     """Loads object code into the process; its parts may call each other."""
     _prepare()
+    return _link(codes, timings)
+
+
+def _link(codes: Iterable[bytes], timings: Timings) -> Code:
     start = perf_counter_ns()
     empty = llvm.parse_assembly("")
     empty.triple = llvm.get_process_triple()
