@@ -17,7 +17,7 @@ class Answers:
 
     def ack(self, ref: int, ok: bool, message: str, near: tuple[str, ...] = ()) -> None:
         """Done, or not, and why."""
-        self._services.answers()
+        self._services.before_answer()
         self._link.post(Ack(ref, ok, message, self._timeline.resource.header.scan, near))
         self._on_answer()
 

@@ -125,10 +125,12 @@ class Services:
             self._link.post(protocol.Entered(tuple(entries)))
             self._tell_standing()
 
-    def answers(self) -> None:
-        """What an answer comes after: its entries, and the state. Who begins a new run after *paused* begins a paused one."""
+    def before_answer(self) -> None:
+        """What an answer comes after: its entries, forces and the state, where the parent keeps up. Who begins a new run after
+        *paused* begins a paused one."""
         self.entered()
         if not self._link.backlogged:
+            self._tell_forces(False)
             self._tell_state(monotonic_ns())
 
     def moved(self) -> None:

@@ -142,14 +142,19 @@ class Channel:
 
 async def connect(cache: Path | None, entry: str) -> tuple[Process, asyncio.StreamReader, asyncio.StreamWriter]:
     """A process of its own that serves this entry point, and both ends of what is said; `NoProcess`."""
-    ours, theirs = socket.socketpair()
+    try:
+        ours, theirs = socket.socketpair()
+    except OSError as error:  # no file descriptors are left, say
+        raise NoProcess(f"no process could be started: {error.strerror}") from error
     try:
         with theirs:
             process = await asyncio.to_thread(zygote().spawn, theirs, cache, entry)
-    except NoProcess:
-        ours.close()
+        reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
+    except BaseException as error:
+        ours.close()  # a process that is there ends with it
+        if isinstance(error, OSError):
+            raise NoProcess(f"no process could be started: {error.strerror}") from error
         raise
-    reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
     return process, reader, writer
 
 

@@ -1,5 +1,6 @@
 """Checking projects: in a process of its own, so that a long check never delays live values."""
 
+import asyncio
 import logging
 from collections.abc import Mapping
 from pathlib import Path
@@ -23,6 +24,7 @@ class Checker:
     def __init__(self, cache: Path | None = None, deadline_s: float = 60.0) -> None:
         """`cache` is a directory where accepted programs are kept, for hosts to start with."""
         self._job = SharedJob(cache, None, CHECK)
+        self._turn = asyncio.Lock()
         self.deadline_s = deadline_s
 
     @property
@@ -33,6 +35,10 @@ class Checker:
     async def check(self, sources: Mapping[str, str], model: Model) -> CheckOutcome:
         """All problems of these sources, and what they declare. `Unavailable` when the process does not answer."""
         wanted = Sources(model.name, dict(sources), INTERVAL_NS, 0)
+        async with self._turn:  # a program that its process dies of is nobody else's trouble
+            return await self._checked(wanted)
+
+    async def _checked(self, wanted: Sources) -> CheckOutcome:
         for _ in range(2):
             try:
                 return (await self._job.ask(lambda ref: Check(ref, wanted), Checked, self.deadline_s)).outcome
@@ -41,7 +47,9 @@ class Checker:
                     f"the process that checks programs has not answered within {self.deadline_s:g} s, and was started again: "
                     "nothing was checked; try again"
                 ) from error
-            except Gone:
+            except Gone as error:
+                if self._job.closed:
+                    raise Unavailable("nothing was checked: the server ends") from error
                 log.warning("the process that checks programs died: another one is started")  # for want of memory, say
         raise Unavailable("the process that checks programs died twice: nothing was checked")
 

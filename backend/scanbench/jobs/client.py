@@ -19,6 +19,7 @@ WORK_S = 600.0
 IDLE_S = 60.0
 """So long without a question, and a process that is there for all ends."""
 DIED = "the process that computes it died: try again"
+FAULT = "a fault of Scanbench: see the log of the server"
 SLOW = f"it took longer than {ANSWER_S:g} s, and was given up: ask for fewer scans, or try again"
 A = TypeVar("A")
 Make = Callable[[int], object]
@@ -41,6 +42,7 @@ class Job:
         self._channel = Channel("a job", self.kill, Gone, in_turn=True)
         self._process: Process | None = None
         self._begun = asyncio.Event()
+        self._why = DIED
         self.gone = False
         """It is ended, or will be in a moment."""
         self._task = asyncio.get_running_loop().create_task(self._live(cache, on_end, entry))
@@ -55,8 +57,8 @@ class Job:
     ) -> A:  # fmt: skip
         """The answer; see `Channel.ask`. `Gone` when the process died, or said nothing for so many seconds: then it is ended."""
         await self._begun.wait()
-        if not self._channel.there:
-            raise Gone(DIED)
+        if not self._channel.open:
+            raise Gone(self._why)
         try:
             return await self._channel.ask(make, answer, seconds, on_part)
         except TimeoutError:
@@ -74,15 +76,16 @@ class Job:
         if self._process is not None:
             self._process.kill()
 
-    async def end(self) -> None:
-        """Ends the process, and waits for that."""
+    async def end(self, why: str = DIED) -> None:
+        """Ends the process, and waits for that; who waits for an answer is told why there is none."""
+        self._why = why
         self.kill()
         await asyncio.wait((self._task,))
 
     async def _live(self, cache: Path | None, on_end: Callable[[], None], entry: str) -> None:
         try:
             self._process, reader, writer = await connect(cache, entry)
-        except (NoProcess, OSError):
+        except NoProcess:
             log.exception("a job process could not be started")
             self.gone = True
             self._begun.set()
@@ -98,7 +101,7 @@ class Job:
             log.exception("a job process does not speak the protocol")
         finally:
             self.kill()
-            self._channel.end(DIED)
+            self._channel.end(self._why)
             writer.close()
             await asyncio.to_thread(self._process.wait)
             on_end()
@@ -112,7 +115,7 @@ class SharedJob:
         """Without `idle_s` it stays."""
         self._cache, self._idle_s, self._entry = cache, idle_s, entry
         self._job: Job | None = None
-        self._closed = False
+        self.closed = False
         self._open = 0
         self._idle: asyncio.TimerHandle | None = None
 
@@ -141,14 +144,14 @@ class SharedJob:
 
     async def close(self) -> None:
         """Ends the process; what is still asked, or is asked later, is not answered any more."""
-        self._closed = True
+        self.closed = True
         if self._idle is not None:
             self._idle.cancel()
         if self._job is not None:
             await self._job.end()
 
     async def _ready(self) -> Job:
-        if self._closed:
+        if self.closed:
             raise Gone(DIED)
         before = self._job
         if before is not None and not before.gone:

@@ -131,7 +131,10 @@ class Job:
         if program is None or self._cache is None or os.fork():
             return
         try:
-            os.closerange(3, os.sysconf("SC_OPEN_MAX"))  # what is said is not its own: it must not hold the link open
+            most = os.sysconf("SC_OPEN_MAX")
+            os.closerange(
+                3, most if most > 0 else 1 << 20
+            )  # what is said is not its own: it must not hold the link open
             os.nice(_NICENESS)
             keep(self._cache, key_of(sources, model), program)
         finally:

@@ -1,12 +1,13 @@
 """Questions about the past of runs: asked here, answered in job processes, so that no PLC waits for them."""
 
 import asyncio
+import logging
 from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
-from scanbench.jobs.client import Make, SharedJob, alone
+from scanbench.jobs.client import FAULT, Make, SharedJob, alone
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
@@ -24,6 +25,8 @@ from scanbench.wire.verification import (
     RunsCompared,
     WriterFound,
 )
+
+log = logging.getLogger("scanbench")
 
 IDLE_S = 120.0
 """So long without a question, and the process that answers them ends."""
@@ -134,6 +137,9 @@ class RunHistory:
             _tell(comparison, done=comparison.changed.of, result=found.divergence)
         except Refused as why:
             _tell(comparison, message=why.message)
+        except Exception:
+            log.exception("two runs could not be compared")
+            _tell(comparison, message=FAULT)
 
     async def forget(self, id: int) -> None:
         """Cancels one, or forgets what came of it."""
@@ -179,6 +185,9 @@ class RunHistory:
             _tell(rerun, done=rerun.changed.of, instance=made.id, refused=done.refused)
         except Refused as why:
             _tell(rerun, message=why.message)
+        except Exception:
+            log.exception("a run could not be made once more")
+            _tell(rerun, message=FAULT)
         finally:
             await asyncio.to_thread(rerun.file.unlink, True)
 

@@ -1,6 +1,7 @@
 """Records of traces that were kept, and the flight recorder that makes them of scans that are over."""
 
 import asyncio
+import logging
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -9,7 +10,7 @@ from pathlib import Path
 from typing import cast
 
 from scanbench.engines.sample import MAX_SIGNALS
-from scanbench.jobs.client import Make, alone
+from scanbench.jobs.client import FAULT, Make, alone
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import Json, KeptRow
@@ -21,6 +22,8 @@ from scanbench.typed import make
 from scanbench.wire.events import FlightChanged
 from scanbench.wire.refused import Refused
 from scanbench.wire.traces import FlightAt, FlightDone, RecordFlight, TraceStatus
+
+log = logging.getLogger("scanbench")
 
 SUFFIX = ".trace"
 MAX_FLIGHT = 10_000_000
@@ -239,6 +242,9 @@ class TraceRecords:
             flight.tell(replace(flight.changed, done=flight.changed.of, record=kept.row.id))
         except Refused as why:
             flight.tell(replace(flight.changed, message=why.message))
+        except Exception:
+            log.exception("earlier scans could not be recorded")
+            flight.tell(replace(flight.changed, message=FAULT))
         finally:
             with suppress(OSError):
                 await asyncio.to_thread(flight.file.unlink, True)

@@ -5,12 +5,13 @@ each scan, with pace `step` before each statement, until both sides were compare
 """
 
 import asyncio
+import logging
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, TypeVar
 
-from scanbench.jobs.client import DIED, Gone, Job
+from scanbench.jobs.client import DIED, FAULT, Gone, Job
 from scanbench.server.hold import Hold
 from scanbench.server.verify_rows import Rows
 from scanbench.server.verify_status import begun, verified, with_stretches
@@ -31,6 +32,8 @@ from scanbench.wire.verification import (
     VerifyScans,
     VerifyStep,
 )
+
+log = logging.getLogger("scanbench")
 
 A = TypeVar("A")
 BEHIND = 256
@@ -136,7 +139,7 @@ class Verification:
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-        await self._job.end()
+        await self._job.end("the verification was ended")
 
     @property
     def over(self) -> bool:
@@ -151,7 +154,7 @@ class Verification:
     async def release(self) -> None:
         """Ends the process of one that is over; its rows stay, and can be looked at and kept."""
         self._gone = True
-        await self._job.end()
+        await self._job.end("its process was ended as others began: begin another verification")
 
     # ---- what users want ------------------------------------------------------------------------------------------
 
@@ -356,6 +359,10 @@ class Verification:
             except Refused as refused:
                 self._busy = False
                 self._fail(refused.message)
+            except Exception:
+                log.exception("what a verification found could not be taken")
+                self._busy = False
+                self._fail(FAULT)
 
         self._busy = True
         self._do(verify())

@@ -302,6 +302,7 @@ out:
 
 
 RUN_NAME, FORCES_NAME = "loop.run", "loop.forces"
+"""What `RUN` and `APPLY_FORCES` define."""
 
 
 def module() -> str:

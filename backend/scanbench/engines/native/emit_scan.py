@@ -3,6 +3,7 @@
 from scanbench.engines.native import emit_expressions, emit_statements
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import UNLIKELY, FunctionText, Value
+from scanbench.engines.native.emit_loop import FORCES_NAME
 from scanbench.engines.native.emit_memory import store
 from scanbench.engines.native.emit_places import address, load
 from scanbench.problems import Span
@@ -17,7 +18,7 @@ SCRATCH = '@"t.scan"'
 
 def emit(unit: Unit, program: Program) -> None:
     """Adds `@scan` to the module."""
-    unit.module.declare("@loop.forces", 'declare void @"loop.forces"(ptr, i64, i32) cold nounwind willreturn')
+    unit.module.declare(f"@{FORCES_NAME}", f'declare void @"{FORCES_NAME}"(ptr, i64, i32) cold nounwind willreturn')
     unit.module.add(_scan(unit, program))
 
 
@@ -73,7 +74,7 @@ def _forces(unit: Unit, text: FunctionText, note: int, size: int) -> None:
     apply, on = text.name("force"), text.name("on")
     text.choose(text.op(f"icmp ne i32 {count}, 0"), apply, on, UNLIKELY)
     text.begin(apply)
-    text.do(f'call void @"loop.forces"(ptr %img, i64 {note}, i32 {size})')
+    text.do(f'call void @"{FORCES_NAME}"(ptr %img, i64 {note}, i32 {size})')
     text.go(on)
     text.begin(on)
 

@@ -9,7 +9,16 @@ from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Compiler
 from scanbench.engines.native.condition_code import link_condition
-from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FUTEX_WAKE_PRIVATE, INTERRUPTED, TRAP
+from scanbench.engines.native.emit_loop import (
+    ASKED,
+    CONDITION,
+    DONE,
+    FUTEX,
+    FUTEX_WAKE_PRIVATE,
+    INTERRUPTED,
+    RUN_NAME,
+    TRAP,
+)
 from scanbench.engines.native.observer import NativeObserver
 from scanbench.engines.native.sample_code import link_samplings
 from scanbench.engines.sample import Sampling
@@ -75,7 +84,7 @@ class NativeEngine(Engine):
         self._observer = observer  # the code writes to its memory
         if observer is not None:
             observer.attach(self._code)
-        self._run = _RUN(jit.run_address())
+        self._run = _RUN(jit.loop().function(RUN_NAME))
         self._image = (ctypes.c_uint8 * len(memory)).from_buffer(memory)
         self._address = ctypes.addressof(self._image)
         if self._address % 8:

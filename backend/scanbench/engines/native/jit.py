@@ -16,9 +16,10 @@ import llvmlite.binding as llvm
 from scanbench.engines.native import emit_loop
 from scanbench.engines.native.emit_intrinsics import LIBM, LIBM_PREFIX
 
+_ready = False
 _loop: "Code | None" = None
-"""What runs the scans of every program; there once LLVM is ready."""
-_preparing = threading.Lock()
+"""What runs the scans of every program; there as soon as one is linked."""
+_making_loop = threading.Lock()
 
 
 @dataclass(slots=True)
@@ -51,31 +52,29 @@ class Code:
         self._engine.close()
 
 
-def _prepare() -> Code:
-    """Gets LLVM ready, once a process, whichever thread comes first."""
-    global _loop
-    if _loop is None:
-        with _preparing:
-            if _loop is None:
-                _loop = _prepared()
-    return _loop
-
-
-def _prepared() -> Code:
+def _prepare() -> None:
+    global _ready
+    if _ready:
+        return
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     # under names of ours: LLVM would replace a `pow` or `sin` that it knows by something that rounds differently
     libm = ctypes.CDLL(ctypes.util.find_library("m") or None)
     for name in LIBM.values():
         llvm.add_symbol(LIBM_PREFIX + name, ctypes.cast(getattr(libm, name), ctypes.c_void_p).value)
-    loop = _link([_object(emit_loop.module(), 2, Timings())], Timings())
-    llvm.add_symbol(emit_loop.FORCES_NAME, loop.function(emit_loop.FORCES_NAME))
-    return loop
+    _ready = True
 
 
-def run_address() -> int:
-    """Of the loop that runs scans."""
-    return _prepare().function(emit_loop.RUN_NAME)
+def loop() -> Code:
+    """The code of `emit_loop`, made once a process, whichever thread comes first; a process that only compiles needs none."""
+    global _loop
+    if _loop is None:
+        with _making_loop:
+            if _loop is None:
+                made = _linked([compile_object(emit_loop.module(), 2, Timings())], Timings())
+                llvm.add_symbol(emit_loop.FORCES_NAME, made.function(emit_loop.FORCES_NAME))
+                _loop = made
+    return _loop
 
 
 def _machine(opt_level: int) -> "llvm.TargetMachine":
@@ -120,10 +119,6 @@ def assembly(ir: str, opt_level: int = 2) -> str:
 def compile_object(ir: str, opt_level: int, timings: Timings) -> bytes:
     """Object code of a module."""
     _prepare()
-    return _object(ir, opt_level, timings)
-
-
-def _object(ir: str, opt_level: int, timings: Timings) -> bytes:
     machine = _machine(opt_level)
     module = _optimised(ir, machine, opt_level, timings)
     start = perf_counter_ns()
@@ -147,12 +142,12 @@ def object_key(ir: str, opt_level: int) -> str:
 
 
 def link(codes: Iterable[bytes], timings: Timings) -> Code:
-    """Loads object code into the process; its parts may call each other."""
-    _prepare()
-    return _link(codes, timings)
+    """Loads object code into the process; its parts may call each other, and what the loop has for them."""
+    loop()
+    return _linked(codes, timings)
 
 
-def _link(codes: Iterable[bytes], timings: Timings) -> Code:
+def _linked(codes: Iterable[bytes], timings: Timings) -> Code:
     start = perf_counter_ns()
     empty = llvm.parse_assembly("")
     empty.triple = llvm.get_process_triple()
