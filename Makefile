@@ -14,8 +14,8 @@ BIN := $(abspath $(VENV))/bin
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 NPM := npm --loglevel=error --no-fund --no-audit --no-update-notifier
 
-# Two workers more than there are cores: a test that waits for a server leaves its core to another one.
-PYTEST = -m pytest --quiet --numprocesses $$(($$(nproc) + 2)) --maxprocesses 5 --dist loadfile --no-loadscope-reorder
+# One worker more than there are cores: a test that waits for a server leaves its core to another one.
+PYTEST = -m pytest --quiet --numprocesses $$(($$(nproc) + 1)) --maxprocesses 5 --dist loadfile --no-loadscope-reorder
 
 # The tests start hundreds of processes of Python: where bytecode may not be kept, each of them would compile its sources again.
 unexport PYTHONDONTWRITEBYTECODE

@@ -49,6 +49,9 @@ def test_a_golden_run_is_gone_on_with(path: Path, tmp_path: Path) -> None:
 
 
 def test_there_is_one_of_the_format_of_today(tmp_path: Path) -> None:
-    """Whoever raises the format makes another one: `python -m tests.recording.golden_run`. It comes to the same each time."""
+    """Whoever raises the format makes another one: `python -m tests.recording.golden_run`. It comes to the same each time, but
+    for checkpoints: of them there are more where scans take longer."""
     make(tmp_path / "run")
-    assert json.loads(json.dumps(asdict(expected(tmp_path / "run")))) == kept(GOLDEN / f"format-{FORMAT}.run")
+    now, then = json.loads(json.dumps(asdict(expected(tmp_path / "run")))), kept(GOLDEN / f"format-{FORMAT}.run")
+    assert now.pop("checkpoints") >= 1
+    assert now == {name: value for name, value in then.items() if name != "checkpoints"}

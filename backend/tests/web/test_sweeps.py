@@ -100,7 +100,7 @@ def test_a_sweep_is_cancelled_and_resumed(server: Server) -> None:
     with server.browser(instance) as browser:
         kept = server.http.post(f"/api/instances/{instance}/states", json={"name": "Kept"}).json()["id"]
         states = [kept, kept]  # once is enough
-        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"window": 20_000, "states": states})
+        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"window": 8_000, "states": states})
         assert begun.json()["states"] == ["Kept"]
         sweep = begun.json()["id"]
         second = server.http.post(f"/api/instances/{instance}/sweeps", json={})
