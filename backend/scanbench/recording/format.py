@@ -249,8 +249,12 @@ class RunFile:
                     _write(self.fd, _encode(Kind.MARK, 0, self._marked, b""), self.end)
             raise
 
+    def _head(self, offset: int, size: int) -> bytes:
+        """The head of a block, as far as it lies before `size`: another process may have appended since that was asked."""
+        return os.pread(self.fd, min(_BLOCK.size, size - offset), offset)
+
     def _good_block(self, offset: int, size: int) -> Block | None:
-        head = os.pread(self.fd, _BLOCK.size, offset)
+        head = self._head(offset, size)
         block = _decode(head, offset)
         if block is None or block.end > size:
             return None
@@ -261,7 +265,7 @@ class RunFile:
 
     def _damage(self, offset: int, size: int) -> Damage:
         last, lost = self._after(offset + 1, size)
-        head = os.pread(self.fd, _BLOCK.size, offset)
+        head = self._head(offset, size)
         block = _decode(head, offset)
         short = len(head) < _BLOCK.size or (block is not None and block.end > size)
         torn = short and last < 0 and not self._has_wrong_length(head, offset, size)
@@ -288,7 +292,7 @@ class RunFile:
                 continue
             if left <= 0:
                 break
-            claimed = _decode(os.pread(self.fd, _BLOCK.size, at), at)
+            claimed = _decode(self._head(at, size), at)
             left -= max(_LOOK, claimed.length if claimed is not None and claimed.end <= size else 0)
             block = self._good_block(at, size)
             if block is not None:
@@ -299,7 +303,7 @@ class RunFile:
     def _places(self, offset: int, size: int) -> Iterator[int]:
         """Where blocks may begin."""
         for begin in range(offset, size, _CHUNK):
-            chunk = os.pread(self.fd, _CHUNK + len(_SYNC) - 1, begin)
+            chunk = os.pread(self.fd, min(_CHUNK + len(_SYNC) - 1, size - begin), begin)
             at = chunk.find(_SYNC)
             while at >= 0:
                 yield begin + at

@@ -8,7 +8,7 @@ import pytest
 
 from scanbench.recording import checkpoints
 from scanbench.recording import recording as recordings
-from scanbench.recording.format import RunFileError
+from scanbench.recording.format import RunFile, RunFileError
 from scanbench.recording.recording import Recording, Replaced
 from scanbench.runtime.command import Entry
 from scanbench.runtime.write import Write
@@ -72,6 +72,33 @@ def test_a_block_that_is_not_whole_yet_is_read_later(tmp_path: Path) -> None:
         assert tuple(entries) == journal
         assert [(each.scan, each.entries) for each in reading.checkpoints] == known
         assert not reading.damage
+
+
+def test_a_file_that_grows_while_it_is_read_is_read_as_long_as_it_was(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The writer appends after the reader has asked how long the file is: what came later is read later."""
+    data = whole_run()[0]
+    path = tmp_path / "run"
+    ask = os.fstat
+
+    def ask_then_grow(fd: int) -> os.stat_result:
+        found = ask(fd)
+        path.write_bytes(data)
+        return found
+
+    monkeypatch.setattr(os, "fstat", ask_then_grow)
+    file = RunFile.open(_written(path, data), read_only=True)
+    whole = list(file.scan_blocks())
+    file.close()
+    assert file.damage is None
+    last = whole[-8:]
+    for end in range(last[0].offset + 1, len(data)):
+        path.write_bytes(data[:end])
+        file = RunFile.open(path, read_only=True)
+        assert list(file.scan_blocks()) == [each for each in whole if each.end <= end]
+        assert file.damage is None or file.damage.torn
+        file.close()
 
 
 def test_a_mark_that_is_being_overwritten_is_no_damage(tmp_path: Path) -> None:
