@@ -120,7 +120,7 @@ class Builds:
         with self._building:
             try:
                 if edit:
-                    self._builder.prepare(loop.programs.sources(loop.timeline.live_version))
+                    self._builder.prepare(loop.programs.sources(loop.timeline.live.version))
             except (MemoryError, LookupError) as error:  # the first edit takes longer, or says the same
                 log.warning("not ready for an edit: %s", self._why(error))
         self._debug(loop)

@@ -58,4 +58,4 @@ class Covering:
         self.more = self._tap.note(seen, scans) or self.more
 
     def _texts(self) -> dict[str, str]:
-        return dict(self._sources(self._timeline.live_version).files)
+        return dict(self._sources(self._timeline.live.version).files)

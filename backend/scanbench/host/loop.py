@@ -160,7 +160,7 @@ class Loop:
         scan = resource.header.scan
         pacer.ran(scan - first, stop.reason is Reason.CONDITION, scan)
         if pacer.paused:
-            self.timeline.stop_when(None)
+            self.resource.waiting.until = None
         if pacer.paused or stop.reason is Reason.HALTED:
             self._tick = True
         pacer.worked(resource.measured.busy_ns - busy)
@@ -175,7 +175,7 @@ class Loop:
                 self._debug(message)
             case protocol.Travel():
                 self._driving.travel(message)
-                self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
+                self.programs.drop_idle(self.timeline.resource.version, self.timeline.live.version)
             case protocol.Copy():
                 self._copy(message)
             case Copied():
@@ -189,7 +189,7 @@ class Loop:
             case BuildRefused():
                 self._answers.ack(message.ref, False, message.message)
             case protocol.SetLimits():
-                self.timeline.recording.set_limit(run_limit(message.run_mib))
+                self.timeline.recording.bounds.set_limit(run_limit(message.run_mib))
                 self._pacer.cpu_percent = message.cpu_percent
             case DefineTrace() | DriveTrace():
                 self.traces.serve(message)
@@ -245,11 +245,11 @@ class Loop:
         """Another program runs: its places, pace and conditions are others."""
         self._pacer.set_pace(self.resource.program.interval_ns)
         condition = self._pacer.condition
-        if condition is not None and self.timeline.condition is None:
+        if condition is not None and self.resource.waiting.until is None:
             self._pacer.lose(f"paused: the new program has no meaning for {condition.text}")
         else:
-            self._pacer.condition = self.timeline.condition
-        self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
+            self._pacer.condition = self.resource.waiting.until
+        self.programs.drop_idle(self.timeline.resource.version, self.timeline.live.version)
         self._services.moved()
         self.debugging.moved()
         self.traces.moved()

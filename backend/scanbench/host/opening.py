@@ -44,7 +44,7 @@ def open_loop(start: protocol.Start, builder: Builder, link: Link) -> Loop:
         if is_no_space(error):
             raise NoSpace(f"{message}. The PLC goes on when there is room: free some space on the disk") from error
         raise BuildFailed(message) from error
-    link.post(protocol.Ready(builder.message, programs.sources(timeline.version), fresh))
+    link.post(protocol.Ready(builder.message, programs.sources(timeline.resource.version), fresh))
     return Loop(timeline, programs, link, start, builder.message, builder.tiers)
 
 

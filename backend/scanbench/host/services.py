@@ -44,7 +44,7 @@ class Services:
     ) -> None:  # fmt: skip
         self._timeline, self._pacer, self._link, self._note, self._tiers = timeline, pacer, link, note, tiers
         self._debugger = debugger
-        self._sources, self._version_told = sources, timeline.live_version
+        self._sources, self._version_told = sources, timeline.live.version
         self.past_by = ""
         self._attended = False
         self._quick_since = 0
@@ -117,8 +117,8 @@ class Services:
     def entered(self) -> None:
         """Tells of the journal's new entries, and first what runs now, when that is another program. What they leave armed or
         present is told before anybody gets an answer."""
-        if self._timeline.live_version != self._version_told:
-            self._version_told = self._timeline.live_version
+        if self._timeline.live.version != self._version_told:
+            self._version_told = self._timeline.live.version
             self._link.post(protocol.NowRuns(self._sources(self._version_told)))
         entries = self._timeline.new_entries()
         if entries:

@@ -56,7 +56,7 @@ def host_state(timeline: Timeline, pacer: Pacer, past_by: str, note: str, debugg
         paused=pacer.paused,
         trap=resource.trap,
         forces=len(resource.journal.derived(FORCED)),
-        version=timeline.version,
+        version=timeline.resource.version,
         live_scan=timeline.live_scan,
         past_by=past_by,
         target=pacer.target,

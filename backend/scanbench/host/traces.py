@@ -136,7 +136,9 @@ class Traces:
 
     def _aim_engine(self) -> None:
         """What the PLC samples from now on; rows that were not taken would be lost."""
-        self._timeline.sample(tuple(one for trace in self._traces.values() for one in trace.samplings))
+        self._timeline.resource.waiting.samplings = tuple(
+            one for trace in self._traces.values() for one in trace.samplings
+        )
 
     def _tell(self) -> None:
         traces = TracesAre(tuple(self._status(trace) for trace in self._traces.values()))

@@ -38,7 +38,7 @@ class Checkpoints:
             busy_ns >= EVERY_NS
             or scans >= BETWEEN
             or recording.behind >= ENTRIES
-            or (recording.behind and recording.grown > recording.limit // _SHARE)
+            or (recording.behind and recording.grown > recording.bounds.limit // _SHARE)
         ):
             self.take(resource)
 

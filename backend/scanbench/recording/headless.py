@@ -136,7 +136,7 @@ class _Recorded:
         """What is due in this seam."""
         self._checkpoints.take_due(self._resource)
         self._tidy()
-        if self._recording.info.bytes > self._recording.limit:
+        if self._recording.info.bytes > self._recording.bounds.limit:
             self._recording.wait()  # nobody waits for this run, and it could be faster than what makes its file smaller
             self._tidy()
 

@@ -17,6 +17,7 @@ from typing import ClassVar, Self
 
 from scanbench.program.program import Program
 from scanbench.public import Public, iso
+from scanbench.recording.appending import Appender
 from scanbench.recording.blocks import (
     About,
     Codec,
@@ -42,7 +43,6 @@ from scanbench.recording.smaller import (
     write_copy,
 )
 from scanbench.recording.thinning import Checkpoint
-from scanbench.recording.worker import Worker
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
@@ -108,28 +108,22 @@ class Recording:
     def __init__(
         self, file: RunFile, codec: Codec, found: Contents, limit: int, damage: str = "", lost: bool = False
     ) -> None:
-        self._file, self._codec = file, codec
+        self._codec = codec
         self.about = found.about
         self.programs: Mapping[int, KeptProgram] = found.programs
         self.checkpoints = found.checkpoints
         """In order of their scans."""
-        self.last_scan = found.last_scan
-        """The last scan that the file knew of when it was opened, or that was noted since."""
         self.driven = found.driven
         """How the PLC is driven, as `drive` was told last."""
         self.damage, self.lost = damage, lost
         """What was found damaged; whether more than the last write was."""
-        self.trouble = ""
-        """Why nothing is recorded now."""
         self._programs, self._read = found.programs, found.entries
-        self._written = len(found.entries)
-        self._owed: list[Entry] = []
+        self._writer = Appender(file, codec, len(found.entries), found.last_scan)
         self._key: _Key | None = None
-        self._bounds = Bounds(limit)
+        self.bounds = Bounds(limit)
         self._thinning: _Thinning | None = None
         self._reader: Reader | None = None
         """Of a file that is only read."""
-        self._worker = Worker("recording", self._sync)
 
     @classmethod
     def begin(
@@ -184,39 +178,40 @@ class Recording:
     def close(self) -> None:
         """Writes what is owed, finishes what its thread was given, and closes the file."""
         with suppress(OSError):
-            self._pay()
-        self._worker.close()
+            self._writer.pay()
+        self._writer.worker.close()
         with suppress(OSError):
-            os.fdatasync(self._file.fd)
+            os.fdatasync(self._writer.file.fd)
         if self._thinning is not None and self._thinning.made is not None:
             self._thinning.made.rewritten.abandon()
-        self._file.close()
+        self._writer.file.close()
 
     def wait(self) -> None:
         """Until its thread has done all that it was given."""
-        self._worker.wait()
-
-    def set_limit(self, limit: int) -> None:
-        """Another bound for the file."""
-        self._bounds.set_limit(limit)
-
-    @property
-    def limit(self) -> int:
-        """The bound of the file."""
-        return self._bounds.limit
+        self._writer.worker.wait()
 
     @property
     def path(self) -> Path:
         """Where the file is."""
-        return self._file.path
+        return self._writer.file.path
 
     @property
     def info(self) -> RecordingInfo:
         """What people are shown."""
         return RecordingInfo(
-            self.first_scan, self._file.end, self.limit, self.about.thinned_before, self.about.dropped_before,
+            self.first_scan, self._writer.file.end, self.bounds.limit, self.about.thinned_before, self.about.dropped_before,
             self.damage, self.trouble,
         )  # fmt: skip
+
+    @property
+    def last_scan(self) -> int:
+        """The last scan that the file knew of when it was opened, or that was noted since."""
+        return self._writer.last_scan
+
+    @property
+    def trouble(self) -> str:
+        """Why nothing is recorded now; empty while all is well."""
+        return self._writer.trouble
 
     @property
     def first_scan(self) -> int:
@@ -226,12 +221,12 @@ class Recording:
     @property
     def grown(self) -> int:
         """Bytes written since the last checkpoint."""
-        return self._file.end - self.checkpoints[-1].block.end
+        return self._writer.file.end - self.checkpoints[-1].block.end
 
     @property
     def behind(self) -> int:
         """Entries written since the last checkpoint."""
-        return self._written - self.checkpoints[-1].entries
+        return self._writer.entries - self.checkpoints[-1].entries
 
     def take_entries(self) -> list[Entry]:
         """The journal as it was when the file was opened; it is handed over."""
@@ -242,26 +237,17 @@ class Recording:
 
     def program(self, version: int, sources: bytes, digest: str) -> None:
         """Keeps a program, before anything refers to it."""
-        self._pay()
         program = KeptProgram(version, sources, digest)
-        self._append(Kind.PROGRAM, 0, program.packed())
+        self._writer.append(Kind.PROGRAM, 0, program.packed())
         self._programs[version] = program
 
     def entry(self, entry: Entry, must: bool = False) -> None:
         """Keeps an entry; see `Recorder`."""
-        try:
-            self._pay()
-            self._append(Kind.ENTRY, entry.scan, self._codec.pack(entry))
-            self._written += 1
-        except OSError:
-            if not must:
-                raise
-            self._owed.append(entry)
+        self._writer.entry(entry, must)
 
     def drive(self, scan: int, driven: bytes) -> None:
         """Keeps how the PLC is driven from `scan` on: a run that is gone on with goes on like that. `OSError`."""
-        self._pay()
-        self._append(Kind.MARK, scan, driven)
+        self._writer.append(Kind.MARK, scan, driven)
         self.driven = driven
 
     def checkpoint(self, scan: int, version: int, state: bytes) -> bool:
@@ -274,53 +260,18 @@ class Recording:
 
     def note(self, scan: int) -> None:
         """Marks the last known scan, so that a run goes on there even when nobody remembers it."""
-        if self._owed:
-            return
-        self.last_scan = scan
-        try:
-            self._file.mark(scan)
-        except OSError as error:
-            self._in_trouble(error)
+        self._writer.mark(scan)
 
     def _keep(self, scan: int, version: int, state: bytes) -> None:
-        self._pay()
         key = self._key
         fits = key is not None and key.version == version and len(key.state) == len(state) and key.deltas < DELTAS
-        if key is None or not fits or self._file.end - key.block.end > self.limit // 16:
-            block = self._append(Kind.KEYFRAME, scan, keyframe(version, state))
+        if key is None or not fits or self._writer.file.end - key.block.end > self.bounds.limit // 16:
+            block = self._writer.append(Kind.KEYFRAME, scan, keyframe(version, state))
             self._key = key = _Key(block, version, state)
         else:
-            block = self._append(Kind.DELTA, scan, delta(state, key.state))
+            block = self._writer.append(Kind.DELTA, scan, delta(state, key.state))
             key.deltas = DELTAS if block.length > key.block.length // 2 else key.deltas + 1
-        self.checkpoints.append(Checkpoint(scan, self._written, version, block, key.block))
-
-    def _pay(self) -> None:
-        """Writes the entries that had to be taken while nothing could be written."""
-        while self._owed:
-            self._append(Kind.ENTRY, self._owed[0].scan, self._codec.pack(self._owed[0]))
-            self._written += 1
-            del self._owed[0]
-
-    def _append(self, kind: Kind, scan: int, payload: bytes) -> Block:
-        try:
-            block = self._file.append(kind, scan, payload)
-        except OSError as error:
-            self._in_trouble(error)
-            raise
-        self.trouble = ""
-        self.last_scan = max(self.last_scan, scan)
-        self._worker.sync_soon()
-        return block
-
-    def _sync(self) -> None:
-        """In the thread that waits for disks, which closes files too: so the one it takes stays open."""
-        try:
-            os.fdatasync(self._file.fd)
-        except OSError as error:
-            self._in_trouble(error)
-
-    def _in_trouble(self, error: OSError) -> None:
-        self.trouble = f"{self.path.name} cannot be written: {error.strerror}"
+        self.checkpoints.append(Checkpoint(scan, self._writer.entries, version, block, key.block))
 
     # ---- reading --------------------------------------------------------------------------------------------------
 
@@ -331,7 +282,7 @@ class Recording:
         A block that is not whole yet is read another time; `damage` speaks of it until then. `Replaced` when this is not the
         file of its name any more: nothing will ever be appended to it. `RunFileError` when it cannot be understood.
         """
-        file, reader = self._file, self._reader
+        file, reader = self._writer.file, self._reader
         if reader is None:
             raise RuntimeError("this recording writes its file")
         here = os.fstat(file.fd)
@@ -344,8 +295,8 @@ class Recording:
         if here.st_size < file.end:
             raise RunFileError(f"{file.path.name} was cut off at byte {here.st_size} while it was read")
         entries = reader.read_on()
-        self._written += len(entries)
-        self.last_scan = reader.found.last_scan
+        self._writer.entries += len(entries)
+        self._writer.last_scan = reader.found.last_scan
         self.damage = flaws(file, reader.found, read_only=True)
         self.lost = file.damage is not None and not file.damage.torn
         return entries
@@ -357,14 +308,14 @@ class Recording:
 
     def state(self, checkpoint: Checkpoint, size: int) -> bytes:
         """The state of `size` bytes that a checkpoint holds; `RunFileError` when it holds something else."""
-        return read_state(self._file, checkpoint, size)
+        return read_state(self._writer.file, checkpoint, size)
 
     def copy(self, path: Path, standing: Standing, by: str, on_done: Callable[[Exception | None], None]) -> None:
         """A new run file that ends where `standing` says, written by the recording's thread, which calls `on_done`.
 
         `OSError` at once when that is plainly impossible.
         """
-        self._pay()
+        self._writer.pay()
         refuse_existing(path)
         seen = replace(self._seen(), about=replace(self.about, created=iso(wall_time()), by=by))
 
@@ -376,10 +327,10 @@ class Recording:
                 failed = error
             on_done(failed)
 
-        self._worker.give(write)
+        self._writer.worker.give(write)
 
     def _seen(self) -> Seen:
-        return Seen(self._file, self._file.end, self.about, tuple(self.checkpoints), self._written)
+        return Seen(self._writer.file, self._writer.file.end, self.about, tuple(self.checkpoints), self._writer.entries)
 
     # ---- bounds ---------------------------------------------------------------------------------------------------
 
@@ -390,7 +341,7 @@ class Recording:
         """
         thinning = self._thinning
         if thinning is None:
-            if self._bounds.over(self._file.end, self._written):
+            if self.bounds.over(self._writer.file.end, self._writer.entries):
                 self._thin()
             return None
         if not thinning.done:
@@ -398,12 +349,12 @@ class Recording:
         try:
             return self._replace(thinning.made) if thinning.made is not None else None
         finally:
-            self._bounds.tried(self._file.end, self._written)
+            self.bounds.tried(self._writer.file.end, self._writer.entries)
             self._thinning = None
 
     def _thin(self) -> None:
         self._thinning = thinning = _Thinning()
-        seen, limit = self._seen(), self.limit
+        seen, limit = self._seen(), self.bounds.limit
 
         def make() -> None:
             try:
@@ -411,11 +362,11 @@ class Recording:
             finally:
                 thinning.done = True
 
-        self._worker.give(make)
+        self._writer.worker.give(make)
 
     def _replace(self, made: Smaller) -> Trim | None:
         """The smaller file takes the place of the old one. Where that fails nothing is lost, and it is tried again later."""
-        old, new, key = self._file, made.rewritten.file, self._key
+        old, new, key = self._writer.file, made.rewritten.file, self._key
         gone = made.cut - len(made.roots)
         try:
             made.rewritten.follow(old.end)
@@ -435,8 +386,8 @@ class Recording:
         new.path = old.path
         self.checkpoints[:] = checkpoints
         self._key = replace(key, block=moved) if key is not None and moved is not None else None
-        self._written -= gone
-        self._file, self.about = new, made.about
-        self._worker.give(old.close)
-        self._worker.sync_soon()
+        self._writer.entries -= gone
+        self._writer.file, self.about = new, made.about
+        self._writer.worker.give(old.close)
+        self._writer.worker.sync_soon()
         return Trim(made.roots, made.cut) if made.cut else None

@@ -14,7 +14,6 @@ from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
-from scanbench.engines.sample import Sampling
 from scanbench.recording.blocks import Codec
 from scanbench.recording.checkpoints import Checkpoints
 from scanbench.recording.fingerprints import program_digest
@@ -117,16 +116,6 @@ class Timeline:
         return self._live.inside if self._live is not None else self.resource.listening.inside
 
     @property
-    def live_version(self) -> int:
-        """Its version. Any thread."""
-        return self.live.version
-
-    @property
-    def version(self) -> int:
-        """The program that is shown."""
-        return self.resource.version
-
-    @property
     def live_journal(self) -> Journal:
         """The whole journal, also while the past is shown."""
         return self._live.journal if self._live is not None else self.resource.journal
@@ -151,9 +140,10 @@ class Timeline:
             return Refusal(PAST)
         program = self.resource.program
         outcome = self.resource.submit(command)
-        if self.resource.program is not program and self.condition is not None:
-            again = compile_condition(self.resource.program, self.condition.text)
-            self.stop_when(again if isinstance(again, Condition) else None)
+        waiting = self.resource.waiting
+        if self.resource.program is not program and waiting.until is not None:
+            again = compile_condition(self.resource.program, waiting.until.text)
+            waiting.until = again if isinstance(again, Condition) else None
         self._checkpoints.take_due(self.resource)
         return outcome
 
@@ -182,22 +172,6 @@ class Timeline:
     def slice(self) -> int:
         """Scans until the next checkpoint is due."""
         return self._checkpoints.slice(self.resource)
-
-    @property
-    def condition(self) -> Condition | None:
-        """What `stop_when` was given; after a change of the program the same for the new one, if that is possible."""
-        return self.resource.waiting.until
-
-    def stop_when(self, condition: Condition | None) -> None:
-        """From now on the live PLC comes back after scans after which the condition holds; see `Engine.stop_when`.
-
-        It stays in force through time travel, other programs and other engines.
-        """
-        self.resource.waiting.until = condition
-
-    def sample(self, samplings: tuple[Sampling, ...]) -> None:
-        """From now on the live PLC has these sampled; made for the program that is live, else they do not count."""
-        self.resource.waiting.samplings = samplings
 
     def drive(self, driven: bytes) -> None:
         """Keeps how the PLC is driven from here on, for who goes on with the run: `Recording.driven`. `OSError`."""

@@ -143,7 +143,7 @@ def make(path: Path) -> None:
                 timeline.run(scan - timeline.live_scan)
             else:
                 timeline.resource.pass_time(1)
-        timeline.recording.checkpoint(timeline.live_scan, timeline.live_version, timeline.resource.state)
+        timeline.recording.checkpoint(timeline.live_scan, timeline.live.version, timeline.resource.state)
         if command is not None:
             outcome = timeline.submit(command)
             assert not isinstance(outcome, Refusal), (command, outcome)

@@ -43,8 +43,8 @@ def test_thinning_beside_a_run_never_loses_the_file(tmp_path: Path, monkeypatch:
     files = set()
     for _ in range(60):
         _grow(timeline, 30)
-        files.add(os.fstat(timeline.recording._file.fd).st_ino)
-        assert os.fstat(timeline.recording._file.fd).st_ino == path.stat().st_ino
+        files.add(os.fstat(timeline.recording._writer.file.fd).st_ino)
+        assert os.fstat(timeline.recording._writer.file.fd).st_ino == path.stat().st_ino
         assert not timeline.recording.trouble
     assert len(files) > 1, "it was never made smaller"
     state, end = timeline.resource.state, timeline.live_scan
@@ -101,7 +101,7 @@ def test_the_run_goes_on_while_a_copy_is_written(tmp_path: Path, monkeypatch: py
     _grow(timeline, 50)
     states = {timeline.live_scan: timeline.resource.state}
     gate, answers, threads = threading.Event(), list[Refusal | None](), list[threading.Thread]()
-    timeline.recording._worker.give(lambda: (gate.wait(), None)[1])
+    timeline.recording._writer.worker.give(lambda: (gate.wait(), None)[1])
 
     def done(refusal: Refusal | None) -> None:
         answers.append(refusal)
@@ -147,7 +147,7 @@ def test_what_is_made_when_a_recording_ends_is_taken_away(tmp_path: Path, monkey
     monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
     timeline = begun(tmp_path / "run", limit=60_000)
     gate = threading.Event()
-    timeline.recording._worker.give(lambda: (gate.wait(), None)[1])
+    timeline.recording._writer.worker.give(lambda: (gate.wait(), None)[1])
     _grow(timeline, 300)
     made: list[smaller.Smaller | None] = []
 

@@ -260,7 +260,7 @@ def test_the_oldest_part_may_go_while_the_past_is_shown(tmp_path: Path, monkeypa
     assert len(timeline.new_entries()) == 2401
     state, size = timeline.resource.state, timeline.recording.info.bytes
     assert timeline.goto(250) is None
-    timeline.recording.set_limit(size // 2)
+    timeline.recording.bounds.set_limit(size // 2)
     tidy(timeline)
     info = timeline.recording.info
     assert 0 < info.dropped_before <= info.first_scan < 250
@@ -294,8 +294,8 @@ def test_what_is_live_is_known_while_the_past_is_shown_and_never_built_again(tmp
     live, state = timeline.live, timeline.resource.state
     assert (live.version, live) == (2, timeline.resource.loaded)
     assert timeline.goto(5) is None
-    assert timeline.version == 1
-    assert (timeline.live, timeline.live_version) == (live, 2)
+    assert timeline.resource.version == 1
+    assert (timeline.live, timeline.live.version) == (live, 2)
     programs = timeline.programs
     assert isinstance(programs, SourcePrograms)
     programs.sources.clear()  # nothing can be built any more
@@ -322,9 +322,9 @@ def test_other_threads_never_take_the_past_for_what_is_live(tmp_path: Path, monk
     def watched(
         resource: Resource, loaded: Loaded, state: bytes, journal: Journal, inside: Inside | None = None
     ) -> None:
-        seen.append(timeline.live_version)
+        seen.append(timeline.live.version)
         restore(resource, loaded, state, journal, inside)
-        seen.append(timeline.live_version)
+        seen.append(timeline.live.version)
 
     monkeypatch.setattr(Resource, "restore", watched)
     assert timeline.goto(5) is None
@@ -346,7 +346,7 @@ def test_a_condition_holds_for_the_live_plc_whatever_happens(
     def until(text: str) -> None:
         condition = compile_condition(timeline.resource.program, text)
         assert isinstance(condition, Condition)
-        timeline.stop_when(condition)
+        timeline.resource.waiting.until = condition
 
     def run() -> int:
         for _ in range(1000):
@@ -371,12 +371,12 @@ def test_a_condition_holds_for_the_live_plc_whatever_happens(
     timeline.submit(Write("Ada", "Main.n", "6"))
     scan, n = run(), value(timeline.resource, "Main.n")
     assert (scan, n) == (598, 300)
-    timeline.stop_when(None)
+    timeline.resource.waiting.until = None
     while timeline.live_scan < 898:  # a checkpoint may be due before
         timeline.run(898 - timeline.live_scan)
     until("Main.first = 1")
     assert not to_program(timeline, 1, COUNTER)
-    assert timeline.condition is None, "there is no such variable in this program"
+    assert timeline.resource.waiting.until is None, "there is no such variable in this program"
     timeline.close()
 
 
@@ -387,7 +387,7 @@ def test_a_condition_does_not_hold_up_the_way_into_the_past(
     timeline = begun(tmp_path / "run", engine=engine)
     condition = compile_condition(timeline.resource.program, "Main.n >= 0")
     assert isinstance(condition, Condition)
-    timeline.stop_when(condition)
+    timeline.resource.waiting.until = condition
     assert timeline.run(10).reason is Reason.CONDITION
     assert timeline.live_scan == 1
     advance(timeline, 99)
