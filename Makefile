@@ -27,14 +27,15 @@ SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend
 NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json vscode/package-lock.json))
 
 .PHONY: help setup setup-test run test check coverage bench shots lock clean
-.PHONY: fuzz features
+.PHONY: fuzz features e2e-all
 .PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
 .PHONY: tools-python tools-node system-chromium system-postgresql
 
 help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
-	@echo "make test    everything: lint, types, layers, unit and case tests, frontend, browser stories"
+	@echo "make test    lint, types, layers, unit and case tests, frontend, the main browser stories"
 	@echo "make check   lint, types and layers only"
+	@echo "make e2e-all   every browser story, the ones tagged @all, too; \`make test\` runs the others"
 	@echo "make coverage  how much of the backend its tests run, and which files less than 80 %"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
@@ -121,6 +122,10 @@ frontend-build: frontend/dist/.stamp
 
 e2e: frontend/dist/.stamp
 	@cd e2e && $(NPM) run --silent test
+
+# Every story, also those that `make test` leaves to the component tests of the panels: before a release, and in CI.
+e2e-all: setup-test
+	@cd e2e && $(NPM) run --silent test:all -- $(ARGS)
 
 # ------------------------------------------------------------------------------------------------ Python
 tools-python:

@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('what must not be written is refused in its row, with the reason', async ({ openAs }) => {
+test('what must not be written is refused in its row, with the reason', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
 

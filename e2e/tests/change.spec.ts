@@ -63,7 +63,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
   });
 });
 
-test('with two PLCs one chooses which is changed, and is told which was', async ({ openAs }) => {
+test('with two PLCs one chooses which is changed, and is told which was', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.top.showInstances();

@@ -127,7 +127,7 @@ test('a breakpoint in one of three instances: look, change, step, go back, go on
   });
 });
 
-test('logpoint, execution point, data breakpoint, and coverage', async ({ openAs }) => {
+test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Points');
   const { debug, top, page } = mika;
@@ -194,7 +194,7 @@ test('logpoint, execution point, data breakpoint, and coverage', async ({ openAs
   });
 });
 
-test('a run-time error: the way back stays open', async ({ openAs }) => {
+test('a run-time error: the way back stays open', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Broken', BROKEN);
   const { debug, top } = mika;
@@ -209,7 +209,7 @@ test('a run-time error: the way back stays open', async ({ openAs }) => {
   await expect(debug.section('Breakpoints')).toBeVisible();
 });
 
-test('two people: the halt and who made it are seen by both', async ({ openAs }) => {
+test('two people: the halt and who made it are seen by both', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Shared');
   const jo = await openAs('Jo');

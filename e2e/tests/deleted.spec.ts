@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('a file that somebody deletes goes from the others, but not what they were typing', async ({ openAs }) => {
+test('a file that somebody deletes goes from the others, but not what they were typing', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   for (const name of ['FB_Lift', 'FB_Gate']) {

@@ -1,7 +1,9 @@
 import { expect, test } from '../fixtures/test';
 import { Disturb } from '../pages/disturb';
 
-test('inputs, memory and results are disturbed: everybody sees it, and it is taken back', async ({ openAs }) => {
+test('inputs, memory and results are disturbed: everybody sees it, and it is taken back', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   const disturb = new Disturb(mika.page);

@@ -15,7 +15,9 @@ END_VAR]]></Declaration>
 /** As an old tool wrote it: the umlaut is one byte. */
 const LATIN1 = Buffer.from("FUNCTION Name : STRING\nName := 'Tür';\nEND_FUNCTION\n", 'latin1');
 
-test('files of other tools are brought in, run, and what cannot be taken says why', async ({ openAs }) => {
+test('files of other tools are brought in, run, and what cannot be taken says why', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const jo = await openAs('Jo');
   await jo.runs();
   await jo.top.newProject('Brought in');

@@ -56,7 +56,10 @@ test('without a server the page says so, keeps what was typed, and comes back by
   });
 });
 
-test('a server that is frozen is noticed, too, and goes on where it stood', async ({ openAs, server }) => {
+test('a server that is frozen is noticed, too, and goes on where it stood', { tag: '@all' }, async ({
+  openAs,
+  server,
+}) => {
   const mika = await openAs('Mika');
   const main = mika.editor('Main.st');
   const socket = mika.page.waitForEvent('websocket');

@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('who last wrote a variable: a person, then a statement, and the way to it', async ({ openAs }) => {
+test('who last wrote a variable: a person, then a statement, and the way to it', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -40,7 +42,7 @@ test('who last wrote a variable: a person, then a statement, and the way to it',
   });
 });
 
-test('what changed in a stretch that is selected by keyboard', async ({ openAs }) => {
+test('what changed in a stretch that is selected by keyboard', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -116,7 +118,7 @@ test('back, branch, an error there, and what that made of the run', async ({ ope
   });
 });
 
-test('the run once more, with the error one scan later', async ({ openAs }) => {
+test('the run once more, with the error one scan later', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -147,7 +149,7 @@ test('the run once more, with the error one scan later', async ({ openAs }) => {
   });
 });
 
-test('the address of a scan is opened by a colleague', async ({ openAs }) => {
+test('the address of a scan is opened by a colleague', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');

@@ -72,7 +72,7 @@ test('what was tested is filtered, printed, saved and read again', async ({ open
   });
 });
 
-test('every version of the program has a history of its own', async ({ openAs }) => {
+test('every version of the program has a history of its own', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const history = new History(mika.page);
   await mika.runs();

@@ -30,7 +30,7 @@ test('a warm restart keeps the retained memory, a cold one clears it', async ({ 
   });
 });
 
-test('a new run begins at scan 0 with an empty timeline, after a question', async ({ openAs }) => {
+test('a new run begins at scan 0 with an empty timeline, after a question', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -51,7 +51,7 @@ test('a new run begins at scan 0 with an empty timeline, after a question', asyn
   await expect.poll(() => ann.top.scan()).toBeLessThan(300);
 });
 
-test('in RUN a tool may only look, and the page says so', async ({ openAs }) => {
+test('in RUN a tool may only look, and the page says so', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.top.chooseMode('RUN');

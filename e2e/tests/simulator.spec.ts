@@ -111,7 +111,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
   });
 });
 
-test('the reaction stands in the tree, in words, and in the editor', async ({ openAs }) => {
+test('the reaction stands in the tree, in words, and in the editor', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { simulator, page } = mika;
@@ -150,7 +150,9 @@ test('the reaction stands in the tree, in words, and in the editor', async ({ op
   });
 });
 
-test('faults with a shape: for some scans, again and again, when a condition holds', async ({ openAs }) => {
+test('faults with a shape: for some scans, again and again, when a condition holds', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { simulator } = mika;
@@ -218,7 +220,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
   });
 });
 
-test('an error is found, raised and recovered by keyboard alone', async ({ openAs }) => {
+test('an error is found, raised and recovered by keyboard alone', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { keyboard } = mika.page;

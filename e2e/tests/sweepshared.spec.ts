@@ -2,10 +2,9 @@ import { expect, test } from '../fixtures/test';
 
 test.use({ ownServer: true });
 
-test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes on; it outlives the server', async ({
-  openAs,
-  server,
-}) => {
+test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes on; it outlives the server', {
+  tag: '@all',
+}, async ({ openAs, server }) => {
   const ann = await openAs('Ann');
   const ben = await openAs('Ben');
   await ann.runs();

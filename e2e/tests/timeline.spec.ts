@@ -53,7 +53,9 @@ test('everybody goes back in time, sees the values of then, and returns to live'
   });
 });
 
-test('marks that lie close are looked at closer, and the run shows where it was stopped', async ({ openAs }) => {
+test('marks that lie close are looked at closer, and the run shows where it was stopped', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   for (const mode of ['PROGRAM', 'MONITOR', 'RUN', 'MONITOR'] as const) await ann.top.chooseMode(mode);
@@ -85,7 +87,7 @@ test('marks that lie close are looked at closer, and the run shows where it was 
   });
 });
 
-test('a branch begins as the PLC was then, and goes its own way', async ({ openAs }) => {
+test('a branch begins as the PLC was then, and goes its own way', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');

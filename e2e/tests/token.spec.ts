@@ -3,11 +3,9 @@ import { Ide } from '../pages/ide';
 
 test.use({ ownServer: true });
 
-test('a colleague who follows a link is asked for the token, and comes to where the link leads', async ({
-  browser,
-  server,
-  openAs,
-}) => {
+test('a colleague who follows a link is asked for the token, and comes to where the link leads', {
+  tag: '@all',
+}, async ({ browser, server, openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { origin, searchParams } = new URL(server.address);

@@ -11,7 +11,7 @@ function recorded({ head = 'scan,start,motor,partsTotal', wrong = true } = {}): 
   return `${head}\n${rows.join('\n')}\n`;
 }
 
-test('the trace of a controller is mapped, verified and kept', async ({ openAs }) => {
+test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const trace = new TraceImport(mika.page);
   const verify = new Verify(mika.page);

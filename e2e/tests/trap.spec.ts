@@ -82,7 +82,9 @@ test('a program that goes wrong stops with file and line, and nothing else stops
   }
 });
 
-test('after the cause is mended by hand, a stopped program goes on with its variables', async ({ openAs }) => {
+test('after the cause is mended by hand, a stopped program goes on with its variables', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const mika = await openAs('Mika');
   await mika.top.newProject('Going on');
   const main = mika.editor('Main.st');

@@ -85,7 +85,10 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
   });
 });
 
-test('a project needs its model; nothing that a page asks of itself is refused', async ({ openAs, server }) => {
+test('a project needs its model; nothing that a page asks of itself is refused', { tag: '@all' }, async ({
+  openAs,
+  server,
+}) => {
   const mika = await openAs('Mika');
   const { page } = mika;
   await mika.runs();

@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('a run goes on until a condition holds, or for so many scans', async ({ openAs }) => {
+test('a run goes on until a condition holds, or for so many scans', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
 

@@ -6,7 +6,9 @@ import { UserErrors } from '../pages/usererrors';
 
 const BROKEN = resolve(import.meta.dirname, '../../backend/tests/plcmodel/broken_user_errors');
 
-test('errors of the own machine: defined in the browser, built, raised, recorded', async ({ openAs }) => {
+test('errors of the own machine: defined in the browser, built, raised, recorded', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const own = new UserErrors(jo.page);
@@ -89,7 +91,9 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
   });
 });
 
-test('a file is imported whole or not at all, and of two savers the second decides', async ({ openAs }) => {
+test('a file is imported whole or not at all, and of two savers the second decides', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const own = new UserErrors(jo.page);

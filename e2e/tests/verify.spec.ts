@@ -132,7 +132,10 @@ test('a range is verified, and a single flipped bit is found at its scan and var
   });
 });
 
-test('set data shows whether the input or the logic made a wrong result', async ({ openAs, server }) => {
+test('set data shows whether the input or the logic made a wrong result', { tag: '@all' }, async ({
+  openAs,
+  server,
+}) => {
   const ada = await openAs('Ada');
   const verify = new Verify(ada.page);
   await ada.runs();

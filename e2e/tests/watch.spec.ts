@@ -55,7 +55,7 @@ test('a watch list is shared, and two people change it at once', async ({ openAs
   });
 });
 
-test('addresses, ranges, parts, formats and what is refused', async ({ openAs }) => {
+test('addresses, ranges, parts, formats and what is refused', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch } = mika;
@@ -107,7 +107,7 @@ test('addresses, ranges, parts, formats and what is refused', async ({ openAs })
   });
 });
 
-test('groups, order, filter, CSV and dragging', async ({ openAs }, info) => {
+test('groups, order, filter, CSV and dragging', { tag: '@all' }, async ({ openAs }, info) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch, page } = mika;
@@ -181,7 +181,7 @@ test('groups, order, filter, CSV and dragging', async ({ openAs }, info) => {
   });
 });
 
-test('the watch table by keyboard alone', async ({ openAs }) => {
+test('the watch table by keyboard alone', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch, page } = mika;
