@@ -11,10 +11,11 @@ from scanbench.host.run_files import run_path
 from scanbench.host.zygote import zygote
 from scanbench.jobs.client import SharedJob
 from scanbench.plcmodel.model import Model
+from scanbench.runtime.clock import wall_time
 from scanbench.session.instance import Remembered
+from scanbench.session.keeper import NothingKept
 from scanbench.session.session import Session
-from scanbench.session.write_behind import WriteBehind
-from scanbench.store.store import Store
+from scanbench.store.records import InstanceRow
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.refused import Refused
 
@@ -24,11 +25,9 @@ _STANDS = ("paused", "halted", "stopped", "trapped", "fatal")
 class Solo:
     """One session, with everything around it. `start`, use, `close`."""
 
-    def __init__(
-        self, session: Session, store: Store, write_behind: WriteBehind, reactions: SharedJob, close: Callable[[], None]
-    ):
+    def __init__(self, session: Session, reactions: SharedJob, close: Callable[[], None]) -> None:
         self.session = session
-        self._store, self._write_behind, self._reactions, self._remove = store, write_behind, reactions, close
+        self._reactions, self._remove = reactions, close
 
     @staticmethod
     async def start(name: str, sources: Sources, model: Model, speed: float, cache: Path | None = None) -> "Solo":
@@ -36,7 +35,6 @@ class Solo:
         `cache`; without one it is gone with the PLC."""
         solo = await asyncio.to_thread(Solo._make, name, sources, model, speed, cache)
         try:
-            solo._write_behind.start()
             await asyncio.to_thread(zygote().start)
             solo.session.instance.start()
             await solo.standing()
@@ -51,18 +49,16 @@ class Solo:
         data = Path(folder.name)
         cache = cache or data / "cache"
         try:
-            store = Store(f"sqlite:///{data / 'scanbench.db'}")
-            row = store.instances.create(store.projects.create(name, model.name).id, name)
-            write_behind, reactions = WriteBehind(store), SharedJob(cache)
+            row, reactions = InstanceRow(1, 1, name, wall_time()), SharedJob(cache)
             memory = Remembered(name, sources, run_path(data, row.id), row.limits, Driven(speed, paused=True))
             session = Session(
-                row, model, memory, write_behind, rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),
+                row, model, memory, NothingKept(), rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),
                 traces={}, cache=cache,
             )  # fmt: skip
         except BaseException:
             folder.cleanup()
             raise
-        return Solo(session, store, write_behind, reactions, folder.cleanup)
+        return Solo(session, reactions, folder.cleanup)
 
     async def standing(self) -> None:
         """Waits until the PLC is there and stands; `Refused` when it cannot be there."""
@@ -75,7 +71,5 @@ class Solo:
         """Ends the PLC; nothing is left of it."""
         await self.session.stop()
         await self._reactions.close()
-        await self._write_behind.close()
-        await asyncio.to_thread(self._store.close)
         with suppress(OSError):
             await asyncio.to_thread(self._remove)

@@ -19,11 +19,11 @@ from scanbench.session.debugging import Debugging
 from scanbench.session.errors import Errors
 from scanbench.session.forces import Forces
 from scanbench.session.instance import Instance, Remembered
+from scanbench.session.keeper import Keeper
 from scanbench.session.log import Log
 from scanbench.session.reacting import Reacting
 from scanbench.session.tracing import Tracing
 from scanbench.session.watching import Watching
-from scanbench.session.write_behind import WriteBehind
 from scanbench.store.records import InstanceRow, Json
 from scanbench.wire import events
 from scanbench.wire import host as protocol
@@ -40,7 +40,7 @@ class Session:
     """Everything that one instance is to the rest of the server."""
 
     def __init__(
-        self, row: InstanceRow, model: Model, memory: Remembered, write_behind: WriteBehind,
+        self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
         rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: SharedJob,
         breakpoints: Sequence[Breakpoint], cache: Path | None = None, traces: Mapping[int, Json] | None = None,
         why_not: str = "",
@@ -48,7 +48,6 @@ class Session:
         """`model` is the device; the project's own errors come with the program that runs. `why_not`: why this never runs."""
         self.row, self._device = row, model
         self._loads = loads
-        self._write_behind = write_behind
         self._subscribers: dict[int, Subscriber] = {}
         self._next_subscriber = 1
         self._listeners: list[Callable[[Event], None]] = []
@@ -57,17 +56,17 @@ class Session:
         self.errors = Errors(
             History(model_for(model, memory.sources.files), memory.sources.version, rows),
             partial(Reacting, reactions, lambda: self.instance.run_file),
-            self.tell, partial(write_behind.keep_rows, row.id), lambda: self.state,
+            self.tell, partial(keeper.keep_rows, row.id), lambda: self.state,
         )  # fmt: skip
         if not why_not:
             self.errors.compare(rows)  # the run goes on, so what was being recorded is found out yet
         self.log = Log(
-            lines, self.tell, lambda line: write_behind.keep_line(row.id, line, self.errors.version), lambda: self.state
+            lines, self.tell, lambda line: keeper.keep_line(row.id, line, self.errors.version), lambda: self.state
         )
         self.forces = Forces(self.instance, self.tell)
         self.watching = Watching(self.instance.tell, self.tell, self._subscribers)
-        self.debugging = Debugging(self.debug, self.tell, partial(write_behind.keep_breakpoints, row.id), breakpoints)
-        self.tracing = Tracing(self.instance.ask, self.tell, partial(write_behind.keep_traces, row.id), traces or {})
+        self.debugging = Debugging(self.debug, self.tell, partial(keeper.keep_breakpoints, row.id), breakpoints)
+        self.tracing = Tracing(self.instance.ask, self.tell, partial(keeper.keep_traces, row.id), traces or {})
         self._resending: asyncio.Task[None] | None = None
 
     # ---- what it is -----------------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, RowReaction
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
+from scanbench.session.keeper import Keeper
 from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
 from scanbench.typed import BadValue, make
@@ -36,7 +37,7 @@ _T = TypeVar("_T")
 _KINDS: dict[str, MarkKind] = {kind: kind for kind in get_args(MarkKind)}
 
 
-class WriteBehind:
+class WriteBehind(Keeper):
     """One task that writes what has changed since its last turn, over and over."""
 
     def __init__(self, store: Store) -> None:
