@@ -1,4 +1,4 @@
-"""A file in chunks that are parsed by themselves: each POU, and what stands between. Edits of one leave the others alone."""
+"""A file in chunks that are parsed one by one: each POU, and the text between. An edit reparses only its chunk."""
 
 from dataclasses import dataclass, field
 
@@ -17,7 +17,7 @@ MARKS = frozenset((*ENDS, *ENDS.values(), "CONFIGURATION", "END_CONFIGURATION"))
 TIES = frozenset(
     "METHOD PROPERTY PROPERTY_GET PROPERTY_SET ACTION USING NAMESPACE CLASS INTERFACE ORGANIZATION_BLOCK DATA_BLOCK".split()
 )
-"""Words that tie what follows to what stands before, or hold POUs of their own: such a file is one chunk."""
+"""Words that connect what follows to the text before, or contain POUs: a file with such a word is one chunk."""
 
 
 @dataclass(slots=True)
@@ -68,9 +68,9 @@ class Chunked:
         return [problem for chunk in self.chunks for problem in chunk.problems]
 
     def edited(self, text: str) -> list[Chunk] | None:
-        """Takes another text, when POUs hold all that is different: their chunks are parsed again, and given.
+        """Replaces the text if all differences are inside POUs, parses their chunks again and returns these.
 
-        None when the text must be read again; nothing is changed then.
+        Returns None, and changes nothing, when the whole text must be read again.
         """
         changed = self._inside_one(text) or self._inside_several(text)
         if changed is None:
@@ -175,9 +175,9 @@ def _stretches(tokens: Tokens, length: int) -> list[tuple[int, int, bool]] | Non
         if end == len(marks) or texts[marks[end]] != closing:
             return None
         if opening != "CONFIGURATION":
-            start, behind = _start(tokens, marks[index]), tokens.starts[marks[end]] + len(closing)
-            made += [(at, start, False), (start, behind, True)]
-            at = behind
+            start, after = _start(tokens, marks[index]), tokens.starts[marks[end]] + len(closing)
+            made += [(at, start, False), (start, after, True)]
+            at = after
         index = end + 1
     made.append((at, length, False))
     return made if _free(tokens, made) else None
@@ -210,8 +210,8 @@ def _difference(old: str, new: str) -> tuple[int, int]:
     """The stretch of `old` outside of which the two are the same."""
     first = _common(old, new)
     rest = min(len(old), len(new)) - first
-    behind = _common(old[len(old) - rest :][::-1], new[len(new) - rest :][::-1]) if rest else 0
-    return first, len(old) - behind
+    same_end = _common(old[len(old) - rest :][::-1], new[len(new) - rest :][::-1]) if rest else 0
+    return first, len(old) - same_end
 
 
 def _common(one: str, other: str) -> int:

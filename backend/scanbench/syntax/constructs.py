@@ -1,4 +1,4 @@
-"""What a file is made of: how often each construct of the language stands in it."""
+"""What a file is made of: how often it uses each construct of the language."""
 
 from collections import Counter
 from collections.abc import Iterator

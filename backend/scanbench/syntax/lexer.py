@@ -45,7 +45,7 @@ KEYWORDS = frozenset(
     END_CLASS END_INTERFACE END_METHOD END_PROPERTY END_GET END_SET END_ACTION END_NAMESPACE
     """.split()
 )
-"""Words that are never names. Others (METHOD, CLASS, BY, LD, ...) are keywords only where they stand as such, because
+"""Words that are never names. Others (METHOD, CLASS, BY, LD, ...) are keywords only where the grammar expects them, because
 older programs use them as names."""
 
 TIME_TYPES = {
@@ -54,7 +54,7 @@ TIME_TYPES = {
     "LTIME_OF_DAY": "LTIME_OF_DAY", "DT": "DATE_AND_TIME", "DATE_AND_TIME": "DATE_AND_TIME",
     "LDT": "LDATE_AND_TIME", "LDATE_AND_TIME": "LDATE_AND_TIME",
 }  # fmt: skip
-"""What stands before the `#` of a duration or date, and its type."""
+"""The prefix before the `#` of a duration or date, and its type."""
 
 PIECE = re.compile(
     r"""

@@ -49,7 +49,7 @@ def real(text: str) -> float:
 
 
 def duration(text: str) -> int:
-    """Nanoseconds of `1h30m`, `1.5s`, `-5ms` (what stands behind `T#`)."""
+    """Nanoseconds of `1h30m`, `1.5s`, `-5ms` (the text after `T#`)."""
     text = text.replace("_", "")
     sign = -1 if text.startswith("-") else 1
     text = text.lstrip("+-")
@@ -121,12 +121,12 @@ def _number(text: str) -> int:
 
 
 def string(text: str) -> bytes:
-    """Bytes of what stands between single quotes, with `$` escapes."""
+    """Bytes of the text between single quotes, with `$` escapes."""
     return b"".join(_byte(char) if isinstance(char, str) else bytes([char]) for char in _characters(text, NARROW))
 
 
 def wide_string(text: str) -> bytes:
-    """UTF-16 of what stands between double quotes, with `$` escapes."""
+    """UTF-16 of the text between double quotes, with `$` escapes."""
     units = _characters(text, WIDE)
     return b"".join(
         char.encode("utf-16-le", "surrogatepass") if isinstance(char, str) else char.to_bytes(2, "little")

@@ -35,7 +35,7 @@ def is_stimulus(name: str) -> bool:
 
 
 def is_exported(name: str, text: str) -> bool:
-    """Whether it is a file of TwinCAT: by its name, or by its beginning when it was pasted into another one."""
+    """Whether it is a file of TwinCAT: by its name, or by its first characters when the text was pasted into a file of a different name."""
     return name.lower().endswith(XML_ENDINGS) or EXPORTED.match(text) is not None
 
 

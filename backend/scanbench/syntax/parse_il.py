@@ -45,16 +45,16 @@ def _il_follows(c: Cursor, at: int) -> bool:
     text = c.texts[at].upper()
     if c.kinds[at] is not NAME:
         return False
-    behind = at + 1
-    while c.texts[behind] == "." and c.kinds[behind + 1] is NAME:
-        behind += 2  # a method: `axis.move( ... )`
+    after = at + 1
+    while c.texts[after] == "." and c.kinds[after + 1] is NAME:
+        after += 2  # a method: `axis.move( ... )`
     if text not in BEGINNINGS:
-        return c.texts[behind] == "(" and _mnemonic_after_call(c, behind)
+        return c.texts[after] == "(" and _mnemonic_after_call(c, after)
     if text.startswith("RET"):
-        return c.texts[behind] != ";" and (not _same_line(c, at, behind) or c.kinds[behind] is Lex.END)
-    operand = c.kinds[behind] in OPERANDS or c.texts[behind] in ("TRUE", "FALSE", "-", "+")
+        return c.texts[after] != ";" and (not _same_line(c, at, after) or c.kinds[after] is Lex.END)
+    operand = c.kinds[after] in OPERANDS or c.texts[after] in ("TRUE", "FALSE", "-", "+")
     # `r REF= x;` and `s S= x;` begin with a variable
-    return operand and _same_line(c, at, behind) and c.texts[behind + 1] not in (";", "=")
+    return operand and _same_line(c, at, after) and c.texts[after + 1] not in (";", "=")
 
 
 def _mnemonic_after_call(c: Cursor, opening: int) -> bool:
@@ -155,7 +155,7 @@ def _formal_follows(c: Cursor) -> bool:
 
 
 def _on_line(c: Cursor, token: int) -> bool:
-    """Something more stands on the line of this token."""
+    """Whether more tokens follow on the line of this token."""
     return not c.ended() and c.texts[c.at] not in ENDINGS and _same_line(c, token, c.at)
 
 

@@ -58,7 +58,7 @@ def _string(text: str, type_name: str | None) -> Value:
 
 
 def _broken(kind: Lex, text: str, span: Span) -> tree.Literal:
-    """Stands for a literal that could not be read, so that the rest is checked."""
+    """A substitute for a literal that could not be read, so that the rest is checked."""
     if kind is Lex.STRING:
         return tree.Literal("wstring" if text[0] == '"' else "string", b"", None, span)
     if kind is Lex.TIME:

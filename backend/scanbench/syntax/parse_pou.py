@@ -1,4 +1,4 @@
-"""POUs: programs, blocks, functions, classes, interfaces, and what stands in them."""
+"""POUs: programs, blocks, functions, classes, interfaces, and their contents."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -75,7 +75,7 @@ def _in_out(c: Cursor, first: int) -> str:
 
 
 def check_pragmas(c: Cursor) -> None:
-    """Reports pragmas `in_out` that stand where they mean nothing."""
+    """Reports pragmas `in_out` at places where they have no meaning."""
     for each in c.in_out_pragmas:
         message = "A pragma `in_out` belongs before a FUNCTION_BLOCK or after its name; move it there."
         c.report("S003", message, _span_of(c, each))
@@ -112,7 +112,7 @@ def _modifiers(c: Cursor) -> tuple[str, tuple[str, ...]]:
 def _header(
     c: Cursor, kind: str, name: int
 ) -> tuple[tree.TypeSpec | None, tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
-    """What stands after the name: result, bases, interfaces, namespaces used."""
+    """Parses what follows the name: result, bases, interfaces, namespaces used."""
     result: tree.TypeSpec | None = None
     extends: tuple[str, ...] = ()
     implements: tuple[str, ...] = ()
@@ -312,7 +312,7 @@ def _declared(
 
 
 def _joined(first: Body, second: Body) -> Body:
-    """A body goes on after a method that stands in it."""
+    """Joins the two parts of a body that has a method in its middle."""
     if not first or not second:
         return first or second
     if isinstance(first, tree.IlBody) and isinstance(second, tree.IlBody):
@@ -323,5 +323,5 @@ def _joined(first: Body, second: Body) -> Body:
 
 
 def with_member(pou: tree.PouDeclaration, members: list[tree.PouDeclaration]) -> tree.PouDeclaration:
-    """A POU with members that stand after its end, as some exports write them."""
+    """A POU with members that are written after its end, as in some exports."""
     return replace(pou, methods=(*pou.methods, *members))

@@ -146,7 +146,7 @@ def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
 
 
 def _qualified_only(c: Cursor, token: int) -> bool:
-    """Whether the vendor's attribute stands right before this token."""
+    """Whether the vendor's attribute comes immediately before this token."""
     first = c.end_of(token - 1) if token else 0
     last = c.starts[token]
     return any(first <= at < last and QUALIFIED_ONLY.match(text) for at, text in c.pragmas)

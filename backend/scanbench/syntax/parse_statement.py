@@ -65,7 +65,7 @@ def statements(c: Cursor, labels: bool = False) -> tuple[tree.Statement, ...]:
 
 
 def declaration_follows(c: Cursor) -> bool:
-    """METHOD and the like, with a name behind."""
+    """Whether METHOD, or a word like it, begins a declaration here."""
     return c.word() in DECLARATIONS and (c.word(1) not in OPERATORS_WITH_NAME or c.texts[c.at + 2] != "=")
 
 
@@ -84,7 +84,7 @@ def _skip(c: Cursor, before: int) -> None:
 
 
 def _simple(c: Cursor, name: bool) -> tree.Statement:
-    """An assignment, a call, or a word that is a statement only where it stands alone."""
+    """An assignment, a call, or a word that is a statement only when nothing else follows it."""
     start = c.at
     if name and c.texts[start + 1] not in (":=", "(", ".", "["):
         word = c.word()

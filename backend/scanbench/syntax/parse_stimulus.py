@@ -26,7 +26,7 @@ _PLAIN = re.compile(r"\d+(\.\d+)?")
 
 
 class _Refused(Exception):
-    """What was found stands in the problems."""
+    """The file cannot be used. The reasons have been added to the problems."""
 
 
 def parse_stimulus(source: Source) -> tuple[tree.File, list[Problem]]:
@@ -46,7 +46,7 @@ def cells(line: str, delimiter: str) -> list[str]:
 
 
 def cell_span(stimulus: tree.Stimulus, row: int, column: int) -> Span:
-    """Where a cell stands: found again only when there is something to say about it. Column 0 is the first variable."""
+    """The span of a cell, computed only when a problem is reported for it. Column 0 is the first variable."""
     line = stimulus.lines[row]
     text = stimulus.text.split("\n")[line - 1]
     parts = text.split(stimulus.delimiter)
@@ -129,17 +129,17 @@ class _Parser:
         if len(made.moments) >= MAX_ROWS:
             self._problem(f"A file has at most {MAX_ROWS:,} rows; split it up.", start, end)
             return
-        behind = start + len(line.partition(made.delimiter)[0])
+        moment_end = start + len(line.partition(made.delimiter)[0])
         try:
             at = _moment(made.by_time, moment)
         except ValueError as error:
-            self._problem(f"`{moment}` is no {'time' if made.by_time else 'scan'}: {error}.", start, behind)
+            self._problem(f"`{moment}` is no {'time' if made.by_time else 'scan'}: {error}.", start, moment_end)
             return
         if made.moments and at <= made.moments[-1]:
             self._problem(
                 f"Rows are in ascending order, and `{moment}` is not after that of line {made.lines[-1]}.",
                 start,
-                behind,
+                moment_end,
             )
             return
         made.moments.append(at)
@@ -147,7 +147,7 @@ class _Parser:
         made.rows.append(values)
 
     def _close(self, made: tree.Stimulus) -> None:
-        """The length of a round, if it repeats: the last row holds as long as the one before, unless another is said."""
+        """Sets the period of a table that repeats: the last row lasts as long as the one before, unless the file says."""
         if self.repeat is None:
             return
         text, span = self.repeat

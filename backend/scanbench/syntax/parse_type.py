@@ -221,7 +221,7 @@ def _nameless(c: Cursor) -> list[tree.Variable]:
 
 
 def located(c: Cursor) -> tuple[str | None, Span | None]:
-    """What stands after AT, as written: each vendor has a notation of its own."""
+    """The address after AT, as written: each vendor has a notation of its own."""
     if not c.accept("AT"):
         return None, None
     start = c.at

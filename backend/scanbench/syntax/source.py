@@ -17,7 +17,7 @@ class Source:
         self._starts: list[int] | None = None
 
     def edit(self, text: str) -> None:
-        """Takes another text; spans before the first difference stay what they are."""
+        """Replaces the text; spans before the first difference stay valid."""
         self.text, self._starts = text, None
 
     def span(self, start: int, end: int) -> Span:

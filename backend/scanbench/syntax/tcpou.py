@@ -1,6 +1,6 @@
 """TwinCAT's files (.TcPOU, .TcDUT, .TcGVL, .TcIO): XML around Structured Text -> the same tree, with places in the XML.
 
-The XML is read once for where its texts stand. The tokens of those texts, with the words between them that the XML says in
+The XML is read once to find the positions of its texts. The tokens of those texts, with the words between them that the XML says in
 its own way (METHOD's end, an ACTION's name), then make up the POU that a plain text would have.
 """
 
@@ -24,7 +24,7 @@ OBJECTS = ("POU", "Itf", "DUT", "GVL")
 
 @dataclass(slots=True)
 class Element:
-    """One element of the XML: where it begins, and where its content stands."""
+    """One element of the XML: where it begins, and where its content is."""
 
     tag: str
     start: int
@@ -83,7 +83,7 @@ class _Outline:
     def _data(self, data: str) -> None:
         at = self._parser.CurrentByteIndex
         if self.text[at] == "&":
-            # an escaped character stands at the near end of its place: `&lt;=` must stay one operator
+            # an escaped character takes the end of its entity that is nearer to its neighbour: `&lt;=` stays one operator
             last = self.text.index(";", at)
             at = at if self._escaped == at else last
             self._blank(at)
@@ -149,7 +149,7 @@ class _Writer:
         return self._made
 
     def name(self, element: Element) -> tuple[str, int]:
-        """The attribute Name, and where it stands."""
+        """The attribute Name, and its position in the XML."""
         found = NAME_ATTRIBUTE.search(self.xml, element.start, element.begin)
         return (found.group(1), found.start(1)) if found else ("", element.start)
 

@@ -220,7 +220,7 @@ TypeSpec = NamedType | StringSpec | ArraySpec | OpenArraySpec | StructSpec | Enu
 
 @node
 class ArrayInit:
-    """`[1, 2, 3(0)]`: each item with how often it stands."""
+    """`[1, 2, 3(0)]`: each item with its number of repetitions."""
 
     items: tuple[tuple[Expression | None, "Initial"], ...]
     span: Span
@@ -248,7 +248,7 @@ class Variable:
     arguments: tuple["Argument", ...] = ()
     """`inst : FB(a := 1)` of vendors: initial values of an instance."""
     edge: str = ""
-    """R or F: what stands after an input with R_EDGE or F_EDGE."""
+    """R or F for an input that is declared with R_EDGE or F_EDGE, else empty."""
 
 
 @node
@@ -310,7 +310,7 @@ class IlBody:
 class PouDeclaration:
     """`kind` is program, function_block, function, class, interface, method, or get and set of a property.
 
-    A property `p` stands among `methods` as one or two declarations of that name with kind get and set; `result` is
+    A property `p` is in `methods` as one or two declarations of that name with kind get and set; `result` is
     its type for both.
     """
 
@@ -383,7 +383,7 @@ class AccessDeclaration:
 
 @node
 class Configuration:
-    """What stands outside of a RESOURCE is in `globals`, `tasks` and `programs`."""
+    """`globals`, `tasks` and `programs` are those declared outside of a RESOURCE."""
 
     name: str
     globals: tuple[VariableSection, ...]
