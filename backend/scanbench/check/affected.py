@@ -1,7 +1,7 @@
 """What an edit of a POU's declarations may change elsewhere: all that mentions it, or that is declared by what mentions it.
 
-Names are the only way from one body to declarations of another, so a body in whose text none of these names stands is as right
-or wrong as before.
+Names are the only way from a body to the declarations of other POUs. So a body whose text has none of these names keeps its
+problems, and needs no new check.
 """
 
 import re

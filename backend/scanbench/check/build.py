@@ -1,4 +1,4 @@
-"""Sources and a model -> a checked program, or the problems that stand in its way.
+"""Sources and a model -> a checked program, or the problems that prevent it.
 
 The passes, in order: parse every file; collect names; declare globals, blocks, methods and functions; check bodies;
 refuse recursion; lay out the image. Each pass goes on as far as it can, so that one check shows every problem.
@@ -80,7 +80,7 @@ class Checked:
 
 
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
-    """Checks all files of a project together. `interval_ns` is the task's, where no CONFIGURATION says another."""
+    """Checks all files of a project together. `interval_ns` is the interval of the task, unless a CONFIGURATION has one."""
     files = [read(name, text) for name, text in program_files(sources).items()]
     checker = checker_of(files, model)
     return with_user_errors(concluded(files, checker.report, checker.run(interval_ns)), sources, model)
@@ -94,7 +94,7 @@ def program_files(sources: Mapping[str, str]) -> dict[str, str]:
 def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model) -> Checked:
     """A program that was checked for the device, with the errors that the project defines, and what is wrong with these.
 
-    They change only the catalogue behind the layout, so no body is checked again for them.
+    They change only the catalogue to which the layout refers, so no body is checked again for them.
     """
     if len(program_files(sources)) == len(sources):
         return checked
@@ -214,7 +214,7 @@ class Checker:
             self.pous.uses[pou] = uses
 
     def recheck(self, pou: Pou, declaration: tree.PouDeclaration) -> None:
-        """Checks another body of a POU whose declarations are the same; `finish` has to follow."""
+        """Checks a new body of a POU whose declarations are unchanged; the caller then calls `finish`."""
         self.report.undo(self.declared)
         members, size, align = self.frames[pou]
         pou.frame.members.clear()
@@ -339,7 +339,7 @@ class Checker:
             pou.body = pou_body(body_of(self.report, self.declarations, self.pous, scope, pou), declaration.body)
 
     def _rights(self, span: Span) -> tuple[tuple[Record, ...], Who]:
-        """What every program knows that stands here, and with whose rights it writes."""
+        """The records that every program at this span can use, and with whose rights it writes."""
         if is_system(span):
             return (self.system.words,), "engine"
         if in_library(span):

@@ -142,8 +142,8 @@ class Calls:
         Without an image: for which it may be."""
         this = pou.frame.members.get("THIS") if pou.kind == "function" else None
         own = this.type if this is not None else pou.instance
-        behind_this = this is not None and instance.slot is not None and instance.slot.offset == this.offset
-        if instance.reference is None and (behind_this or (instance.base is Base.SELF and instance.slot is None)):
+        through_this = this is not None and instance.slot is not None and instance.slot.offset == this.offset
+        if instance.reference is None and (through_this or (instance.base is Base.SELF and instance.slot is None)):
             for around in names_of(self._program).holding(at):
                 if isinstance(around.type, Record) and isinstance(own, Record) and is_derived(around.type, own):
                     if _reaches(instance, at - around.offset - instance.offset):

@@ -1,4 +1,4 @@
-"""Arguments of a call -> what stands for each formal."""
+"""Arguments of a call -> the actual parameter of each formal one."""
 
 from dataclasses import dataclass, field, replace
 

@@ -23,7 +23,7 @@ def body_of(
     effects: Effects = EFFECTS,
     call: Call = calls.call,
 ) -> Body:
-    """The body of `pou`, or with None what stands among declarations or was typed."""
+    """The body of `pou`; with None, of an expression in declarations or of one that a person typed."""
     return Body(
         report, declarations, pous, scope, pou, lookup, effects,
         expressions.expression, places.place, call, methods.property_value,

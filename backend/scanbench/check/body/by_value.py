@@ -1,8 +1,8 @@
 """In-outs by value: a block copies what was passed into a variable of its own, runs, and copies that back.
 
-The call stores a reference to what is passed in the hidden in-out beside the variable (`types.actual_name`), so its address is
-found once, before the call, and what the last execution was bound to stays known. The copies stand in the block's body:
-whatever calls it, through whatever base or interface, they are made once.
+The call stores a reference to what is passed in a hidden in-out next to the variable (`types.actual_name`). So the address is
+computed once, before the call, and the variable that was bound in the last execution stays known. The body of the block makes
+the copies, so they are compiled once for all calls, also for those through a base or an interface.
 """
 
 from collections.abc import Callable

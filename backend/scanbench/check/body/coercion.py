@@ -1,4 +1,4 @@
-"""What stands where a value of some type is asked for: settled, converted, or refused."""
+"""An expression where a value of some type is required: it is settled, converted, or refused."""
 
 from scanbench.check.body import fold
 from scanbench.check.body.context import Body

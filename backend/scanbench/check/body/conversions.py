@@ -44,7 +44,7 @@ TO_BCD = re.compile(r"(?:(\w+?)_)?TO_BCD_(\w+)")
 UNSIGNED = {type.size: type for type in (ELEMENTARY["USINT"], ELEMENTARY["UINT"], ELEMENTARY["UDINT"], ULINT)}
 STRINGS = {"STRING": StringType(80), "WSTRING": StringType(80, 2)}
 SHORT = {name: type for name, type in ABBREVIATIONS.items() if len(name) > 2 or name == "DT"}
-"""TOD, LTOD, DT, LDT: the abbreviations that stand in names."""
+"""TOD, LTOD, DT, LDT: the abbreviations that occur in names of conversions."""
 
 NUMBER_TEXT = StringType(20)
 REAL_TEXT = StringType(32)
@@ -94,7 +94,7 @@ def parse_name(name: str, find: Callable[[str], Type | None] = lambda name: None
 
 
 def convert(expr: Expr, target: Type, way: str, library: Library, raw: bool = False) -> Expr | str:
-    """The conversion of a value, or what to say behind `There is no conversion X_TO_Y`.
+    """The conversion of a value, or the text to add to the message `There is no conversion X_TO_Y`.
 
     `raw`: in the library itself, where a number of nanoseconds becomes a long time as it is.
     """

@@ -30,8 +30,8 @@ def type_number(instance: Place) -> Place:
     return replace(instance, type=UDINT)
 
 
-def behind(slot: Place, offset: int, null_trap: int) -> Place:
-    """What lies `offset` bytes into the instance that THIS is bound to."""
+def in_this_instance(slot: Place, offset: int, null_trap: int) -> Place:
+    """The place `offset` bytes after the beginning of the instance that THIS is bound to."""
     return Place(UDINT, Base.FRAME, offset, slot=slot, null_trap=null_trap)
 
 
@@ -95,7 +95,7 @@ class Dispatcher:
         slot = place_of(frame.members["THIS"], Base.FRAME, frame, trap).slot
         assert slot is not None
         otherwise = self._nothing(made)
-        choice = Case(Load(behind(slot, 0, trap)), tuple(branches), (otherwise,), signature.span)
+        choice = Case(Load(in_this_instance(slot, 0, trap)), tuple(branches), (otherwise,), signature.span)
         made.body = (*self._succeeds(made), choice if branches else otherwise)
         return made
 

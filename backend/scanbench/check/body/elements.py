@@ -5,7 +5,7 @@ from dataclasses import replace
 from scanbench.check.body import fold
 from scanbench.check.body.context import Body, Found
 from scanbench.check.body.harmless import harmless
-from scanbench.check.body.references import behind, moved
+from scanbench.check.body.references import moved, target_of
 from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place
 from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
@@ -31,7 +31,7 @@ def element(body: Body, place: Place, member: Member | None, node: tree.IndexOf)
     type, indices = place.type, list(node.indices)
     if isinstance(type, Reference) and type.pointer and len(indices) == 1:
         address = moved(body, "add", Load(place), body.expression(indices[0]), node.span, of_target=True)
-        return behind(body, address, node.span, shown(node.array)), None
+        return target_of(body, address, node.span, shown(node.array)), None
     while indices:
         if isinstance(type, StringType) and len(indices) == 1:
             return _character_place(body, replace(place, type=type), type, indices[0]), member

@@ -238,7 +238,7 @@ def _whole_value(body: Body, node: tree.Expression) -> Expr | None:
 
 
 def _replaced(node: tree.Expression, old: tree.Expression, new: tree.Expression) -> tree.Expression:
-    """The same expression with another owner at its root."""
+    """The same expression, with `new` in place of the owner `old` at its root."""
     if node is old:
         return new
     if isinstance(node, tree.MemberOf):

@@ -32,7 +32,7 @@ KINDS: dict[str, tuple[Kind, ...]] = {
     "ANY_CHAR": (Kind.CHAR,),
     "ANY_DATE": MOMENTS,
 }
-"""Which kinds of types stand for a generic type."""
+"""The kinds of types that belong to each generic type."""
 TAKEN = ("VAR_INPUT", "VAR_IN_OUT")
 
 

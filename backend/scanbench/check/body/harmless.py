@@ -24,7 +24,7 @@ def harmless(expr: Expr) -> bool:
 
 
 def again(expr: Expr) -> Expr | None:
-    """What gives the same value once more, without another record of a violation; None for what calls something."""
+    """An expression that gives the same value again and records no second violation; None for an expression with a call."""
     match expr:
         case Const():
             return expr

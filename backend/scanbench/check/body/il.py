@@ -147,7 +147,7 @@ class InstructionList:
         return found[::-1]
 
     def _unreachable(self, node: tree.IlInstruction) -> None:
-        """Told once for each stretch that a JMP or RET leaves behind."""
+        """Warns once for each range of instructions that a JMP or RET makes unreachable."""
         if not self._dead:
             self._report.warn("W001", "This is never reached: there is no label between it and what leaves.", node.span)
             self._current = BROKEN
@@ -323,7 +323,7 @@ class InstructionList:
         self._conditionally(node, statement)
 
     def _feeds(self, node: tree.IlInstruction) -> bool:
-        """Whether the operator is an input of the block that stands as operand: `CU counter`."""
+        """Whether the operator is an input of the block that is its operand: `CU counter`."""
         if node.operand is None or node.arguments or node.operator == "CAL":
             return False
         if not isinstance(node.operand, tree.Name | tree.MemberOf | tree.IndexOf):

@@ -13,8 +13,8 @@ ROUNDS = 8
 class Current:
     """The current result: an expression of a type; nothing (`type` None); or unknown, after a problem told already.
 
-    A literal has the type that it takes where nothing asks for another. At a label that jumps lead to, only the type
-    is known, and the value is in the temporary for it.
+    A literal has its default type unless the context asks for a different one. At a label that is the target of jumps, only the
+    type is known, and the value is in the temporary for it.
     """
 
     node: tree.Expression | None = None

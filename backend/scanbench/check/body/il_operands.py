@@ -44,7 +44,7 @@ def hidden(body: Body, name: str, type: Type, span: Span) -> Member:
     while (known := frame.members.get(name.upper())) is not None:
         if known.type == type:
             return known
-        name += "'"  # another type that is called the same
+        name += "'"  # a different type with the same name
     member = Member(name, type, Section.TEMP, span, hidden=True)
     frame.place(member)
     frame.close()

@@ -1,8 +1,8 @@
 """Notes: what a program wrote to a subrange variable, before the check brought it to the bounds.
 
-SUBRANGE_ERROR, and a call that is given EN or ENO, see the value as it was written. So a variable whose name stands in one of
-these anywhere has a hidden note beside it, where assignments and calls write the value as well. The note counts as long as what
-it comes to is what the variable holds: whatever else writes the variable makes it void.
+SUBRANGE_ERROR, and a call with EN or ENO, see the value as it was written. So a variable that is named in one of these anywhere
+has a hidden note next to it, to which assignments and calls write the value as well. The note is valid as long as its value,
+brought to the bounds, equals the variable; a write by anything else makes it void.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The instance that runs: THIS and SUPER, its own variables, and who may use those of another."""
+"""The instance that runs: THIS and SUPER, its own variables, and the rights to variables of other instances."""
 
 from dataclasses import replace
 
@@ -34,7 +34,7 @@ def this(body: Body, name: str, span: Span) -> Place:
 
 
 def own(body: Body, place: Place) -> Place:
-    """A place of the instance, as the body sees it: behind the slot of THIS in a method."""
+    """A place of the instance, as the body reaches it: in a method through the slot of THIS."""
     slot = body.scope.this
     if slot is None:
         return place
@@ -58,7 +58,7 @@ def this_trap(body: Body) -> int:
 
 
 def qualified_place(body: Body, node: tree.MemberOf) -> Found | None:
-    """A variable behind THIS, SUPER, or the name of a namespace or of a list of globals, if it is one."""
+    """The variable qualified by THIS, SUPER, a namespace or a list of globals; None if there is no such variable."""
     for word in ("THIS", "SUPER"):
         if named_itself(node.owner, word):
             return _own_member(body, node, word)
@@ -133,7 +133,7 @@ def may_use(body: Body, record: Record, member: Member) -> bool:
         return False
     if member.access in ("PUBLIC", "INTERNAL"):
         return is_open(body, member.access, None, body.pous.classes.of(record))
-    # an instance may look into another of its own class, as in `equals(other)`
+    # an instance may read private variables of other instances of its class, as in `equals(other)`
     home = body.pous.classes.by_key.get((member.home or record.name).upper())
     return is_open(body, member.access, own_class(body), home)
 

@@ -6,7 +6,7 @@ from scanbench.check.body.context import Body, Found
 from scanbench.check.body.elements import element
 from scanbench.check.body.objects import qualified_place
 from scanbench.check.body.parts import PARTED, WIDTHS, named_part, part
-from scanbench.check.body.references import behind
+from scanbench.check.body.references import target_of
 from scanbench.check.body.variables import INSTANCE, no_member
 from scanbench.check.declare.addresses import offset_of
 from scanbench.problems import Span
@@ -38,9 +38,9 @@ def place(body: Body, node: tree.Expression) -> Found:
 
 
 def automatic(body: Body, place: Place, member: Member | None, node: tree.Expression) -> Found:
-    """Of a REFERENCE TO, what it refers to."""
+    """The target of a REFERENCE TO; any other place as it is."""
     if isinstance(place.type, Reference) and place.type.automatic:
-        return behind(body, Load(place), node.span, shown(node)), None
+        return target_of(body, Load(place), node.span, shown(node)), None
     return place, member
 
 
@@ -73,7 +73,7 @@ def _addressed(body: Body, node: tree.DirectAddress) -> Place:
 
 
 def _width(body: Body, text: str) -> Elementary:
-    """The type of an address that stands in a statement: as wide as the model says."""
+    """The type of an address that a statement names directly; the model gives its width."""
     found = body.declarations.model.locate(text)
     if found is None:
         return BOOL if "." in text else ELEMENTARY["WORD"]
@@ -123,7 +123,7 @@ def _dereferenced(body: Body, node: tree.Dereference) -> Found:
     reference = body.expression(inner)
     if not isinstance(reference.type, Reference):
         raise body.report.reject("T010", f"`^` needs a reference; this is {settle(reference).type}.", node.span)
-    return behind(body, reference, node.span, shown(inner)), None
+    return target_of(body, reference, node.span, shown(inner)), None
 
 
 def inside(place: Place, record: Record, member: Member) -> Place:

@@ -26,8 +26,8 @@ from scanbench.program.untyped import ANY_INT, settle
 COUNTED = (Kind.INT, Kind.UINT)
 
 
-def behind(body: Body, reference: Expr, span: Span, name: str) -> Place:
-    """What a reference refers to."""
+def target_of(body: Body, reference: Expr, span: Span, name: str) -> Place:
+    """The place to which a reference refers."""
     type = reference.type
     assert isinstance(type, Reference)
     if type.target is None:

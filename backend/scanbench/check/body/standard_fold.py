@@ -1,4 +1,4 @@
-"""Standard functions of constants, by the rules of `check/standard/__init__.py`: so they may stand in declarations.
+"""Evaluates standard functions of constants by the rules of `check/standard/__init__.py`, so that declarations may use them.
 
 Only what has a plain value is folded; NaN, infinities and whatever is out of a function's domain is left to run time.
 """

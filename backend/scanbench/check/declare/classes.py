@@ -248,7 +248,7 @@ class _Inherit:
         record.members[TYPE_NUMBER.upper()].initial = owner.number.to_bytes(4, "little")
 
     def _record(self, parent: Class) -> Record | None:
-        declaration = parent.declaration  # looked up where it stands: it may be INTERNAL there
+        declaration = parent.declaration  # looked up from its own namespace, in which it may be INTERNAL
         with self.declarations.names.within(Space(declaration.namespace)):
             made = self.declarations.named(declaration.name, declaration.span)
         target = made.target if isinstance(made, Reference) else made

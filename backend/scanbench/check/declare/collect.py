@@ -129,7 +129,7 @@ def globals_of(configuration: tree.Configuration) -> tuple[tree.VariableSection,
 
 
 def declare_globals(parsed: list[tree.File], variables: Record, declarations: Declarations, pous: Pous) -> None:
-    """Constants first, as they may stand in the bounds of the others."""
+    """Declares constants first, as the bounds of other variables may use them."""
     sections = global_sections(parsed)
     kept = _Lists(declarations, pous)
     for constant in (True, False):

@@ -47,7 +47,7 @@ class PlannedTask:
 
 @dataclass(slots=True)
 class Resource:
-    """The tasks of one RESOURCE, and of what stands outside of all."""
+    """The tasks of one RESOURCE, or those declared outside of every RESOURCE."""
 
     name: str
     prefix: str

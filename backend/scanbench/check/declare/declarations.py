@@ -50,7 +50,7 @@ class Declarations:
     broken: set[tuple[str, str]] = field(default_factory=set)
     """(owner, name) in upper case of variables whose declaration is wrong: reported once, not at every use."""
     owners: list[Record] = field(default_factory=list)
-    """What is being declared: constants declared above can stand in bounds and initial values."""
+    """The records under declaration: their bounds and initial values can use constants declared above."""
     looked_at: frozenset[str] = frozenset()
     """Names of variables that have a note, in upper case; see `notes`."""
     incomplete: bool = False

@@ -18,7 +18,7 @@ class EnumerationValues:
         self._inline: dict[str, list[tuple[str, Enumeration]]] = {}
 
     def add_inline(self, owner: str, type: Enumeration) -> None:
-        """An enumeration that stands in a variable's declaration: known inside of that owner."""
+        """Adds an enumeration that a variable's declaration defines; its values are known inside of that owner."""
         for name, _ in type.values:
             found = self._inline.setdefault(name.upper(), [])
             if (owner.upper(), type) not in found:

@@ -13,7 +13,7 @@ LIBRARY = "__STANDARD"
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """Where a declaration stands, and what it sees without qualification."""
+    """The namespace of a declaration, and the namespaces whose names it sees without qualification."""
 
     namespace: str = ""
     using: tuple[str, ...] = ()

@@ -35,7 +35,7 @@ class Scope:
     constants: tuple[Record, ...] = ()
     """Records under declaration, for constant expressions."""
     this: Place | None = None
-    """Slot of THIS, in a method: the variables of the instance stand after it."""
+    """Slot of THIS, in a method: through it the body reaches the variables of the instance."""
     space: Space = field(default_factory=Space)
     """The namespaces whose global variables are visible."""
     system: tuple[Record, ...] = ()

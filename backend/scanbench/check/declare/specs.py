@@ -91,7 +91,7 @@ def _array(declared: Declarations, spec: tree.ArraySpec) -> Type:
 
 
 def enumeration(declared: Declarations, spec: tree.EnumSpec, name: str) -> Enumeration:
-    """An enumeration; one that stands inline is named after its values."""
+    """An enumeration; one without a name of its own (inline) is named after its values."""
     base = declared.named(spec.base.name, spec.base.span) if spec.base else ELEMENTARY["INT"]
     if not isinstance(base, Elementary) or base.kind not in (*COUNTED, Kind.BITS) or base.name not in ELEMENTARY:
         span = spec.base.span if spec.base else spec.span

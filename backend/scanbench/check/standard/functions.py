@@ -60,7 +60,7 @@ class StringFunction:
 
 @dataclass(frozen=True, slots=True)
 class Operator:
-    """A function that is an operator by another name; `types` where its name says them."""
+    """A function that does the same as an operator; `types` if its name determines them."""
 
     op: str
     formals: tuple[str, ...] = ("IN1", "IN2")

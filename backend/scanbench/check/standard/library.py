@@ -34,7 +34,7 @@ def library() -> tuple[tree.File, ...]:
 
 
 def _texts() -> Iterator[tuple[str, str]]:
-    """Path and text of each file; those that stand for several types once for each, line by line the same."""
+    """Path and text of each file; a file written for several types comes once for each, with the same line numbers."""
     for name in FILES:
         path = f"{LIBRARY_FOLDER}{name}.st"
         text = files("scanbench.check").joinpath(f"standard/{name}.st").read_text("utf-8")

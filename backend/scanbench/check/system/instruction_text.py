@@ -1,8 +1,8 @@
 """The ST text of the vendor's instructions that raise and clear errors, made from a model.
 
-Programs call them in every scan. So they ask only for what is news: an error that is not there with this number yet. What is
-news of an error of the device, only the seam can tell: the code word may show another one, and its details lie anywhere.
-A number outside of what an instruction takes gives FALSE, and does nothing.
+Programs call them in every scan. So they request an error only if it is not there yet with this number. Whether an error of the
+device is new can only be decided in the seam, because the code word may show a different error, and details may be anywhere.
+A number outside of the range that an instruction accepts gives FALSE, and does nothing.
 """
 
 from scanbench.check.system.system_text import CODE, STOP, Form, ask, flag, number_name, reset_flags, stand_in

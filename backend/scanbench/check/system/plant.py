@@ -1,4 +1,4 @@
-"""The plant: what stands under `plant/` in a project, and drives the inputs in every scan, before the forces (phase 2).
+"""The plant: the files in `plant/` of a project. They drive the inputs in every scan, before the forces (phase 2).
 
 Its programs run without a task, in the order of their file names; a CONFIGURATION does not name them. They write with the
 rights of the engine interface, so inputs and system words too. Blocks and functions of the plant are for the plant only.
@@ -46,7 +46,7 @@ class Plant:
     files: frozenset[str]
 
     def holds(self, span: Span) -> bool:
-        """Whether this stands in the plant."""
+        """Whether this span is in a file of the plant."""
         return span.file in self.files
 
     def programs(self) -> list[Pou]:

@@ -289,7 +289,7 @@ class _Statements:
         return [Assign(now, inside, self._span), again, Assign(self._at, Load(now), self._span)]
 
     def _position(self) -> list[Stmt]:
-        """After an online change the table may be another: then it begins once more from the first row."""
+        """Starts again from the first row if an online change replaced the table by one that the position does not fit."""
         beyond = Compare("gt", UDINT, Load(self._row), Const(UDINT, self._count))
         early = Compare("gt", ULINT, Load(self._element(self._moments, before=True)), Load(self._at))
         reset = self._set(self._row, 0)

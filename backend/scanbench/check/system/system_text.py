@@ -81,7 +81,7 @@ def number_name(instruction: Instruction) -> str:
 
 
 def stand_in(instruction: Instruction) -> str:
-    """The name of the word with the number that stands for an error of the device."""
+    """The name of the word whose number represents an error of the device."""
     return f"__E_{instruction.name}"
 
 

@@ -24,7 +24,7 @@ from scanbench.check.declare.declare import declarations_of
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.typed.looking import NOWHERE, Looking
-from scanbench.check.typed.passed_on import Unclear, behind_copies, passed_on
+from scanbench.check.typed.passed_on import Unclear, passed_on, through_copies
 from scanbench.plcmodel.model import Location
 from scanbench.problems import Problem, Span, perhaps
 from scanbench.program.program import Base, Const, Expr, Place, Program
@@ -69,7 +69,7 @@ _SPACED = re.compile(r"'(?:\$.|[^$'])*'|\"(?:\$.|[^$\"])*\"|\b([A-Za-z]+) (\d{1,
 class Condition:
     """A BOOL expression on the image of one program: offsets count for that one only.
 
-    Its places are of Base.IMAGE (behind slots and references where in-outs and references are on the way), it has no
+    Its places are of Base.IMAGE (reached through slots and references where a path has in-outs or references), it has no
     effects, and whoever evaluates it takes a trap inside (an index outside, a null reference, a division by zero) for
     FALSE. It may be evaluated between any two scans, as often as one likes.
     """
@@ -252,7 +252,7 @@ class ProgramLookup:
             return inner
         known = place.base is Base.IMAGE and place.slot is None and place.reference is None and not place.indices
         found = passed_on(self._program, self._visible.calls, place.offset if known else None, record, member)
-        return behind_copies(inner.slot, member, found) if found else inner
+        return through_copies(inner.slot, member, found) if found else inner
 
     def this(self, body: Body, word: str, span: Span) -> Place:
         return objects.this(body, word, span)

@@ -1,8 +1,8 @@
-"""In-outs by value that are passed on: the variable behind copies of copies, for expressions.
+"""In-outs by value that are passed on: finds the variable to which a chain of copies leads, for expressions.
 
-A slot refers to what its call passed: where the caller passed its own in-out by value, to the caller's copy, whose slot leads on.
-`bound.Copies` follows that in an image. An expression can only follow what is known before: which copies a slot may refer
-to. So these are looked for in the calls of the program, and the expression asks for each whether the slot refers to it.
+A slot refers to what its call passed. If the caller passed its own in-out by value, that is the caller's copy, and the slot of
+this copy leads on. `copies.Copies` follows such slots in an image. An expression can follow only the copies that are known when
+it is compiled, so they are looked for in the calls of the program, and the expression tests for each whether the slot refers to it.
 """
 
 from collections.abc import Iterator
@@ -39,14 +39,14 @@ def passed_on(program: Program, calls: Calls, at: int | None, record: Record, me
     return found
 
 
-def behind_copies(slot: Place, member: Member, passed: tuple[Passed, ...]) -> Place:
-    """What a slot refers to in the end."""
+def through_copies(slot: Place, member: Member, passed: tuple[Passed, ...]) -> Place:
+    """The variable to which a slot refers after all copies have been followed."""
     type = Reference(f"REF_TO {member.type.name}", Kind.REF, SLOT_BYTES, member.type)
     return Place(member.type, Base.IMAGE, 0, reference=fold.convert(type, _followed(slot, passed)))
 
 
 def _followed(slot: Place, passed: tuple[Passed, ...]) -> Expr:
-    """A reference moves from the copy to what that is a copy of, and stays as far behind its begin as it was."""
+    """Moves a reference from a copy to the original of that copy; its distance from the beginning stays the same."""
     value: Expr = Load(slot)
     for each in passed:
         offset = fold.binary("and", ULINT, Load(slot), Const(ULINT, BYTE_OFFSET))
@@ -120,10 +120,10 @@ def _source(pou: Pou, actual: Place) -> tuple[Record, Member | None]:
 
 
 def _own_offset(place: Place, this: Member | None) -> int | None:
-    """How far behind the begin of the running instance it is; None where it is elsewhere."""
+    """Bytes from the beginning of the running instance to `place`; None if `place` is not in this instance."""
     if place.reference is not None:
         return None
     if place.slot is None:
         return place.offset if place.base is Base.SELF else None
-    behind_this = this is not None and place.slot.base is Base.FRAME and place.slot.offset == this.offset
-    return place.offset if behind_this else None
+    through_this = this is not None and place.slot.base is Base.FRAME and place.slot.offset == this.offset
+    return place.offset if through_this else None
