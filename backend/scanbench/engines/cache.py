@@ -64,9 +64,9 @@ class BlobCache:
 
     @contextmanager
     def claimed(self, key: str) -> Iterator[None]:
-        """Waits while another process has claimed the key: it may be making just what this one is about to make.
+        """Waits while a different process holds the claim to the key: it may be compiling the same code.
 
-        The next look into the cache then finds that. A process that ends gives up its claims.
+        The next look into the cache then finds that code. A process that ends gives up its claims.
         """
         try:
             self._directory.mkdir(parents=True, exist_ok=True)
@@ -89,7 +89,7 @@ class BlobCache:
         kept: list[tuple[float, int, str]] = []
         unfinished: list[tuple[float, str]] = []
         for entry in os.scandir(self._directory):
-            with suppress(OSError):  # another process was faster
+            with suppress(OSError):  # a different process was faster
                 status = entry.stat()
                 if entry.name.endswith(_SUFFIX):
                     kept.append((status.st_mtime, status.st_size, entry.path))

@@ -1,15 +1,15 @@
 """The contract of the debug flavour: code that can halt before any statement, and tells of reads and writes.
 
-A *position* inside of a scan is a count: how many statements with a site (`symbols.sites`) have begun in the scan, the one in
-front of which it stands included; 0 is the seam before the scan. As a run is determined by image and journal, a
-position is reached again by running the scan again from its beginning: so nothing has to be kept of a scan that is halted
-but its beginning, and a step back is a run to a smaller count. The image of a halted scan is whole: all variables stand in
-it, temporaries and parameters in their frames (no register holds any). `Layout.SCAN` is still that of the scan.
+A *position* inside of a scan is a count: the number of statements with a site (`symbols.sites`) that have begun in the scan,
+including the next one; 0 is the seam before the scan. Image and journal determine a run, so running the scan again from its
+beginning reaches the same position: of a halted scan only its beginning has to be kept, and a step back is a run to a smaller
+count. The image of a halted scan is complete: it has all variables, with temporaries and parameters in their frames (no
+register holds any). `Layout.SCAN` is still that of the scan.
 
-Other code pays nothing: this is another flavour, which the owner of the engine puts in place between two scans. It is
-observed code too (`observer`). Statements that come from nobody's text (no site) are passed over, as are the library, the
-system program and the plant: nothing is told of them, but that a library's accesses are told as those of the statement
-that called it.
+Other code pays nothing: this is a separate flavour, which the owner of the engine puts in place between two scans. It is
+observed code too (`observer`). It passes over statements without a site, and those of the library, the system program and the
+plant, and reports nothing of them, except that it reports the accesses of a library function as those of the statement that
+called it.
 """
 
 from abc import abstractmethod
@@ -39,7 +39,7 @@ class Frame:
 
 
 def frame_of(pou: Pou, instance: int, site: int, memory: bytearray) -> Frame:
-    """The frame of a POU that runs now: a method's instance is read from where its THIS stands."""
+    """The frame of a POU that runs now; the instance of a method is read from its THIS."""
     this = pou.frame.members.get("THIS") if pou.kind == "function" else None
     if this is None or this.section is not Section.IN_OUT:
         return Frame(pou, instance, site)
@@ -79,8 +79,8 @@ class Hook(Protocol):
 
 
 class DebugEngine(Engine):
-    """`run` ends with `Reason.HALTED` when the hook halts. Then the image stands inside of the scan. To go on, the owner
-    puts back `begin` and runs again, with a hook that lets the scan pass up to where it wants to be."""
+    """`run` ends with `Reason.HALTED` when the hook halts. The image is then that inside of the scan. To continue, the owner
+    restores `begin` and runs again, with a hook that lets the scan pass up to the position that it wants."""
 
     sites: Sites
     observer: Observer
@@ -106,7 +106,7 @@ class DebugEngine(Engine):
     @property
     @abstractmethod
     def count(self) -> int:
-        """Statements that have begun in the scan that is halted (the one it stands before included) or ran last."""
+        """Statements that have begun in the scan that is halted (including the next one) or ran last."""
 
     @abstractmethod
     def frames(self) -> tuple[Frame, ...]:

@@ -28,12 +28,12 @@ class Reason(StrEnum):
     DONE = "done"
     """The scans asked for are run."""
     INTERRUPTED = "interrupted"
-    """Somebody called `interrupt`: the engine stands between two scans."""
+    """Somebody called `interrupt`: the engine is between two scans."""
     ASKED = "asked"
     """The program asked for something (`Layout.ASKED_COUNT` is not 0) in the scan that just ended."""
     CONDITION = "condition"
-    """The condition holds after the scan that just ended. It comes before ASKED where both are so: what was asked for
-    stands in the image in any case, but that a condition held is not found out later."""
+    """The condition holds after the scan that just ended. It takes precedence over ASKED: requests of the program stay in the
+    image, but nobody can find out later that the condition held."""
     TRAP = "trap"
     """The program trapped; the scan is not counted, phase 4 did not run."""
     HALTED = "halted"

@@ -61,7 +61,7 @@ class Sampling:
 
     @property
     def full(self) -> bool:
-        """Whether there is no room for another row."""
+        """Whether there is no room for one more row."""
         return self.waiting >= self.rows
 
     @property
@@ -83,7 +83,7 @@ class Sampling:
         return np.concatenate((self._ring[first:], self._ring[: first + count - self.rows]))
 
     def write(self, scan: int, valid: int, values: Sequence[int]) -> bool:
-        """A row, as an engine in Python writes it; false when there is no room for another one."""
+        """Adds a row, for an engine in Python; false when there is no room for one more."""
         self._block[3] = scan + 1
         written = self._block[1]
         row = np.array([scan, valid, *values], dtype=np.uint64)

@@ -58,7 +58,7 @@ def modulo(a: int, b: int) -> int:
     return -rest if a < 0 else rest
 
 
-# An operator stands in the closure itself: a call of its function would take as long again.
+# Each closure has its operator written out: a call of a function for it would double the time.
 
 
 def compare(op: str, left: Operand, right: Operand) -> Operand:

@@ -99,7 +99,7 @@ class DebugObserver(ReferenceObserver):
         return body
 
     def connected(self, instance: ProgramInstance, run: Run) -> Run:
-        """Lines of a CONFIGURATION: they stand in a frame of their program instance, which does not run yet."""
+        """Lines of a CONFIGURATION: they run in a frame of their program instance, which does not run yet."""
         frames, frame = self._frames, (instance.pou, instance.offset, None)
 
         def lines(nobody: int) -> int:

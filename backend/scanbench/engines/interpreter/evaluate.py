@@ -172,7 +172,7 @@ def shown(type: Type, value: Value) -> str:
 
 
 def bytes_of(type: Type, value: Value) -> bytes:
-    """A value as it stands in an image."""
+    """The bytes of a value in an image."""
     if isinstance(value, bytes):
         return value
     made = bytearray(type.size)

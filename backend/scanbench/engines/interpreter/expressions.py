@@ -188,7 +188,7 @@ class Expressions(ABC):
     def _recorder(self, number: int) -> Callable[[int, int], None]:
         record, caller, site = self.bodies.record, self.caller, self.pou.first_check + number
         this = self.pou.this
-        if this is not None:  # the method's instance stands in its slot
+        if this is not None:  # its slot holds the instance of the method
             memory, at = self.memory, self.pou.frame_offset + this.offset
             return lambda instance, value: record(site, int.from_bytes(memory[at : at + 4], "little"), value)
         if caller is None:

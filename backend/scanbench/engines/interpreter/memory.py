@@ -20,7 +20,7 @@ CANONICAL_NAN = {4: bytes.fromhex("0000c07f"), 8: bytes.fromhex("000000000000f87
 
 
 def packing(type: Elementary) -> struct.Struct:
-    """How the value of a type stands in memory."""
+    """How memory represents a value of a type."""
     if type.kind is Kind.REAL:
         return struct.Struct("<f" if type.size == 4 else "<d")
     signed, unsigned = CODES[type.size]

@@ -55,7 +55,7 @@ class Places:
         return place.offset + (self.frame_offset if place.base is Base.FRAME else 0)
 
     def reference(self, place: Place, size: int = 0) -> Reference:
-        """The reference to a place. `size` bytes at least must be in the image behind a reference that is followed."""
+        """The reference to a place. The target of a reference that is followed must have at least `size` bytes in the image."""
         start = self._start(place, size)
         if not place.indices:
             return start
@@ -157,8 +157,8 @@ class Places:
         return lambda instance: reference(instance) & BYTE_OFFSET
 
     def _in_bits(self, place: Place) -> bool:
-        behind = place.slot is not None or place.reference is not None
-        return place.type.kind is Kind.BOOL and (place.bit is not None or behind)
+        referenced = place.slot is not None or place.reference is not None
+        return place.type.kind is Kind.BOOL and (place.bit is not None or referenced)
 
     def read(self, place: Place) -> Read:
         """The value of a place."""

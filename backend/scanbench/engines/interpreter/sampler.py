@@ -18,11 +18,11 @@ class Sampler:
 
     @property
     def full(self) -> bool:
-        """Whether there is no room for another row."""
+        """Whether there is no room for one more row."""
         return self._sampling.full
 
     def sample(self) -> bool:
-        """After a scan that has ended; false when there is no room for another row."""
+        """Samples after a scan that has ended; false when there is no room for one more row."""
         sampling = self._sampling
         scan = int.from_bytes(self._memory[Layout.SCAN : Layout.SCAN + 8], "little") - 1
         if scan % sampling.every or scan < sampling.next:

@@ -69,7 +69,7 @@ class Compiler:
         return build
 
     def build_soon(self, program: Program) -> Build:
-        """Code that runs soon: of each part the best that is there; what is not `finished` is left to be optimised behind.
+        """Code that runs soon: of each part the best that exists; parts that are not `finished` are optimised later, in the background.
 
         Of a large program that has no part in common with the last one, the whole is compiled at once: that takes half
         the time that its parts take. Then `divide` comes before the optimisation.
@@ -79,7 +79,7 @@ class Compiler:
             return self._whole(program)
         build = self.emitted(program)
         self.take_known(build)
-        # the first only: each run of LLVM's passes leaves some memory behind, and edits are many
+        # only the first program: each run of LLVM's passes leaks some memory, and there are many edits
         if first and sum(len(part.text) for part in build.pending) <= AT_ONCE:
             build.fast |= {part: self._compiled(part, FAST, build.timings) for part in build.pending}
         build.quick = {part: self._compiled(part, QUICK, build.timings) for part in build.pending}

@@ -7,7 +7,7 @@ from scanbench.engines.native.emit_types import has_members
 from scanbench.program.program import Place, Pou, Stmt
 
 ANY = ""
-"""Stands for every variable: written through a reference, or as a whole structure."""
+"""Means every variable: for a write through a reference, or of a whole structure."""
 
 
 class Effects:
@@ -47,7 +47,7 @@ def _name(place: Place) -> str:
 
 
 def plain(place: Place) -> bool:
-    """Whether it stands at a fixed place, in whole bytes."""
+    """Whether the place has a fixed offset and consists of whole bytes."""
     return place.slot is None and place.reference is None and not place.indices and place.bit is None
 
 

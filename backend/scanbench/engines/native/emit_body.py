@@ -125,7 +125,7 @@ class Body:
         self.leave = "leave"
         """Block that RETURN goes to."""
         self.site: int | None = None
-        """Observed code: the site of the statement that is being emitted, if it has one or stands inside of one."""
+        """Observed code: the site of the statement that is being emitted, or of the statement around it, if there is one."""
         self.frame = "%frame"
         """Debugged code: what is known of the run of this body."""
         self.idle = ""
@@ -162,7 +162,7 @@ class Body:
 
     @contextmanager
     def instance(self, inner: Self) -> "Iterator[None]":
-        """Base.SELF counts from another instance meanwhile."""
+        """Meanwhile Base.SELF counts from the instance `inner`."""
         outer, counters = self.self, self.counters
         self.self, self.counters = inner, {}
         try:

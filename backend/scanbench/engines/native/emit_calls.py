@@ -57,7 +57,7 @@ def value(body: Body, expr: Expr, disturbed: bool) -> Held:
 
 
 def _call(body: Body, call: CallFunction) -> Held | None:
-    """Runs the function; gives its result, where an aggregate stands in its frame until it is called again."""
+    """Runs the function; gives its result. An aggregate stays in the function's frame until the next call of it."""
     signature = body.unit.signature(call.pou)
     given = [f"ptr {body.image}"]
     outputs: list[tuple[Parameter, str, Place]] = []

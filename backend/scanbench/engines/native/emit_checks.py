@@ -12,7 +12,7 @@ from scanbench.program.program import Base, Limit, Place, Violates
 from scanbench.program.types import ULINT, Elementary
 
 LIST = "@violations"
-"""The name of the number that says where in the image the list stands."""
+"""The name of the number that holds the offset of the list in the image."""
 
 LIST_TAG = "#violations"
 """Of the call that records: no variable of the program is touched by it, but those in the header, which have no tag."""
@@ -39,8 +39,8 @@ entry:
 next:
   %i = phi i64 [ 0, %entry ], [ %after, %other ]
   %start = mul i64 %i, {bytes}
-  %behind = add i64 %start, 8
-  %at = getelementptr inbounds i8, ptr %head, i64 %behind
+  %payload = add i64 %start, 8
+  %at = getelementptr inbounds i8, ptr %head, i64 %payload
   %timesat = getelementptr inbounds i8, ptr %at, i64 4
   %instanceat = getelementptr inbounds i8, ptr %at, i64 8
   %more = icmp ult i64 %i, %n

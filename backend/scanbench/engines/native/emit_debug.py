@@ -80,7 +80,7 @@ define void @debug.leave() {{
   ret void
 }}
 define i1 @debug.statement(ptr %frame, i32 %site) {{
-; the statement is to begin; whether to halt in front of it
+; the statement is about to begin; decides whether to halt before it
   %silent = load i8, ptr {silent}, align 1
   %heard = icmp eq i8 %silent, 0
   br i1 %heard, label %begins, label %on

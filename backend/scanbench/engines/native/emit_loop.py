@@ -110,8 +110,8 @@ sleep:
   call void @sleep(ptr %ctl, i64 %now, i64 %deadline)
   br label %look
 start:
-  %behind = sub i64 %now, %deadline
-  %missed = icmp sgt i64 %behind, %period
+  %lateness = sub i64 %now, %deadline
+  %missed = icmp sgt i64 %lateness, %period
   %one = zext i1 %missed to i64
   %missesat = getelementptr i8, ptr %pace, i64 48
   %misses = load i64, ptr %missesat, align 8
@@ -119,7 +119,7 @@ start:
   store i64 %newmisses, ptr %missesat, align 8
   %periods = mul i64 %period, {late_periods}
   %tolerated = call i64 @llvm.smax.i64(i64 %periods, i64 {late_ns})
-  %lost = icmp sgt i64 %behind, %tolerated
+  %lost = icmp sgt i64 %lateness, %tolerated
   %from = select i1 %lost, i64 %now, i64 %deadline
   store i64 %from, ptr %deadlineat, align 8
   %late = sub i64 %now, %from

@@ -24,7 +24,7 @@ class ModuleText:
         """Suffix of an access to this variable.
 
         One leaf of type-based alias analysis per variable says that different variables do not overlap, at linear cost.
-        All areas of the model share one, as they may; the empty name stands for any variable.
+        All areas of the model share one leaf, because they may overlap; the empty name means any variable.
         """
         if variable.startswith("@"):
             variable = "@"
@@ -43,7 +43,7 @@ class ModuleText:
         self._globals[name] = text
 
     def refer(self, name: str, text: str) -> None:
-        """A variable that stands in another module, unless this one defines it."""
+        """Declares a variable that a different module defines, unless this one does."""
         self._globals.setdefault(name, text)
 
     def constant(self, data: bytes) -> str:

@@ -1,8 +1,8 @@
 """Observed code: a mark where a statement begins, a note where watched bits are read; see `engines.observe`.
 
-Both go to memory beside the image, whose addresses stand in `STATE`. A read costs a look into a map of the watched bits, and
-only where the place may lie in an area of the model. The statement is a number in the code; before a call of what has no
-statements of its own, as the library's, it is put where that finds it.
+Both go to memory outside of the image, whose addresses are in `STATE`. A read costs a look into a map of the watched bits, and
+only if the place may be in an area of the model. The statement is a number in the code; before a call of code without
+statements of its own, such as the library's, the number is stored where that code finds it.
 """
 
 from collections.abc import Iterator
@@ -40,8 +40,8 @@ entry:
   %inside = icmp ult i64 %offset, {end}
   br i1 %inside, label %start, label %done
 start:
-  %behind = add i64 %offset, %size
-  %last = call i64 @llvm.umin.i64(i64 %behind, i64 {end})
+  %stop = add i64 %offset, %size
+  %last = call i64 @llvm.umin.i64(i64 %stop, i64 {end})
   %map = load ptr, ptr getelementptr (i8, ptr {state}, i64 {map}), align 8
   br label %next
 next:
@@ -128,8 +128,8 @@ append:
 define internal ptr @observed.entry(ptr %log, i32 %index) #0 {{
   %wide = zext i32 %index to i64
   %distance = mul i64 %wide, {entry_bytes}
-  %behind = add i64 %distance, {entries}
-  %at = getelementptr inbounds i8, ptr %log, i64 %behind
+  %position = add i64 %distance, {entries}
+  %at = getelementptr inbounds i8, ptr %log, i64 %position
   ret ptr %at
 }}"""
 

@@ -109,7 +109,7 @@ def compare(body: Body, op: str, type: Elementary, left: Value, right: Value) ->
 
 
 def convert(body: Body, source: Elementary, target: Elementary, value: Value) -> Value:
-    """The value in another elementary type."""
+    """The value, converted to the elementary type `target`."""
     if (source.kind, source.size) == (target.kind, target.size):
         return value
     if is_real(source):

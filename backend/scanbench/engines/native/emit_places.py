@@ -208,7 +208,7 @@ def _open(place: Place) -> bool:
 
 
 def _open_offset(body: Body, place: Place, start: str) -> str:
-    """The byte offset behind computed bounds, which may say anything: so the place is checked as a reference is."""
+    """The byte offset where bounds are computed at run time and may be wrong: the place is checked like a reference."""
     at = _summed(body, place, start)
     _check_reach(body, at, place.type.size, place)
     return at

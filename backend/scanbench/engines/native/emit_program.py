@@ -1,8 +1,8 @@
 """A program as the text of LLVM modules: one for each POU, and one for the scan.
 
-The text of a POU's module says nothing that depends on other POUs, but what it calls and where frames lie: the numbers that
-its sites count from, and where violations are listed, are numbers of the scan's module. So it stays the same when another
-POU changes, and its code can be kept.
+The text of a POU's module depends on other POUs only through what it calls and through the offsets of frames: the numbers
+from which its sites count, and the offset of the list of violations, are defined in the scan's module. So the text stays the
+same when other POUs change, and its code can be kept.
 """
 
 from collections import Counter
@@ -36,7 +36,7 @@ class Emitter:
         runs = (each for task in program.tasks for each in task.programs)
         calls = Counter(each.pou for each in (*runs, *program.plant))
         self.housed = {pou for pou, count in calls.items() if count == 1 and inlining.shared(pou)}
-        """Small programs, which stand in the module of the scan, and become part of it."""
+        """Small programs, which are emitted into the module of the scan."""
         # a bound that all programs of about this size have
         self._size = 1 << program.layout.size.bit_length() - 1
 

@@ -124,8 +124,8 @@ def _delete(body: Body, expr: Intrinsic) -> list[Piece]:
 
 def _replace(body: Body, expr: Intrinsic) -> list[Piece]:
     (s, s2), (n, p) = _arguments(body, expr)
-    behind = plus(body, s.length, "1")
-    start = minus(body, _clamped(body, p, "1", behind), "1")
+    after = plus(body, s.length, "1")
+    start = minus(body, _clamped(body, p, "1", after), "1")
     count = _clamped(body, n, "0", LONGEST)
     end = pick(body, "smin", plus(body, start, count), s.length)
     return [_part(body, s, "0", start), s2, _part(body, s, end, minus(body, s.length, end))]

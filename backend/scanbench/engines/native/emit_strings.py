@@ -20,7 +20,7 @@ class Piece:
     length: str
     most: int
     variable: str | None = None
-    """The variable they stand in: '' for any, None for a constant or a buffer of ours."""
+    """The variable that has these characters: '' for any, None for a constant or an own buffer."""
     start_of: tuple[Place, Self] | None = None
     """The variable whose first characters these are, and the instance that its Base.SELF counts from."""
     width: int = 1
@@ -140,7 +140,7 @@ def settled(body: Body, pieces: list[Piece]) -> list[Piece]:
 
 
 def assign(body: Body, target: Place, pieces: list[Piece]) -> Address:
-    """Stores the whole in a variable, which the pieces may stand in; gives where that is."""
+    """Stores the whole in a variable, of which the pieces may be parts; gives its address."""
     pieces = cut(body, pieces, string(target.type).capacity)
     where = address(body, target)
     data = body.text.address(where.pointer, STRING_HEAD)
@@ -163,7 +163,7 @@ def store_length(body: Body, where: Address, length: str) -> None:
 
 
 def _in_order(body: Body, target: Place, data: str, pieces: list[Piece], tag: str) -> str:
-    """Only the first piece may stand in the target: from front to back nothing is overwritten before it is read."""
+    """Joins from front to back. Only the first piece may be a part of the target, so no piece is overwritten before it is read."""
     if pieces and _starts(body, pieces[0], target):
         return _join(body, data, pieces[1:], tag, pieces[0].length)
     return _join(body, data, pieces, tag)
@@ -205,7 +205,7 @@ def copy(body: Body, to: str, piece: Piece, tag: str) -> None:
 
 
 def _starts(body: Body, piece: Piece, target: Place) -> bool:
-    """Whether the piece already stands where it belongs. Offsets say nothing across the border of an instance."""
+    """Whether the piece is already at the beginning of the target. Offsets in different instances cannot be compared."""
     if piece.start_of is None:
         return False
     other, instance = piece.start_of

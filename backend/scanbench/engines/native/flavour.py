@@ -19,7 +19,7 @@ class Flavour:
     exact = False
     """Whether it matters which statements and reads are run: so none is that the program does not ask for."""
     whole_image = False
-    """Whether all variables stand in the image at all times, and none in a register."""
+    """Whether all variables are in the image at all times, and none in a register."""
 
     def declare(self, unit: "Unit") -> None:
         """The memory that the code and the engine share, in a module of its own or that of the whole."""
@@ -31,7 +31,7 @@ class Flavour:
     # ---- what a POU's code depends on -------------------------------------------------------------------------
 
     def key(self, pou: Pou) -> object:
-        """What the flavour makes of this POU, to be compared with what it made of it in another program."""
+        """A value that differs if the flavour would emit this POU differently than it did for an earlier program."""
         return None
 
     def looks(self, pou: Pou) -> tuple[Expr, ...]:

@@ -59,7 +59,7 @@ number:
 
 SCAN = """\
 define internal i8 @s.at(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
-; the character at a position, or 0 behind the end
+; the character at a position, or 0 after the end
   %in = icmp ult i64 %i, %n
   br i1 %in, label %read, label %end
 read:
@@ -91,7 +91,7 @@ done:
   ret i64 %i
 }
 define internal i64 @s.sign(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
-; the position behind a sign
+; the position after a sign
   %c = call i8 @s.at(ptr %a, i64 %n, i64 %i)
   %plus = icmp eq i8 %c, 43
   %minus = icmp eq i8 %c, 45
@@ -101,7 +101,7 @@ define internal i64 @s.sign(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
   ret i64 %after
 }
 define internal i64 @s.digits(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
-; the position behind digits
+; the position after digits
 entry:
   br label %next
 next:
@@ -168,9 +168,9 @@ entry:
   %count1 = sub i64 %whole, %first
   %c = call i8 @s.at(ptr %a, i64 %n, i64 %whole)
   %point = icmp eq i8 %c, 46
-  %behind = add i64 %whole, 1
-  %fractionend = call i64 @s.digits(ptr %a, i64 %n, i64 %behind)
-  %fraction = sub i64 %fractionend, %behind
+  %fractionat = add i64 %whole, 1
+  %fractionend = call i64 @s.digits(ptr %a, i64 %n, i64 %fractionat)
+  %fraction = sub i64 %fractionend, %fractionat
   %count2 = select i1 %point, i64 %fraction, i64 0
   %count = add i64 %count1, %count2
   %none = icmp eq i64 %count, 0

@@ -1,4 +1,4 @@
-"""What observed machine code notes, and where: the memory behind `emit_observed.STATE`."""
+"""The memory to which `emit_observed.STATE` points: what observed machine code notes, and where."""
 
 import ctypes
 import struct

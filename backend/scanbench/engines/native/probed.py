@@ -1,7 +1,7 @@
 """Engines with probes, and their machine code; see `engines.probe`.
 
-Only the modules that the probes stand in are compiled again, and those that have copies of such a POU inside; the others come
-from where the run flavour keeps them.
+Only modules with probes, and modules into which a POU with a probe was inlined, are compiled again; the others are those that
+the run flavour keeps.
 """
 
 import ctypes

@@ -74,7 +74,7 @@ done:
 ORDER = """\
 declare i32 @memcmp(ptr, ptr, i64)
 define internal i64 @s.order(ptr %a, i64 %n, ptr %b, i64 %m) #0 {
-; below, equal to or above 0 as the first stands before, equals, or stands behind the second
+; negative, 0 or positive if the first string sorts before, equals, or sorts after the second
   %shorter = icmp ult i64 %n, %m
   %common = select i1 %shorter, i64 %n, i64 %m
   %found = call i32 @memcmp(ptr %a, ptr %b, i64 %common)

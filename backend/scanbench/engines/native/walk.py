@@ -52,7 +52,7 @@ class Use(Enum):
     WRITE = 1
     REFERENCE = 2
     CALL = 3
-    """A block instance stands there and is run."""
+    """The place is a block instance, and the instance is run."""
 
 
 Seen = tuple[Place, Use] | Pou
