@@ -78,7 +78,9 @@ def sources_and_damage(path: Path, models: Mapping[str, Model]) -> tuple[Sources
         if model is None:
             raise Unreadable(f"there is no model {recording.about.model} here: the run was recorded on one")
         if model_fingerprint(model) != recording.about.model_fingerprint:
-            raise Unreadable(f"the run was recorded on another description of the model {model.name} than the one here")
+            raise Unreadable(
+                f"the run was recorded with a different description of the model {model.name} than the one here"
+            )
         with reader.reading():
             sources = sources_in(recording.programs[reader.versions()[-1]])
         return replace(sources, version=max(recording.programs)), recording.damage

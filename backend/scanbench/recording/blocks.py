@@ -129,7 +129,7 @@ def read_state(file: RunFile, checkpoint: Checkpoint, size: int) -> bytes:
 
 
 def _check_header(file: RunFile, checkpoint: Checkpoint, state: bytes) -> None:
-    """A state knows its own scan: a block that says another is not believed, as a replay up to there might have no end."""
+    """Refuses a block whose state has a different scan than the block: a replay to the scan of the block might never end."""
     header = Header(state)
     if header.scan != checkpoint.scan:
         raise file.unreadable(

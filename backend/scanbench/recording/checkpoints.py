@@ -11,7 +11,7 @@ ENTRIES = 2_000
 _FIRST = 1_000
 """Scans, when nothing was measured yet."""
 _SHARE = 64
-"""A checkpoint at least every so many parts of the file's limit, so that there is always something to drop behind."""
+"""A checkpoint is taken at least every 1/64 of the file's limit, so that the file can always be cut at a checkpoint."""
 
 
 class Checkpoints:
@@ -37,8 +37,8 @@ class Checkpoints:
         if (
             busy_ns >= EVERY_NS
             or scans >= BETWEEN
-            or recording.behind >= ENTRIES
-            or (recording.behind and recording.grown > recording.bounds.limit // _SHARE)
+            or recording.entries_since >= ENTRIES
+            or (recording.entries_since and recording.grown > recording.bounds.limit // _SHARE)
         ):
             self.take(resource)
 
@@ -57,6 +57,6 @@ class Checkpoints:
     def _since(self, resource: Resource) -> tuple[int, int]:
         """Time in scans and scans since the last checkpoint."""
         measured = resource.measured
-        if measured is not self._measured:  # another program: it is measured again
+        if measured is not self._measured:  # a new program: measurement starts from 0
             return measured.busy_ns, measured.scans
         return measured.busy_ns - self._busy_ns, measured.scans - self._scans

@@ -45,7 +45,7 @@ def _deeds(value: object, areas: set[str]) -> Iterator[str]:
 
 
 def program_digest(program: Program) -> str:
-    """Of the layout and the first image: a state of a program with another digest means nothing."""
+    """Digest of the layout and the first image. A state fits only a program with the same digest."""
     layout = program.layout
     parts = [repr((layout.areas, layout.state_size, layout.size, layout.violations, program.interval_ns))]
     if layout.globals is not None:

@@ -22,7 +22,7 @@ def flaws(file: RunFile, found: Contents, read_only: bool) -> str:
     text = "" if file.damage is None else _put_aside(file, file.damage, found.last_scan, read_only)
     if found.about.libm != libm_fingerprint():
         text += "; " * bool(text) + (
-            "recorded on a machine with another mathematical library: results of SIN, EXP and the like may differ "
+            "recorded on a machine with a different mathematical library: results of SIN, EXP and the like may differ "
             "in their last digit, and a replay with them"
         )
     return text

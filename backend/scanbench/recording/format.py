@@ -159,7 +159,7 @@ class RunFile:
         return block
 
     def append_raw(self, data: bytes) -> None:
-        """Appends whole blocks, copied from another run file."""
+        """Appends whole blocks that were copied from a different run file."""
         self._put(data)
         self.end += len(data)
         self._marked = None
@@ -215,8 +215,8 @@ class RunFile:
             offset = block.end
 
     def scan_blocks(self) -> Iterator[Block]:
-        """Every good block behind `end`, in the beginning all of them, each with a right checksum; `end` moves after them,
-        `damage` says why they end."""
+        """Every good block after `end`, each with a right checksum: all blocks of a file just opened. `end` moves past them,
+        and `damage` says why they end."""
         size = os.fstat(self.fd).st_size
         offset, block = self.end, None
         self.damage = None
@@ -286,9 +286,9 @@ class RunFile:
     def _after(self, offset: int, size: int) -> tuple[int, Counter[Kind]]:
         """The last scan that a good block after the damage names, and how many there are of each kind, as far as that is
         found with reasonable trouble."""
-        last, behind, left, lost = -1, offset, _SEARCH, Counter[Kind]()
+        last, after, left, lost = -1, offset, _SEARCH, Counter[Kind]()
         for at in self._places(offset, size):
-            if at < behind:
+            if at < after:
                 continue
             if left <= 0:
                 break
@@ -296,7 +296,7 @@ class RunFile:
             left -= max(_LOOK, claimed.length if claimed is not None and claimed.end <= size else 0)
             block = self._good_block(at, size)
             if block is not None:
-                last, behind = max(last, block.scan), block.end
+                last, after = max(last, block.scan), block.end
                 lost[block.kind] += 1
         return last, lost
 

@@ -56,7 +56,7 @@ def run_headless(
     error, mode PROGRAM) scans pass without it; the `agenda` enters what is due before the commands for a seam. A trap ends the run at once, and so does the first scan after which `until`
     holds, a condition for the program that the run begins with.
 
-    A `recording` that stands at the cold start gets all of it, with checkpoints on the way, and is left open; `entries`
+    A `recording` that is still at the cold start receives the whole run, with checkpoints, and is left open; `entries`
     has only what is still in there. Asked by the `interrupt`, the run ends after the scan that is running. `on_begin` is told
     the PLC before its first scan.
     """

@@ -1,7 +1,7 @@
-"""What has to stay of the front of a journal when it is dropped: entries that still mean something to what comes behind.
+"""Which entries have to stay when the beginning of a journal is dropped: those on which later entries still depend.
 
-That are the changes of the program, and of each fold the entries that its state is made of. Nothing is known of folds
-but that their state is a mapping, of which each entry changes some keys, or one value as a whole.
+These are the changes of the program, and for each fold the entries that its state is made of. All that is known of a fold
+is that its state is a mapping of which each entry changes some keys, or one value as a whole.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

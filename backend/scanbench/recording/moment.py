@@ -48,12 +48,12 @@ def seam(journal: Journal, scan: int, inside: bool) -> int:
     """How many entries lead to the seam before a scan; `inside`: to where the scan began that ran there last."""
     end = bisect_right(journal, scan, key=attrgetter("scan"))
     if inside:
-        anew = end
-        while anew and journal[anew - 1].scan == scan:
-            anew -= 1
-            if journal[anew].plan.starts_anew:
+        start = end
+        while start and journal[start - 1].scan == scan:
+            start -= 1
+            if journal[start].plan.starts_anew:
                 break
-            if isinstance(journal[anew].command, Trapped):
-                end = anew
+            if isinstance(journal[start].command, Trapped):
+                end = start
                 break
     return front(journal, scan, end)

@@ -10,7 +10,7 @@ from scanbench.runtime.trap import Trapped
 
 
 def run_on(resource: Resource, live: Moment, until: int) -> Stop:
-    """Runs a resource that stands in the past of `live` on, to the seam before scan `until`; see `Timeline.go_on`."""
+    """Continues a resource that shows an earlier scan of `live`, up to the seam before scan `until`; see `Timeline.go_on`."""
     loaded = resource.loaded
     while True:
         following = _enter_front(resource, live.journal)

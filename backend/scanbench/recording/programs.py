@@ -71,7 +71,7 @@ class ProgramCache:
         loaded = self._loaded.pop(version, None)
         if loaded is None:
             loaded = self._load(version)
-        self._loaded[version] = loaded  # the last one used stands last
+        self._loaded[version] = loaded  # the dict keeps the order of use: the last one used is last
         return loaded
 
     def put(self, loaded: Loaded) -> None:
@@ -135,7 +135,7 @@ class KeptPrograms:
             if program_digest(loaded.program) != kept.digest:
                 raise NoProgram(
                     f"program version {version} of {self._recording.path.name} does not come out as it was when it was "
-                    "recorded, as another version of scanbench compiles it: open it with the version that wrote it"
+                    "recorded, because this version of scanbench compiles it differently: open it with the version that wrote it"
                 )
             self._checked.add(version)
         return loaded

@@ -1,6 +1,6 @@
 """A run file that is read: opened once, followed as it grows, never written. Whoever has a question about a run reads it here.
 
-Questions about its past go to its `timeline`, which stands at the last scan that is over; see `recording/timeline.py`.
+Questions about its past go to its `timeline`, which begins at the last scan that is over; see `recording/timeline.py`.
 """
 
 from bisect import bisect_left, bisect_right
@@ -45,7 +45,7 @@ def no_programs(kept: Mapping[int, KeptProgram]) -> Programs:
 
 
 class RunReader:
-    """Opened when it is first followed. In one thread; all that stands in the run shares the memory of its programs."""
+    """Opens the file at the first `follow`. For one thread only: all PLCs it gives share the memory of their programs."""
 
     def __init__(
         self, path: Path, programs_of: ProgramsOf, codec: Codec, texts_of: TextsOf | None = None
@@ -76,8 +76,8 @@ class RunReader:
     # ---- the file -------------------------------------------------------------------------------------------------
 
     def follow(self, until: int | None = None) -> bool:
-        """Reads on; scans before `until` are over, or all that the file knows of. False when it is another file than
-        before, so that whoever stands in it begins again. `Unreadable`."""
+        """Reads on, up to scan `until` or to the end of the file. False if the file was replaced since the last call: then
+        the caller has to start again. `Unreadable`."""
         try:
             with self.reading():
                 new, same = self._read_on()
@@ -114,7 +114,7 @@ class RunReader:
             self._all = new = recording.take_entries()
         found = recording.programs
         if any(self.kept.get(version, kept) != kept for version, kept in found.items()):
-            self._given = self._programs = None  # another run of this name, with another program of this number
+            self._given = self._programs = None  # a new run under this name: its program of this number differs
             self._lines.clear()
         self.kept.update(found)
         if self._given is None:
@@ -163,7 +163,7 @@ class RunReader:
 
     @property
     def over(self) -> int:
-        """Scans before this one are over. One that a run-time error ended is, though time stands."""
+        """Scans before this one are over. A scan that a run-time error ended is over too, though the time did not advance."""
         return self._end + _trapped(self.entries[self.front(self._end) :])
 
     def front(self, scan: int) -> int:
@@ -217,7 +217,7 @@ class RunReader:
         raise Unreadable(f"scan {scan} is not kept any more: the run begins with scan {self.first}")
 
     def state(self, resource: Resource) -> bytes | None:
-        """What the file has of the very moment at which a PLC of this run stands; None where it has nothing. `Unreadable`."""
+        """The state that the file holds for the moment of a PLC of this run; None if it holds none for it. `Unreadable`."""
         checkpoints, scan, entries = self.recording.checkpoints, resource.header.scan, len(resource.journal)
         for index in range(bisect_right(checkpoints, scan, key=_SCAN) - 1, -1, -1):
             checkpoint = checkpoints[index]
@@ -230,8 +230,8 @@ class RunReader:
                     return self.recording.state(checkpoint, resource.program.layout.state_size)
         return None
 
-    def stand(self, checkpoint: Checkpoint) -> Resource:
-        """A PLC at a checkpoint. `Unreadable`."""
+    def open_checkpoint(self, checkpoint: Checkpoint) -> Resource:
+        """A PLC with the state of a checkpoint. `Unreadable`."""
         with self.replaying(checkpoint.scan):
             return open_at(self.recording, self.programs, checkpoint, self.entries)
 
@@ -244,7 +244,7 @@ class RunReader:
     def at(self, scan: int, entries: int | None = None) -> Resource:
         """A PLC before a scan, when so many entries are all that was entered, else all up to this scan. `Unreadable`."""
         count = bisect_right(self.entries, scan, key=_SCAN) if entries is None else entries
-        resource = self.stand(self.before(scan, count))
+        resource = self.open_checkpoint(self.before(scan, count))
         self.replay(resource, scan, count)
         return resource
 
@@ -256,7 +256,7 @@ class RunReader:
         return self._timeline
 
     def goto(self, scan: int, count: int = 0) -> None:
-        """The timeline stands before a scan, or at a statement inside of it. `Unreadable`."""
+        """Moves the timeline to the seam before a scan, or to a statement inside of it. `Unreadable`."""
         refusal = self.timeline.goto(scan, count)
         if isinstance(refusal, Refusal):
             raise Unreadable(refusal.message)
@@ -264,7 +264,7 @@ class RunReader:
     def copy(self, to: Path, entries: int, scan: int, by: str) -> None:
         """A new run file that ends before `scan`, with so many entries of the journal. `Unreadable`; `OSError`."""
         resource = self.at(scan, entries)
-        self._timeline = None  # it stood on the same memory
+        self._timeline = None  # it used the same memory
         failed: list[Exception] = []
         standing = Standing(scan, entries, resource.version, resource.state)
         self.recording.copy(to, standing, by, lambda error: failed.append(error) if error is not None else None)

@@ -99,7 +99,7 @@ class _Thinning:
 
 
 class Replaced(RunFileError):
-    """Another file has taken the place of the one that is read, a smaller one mostly, or it is gone: open it again."""
+    """The file that is read was replaced, usually by a smaller one, or deleted: open it again."""
 
 
 class Recording:
@@ -224,7 +224,7 @@ class Recording:
         return self._writer.file.end - self.checkpoints[-1].block.end
 
     @property
-    def behind(self) -> int:
+    def entries_since(self) -> int:
         """Entries written since the last checkpoint."""
         return self._writer.entries - self.checkpoints[-1].entries
 
@@ -279,7 +279,7 @@ class Recording:
         """Reads what somebody else has appended since the file was opened to be read only, or since this was called last:
         `programs`, `checkpoints` and `last_scan` have it then; the new entries.
 
-        A block that is not whole yet is read another time; `damage` speaks of it until then. `Replaced` when this is not the
+        A block that is not whole yet is read by a later call; until then `damage` describes it. `Replaced` when this is not the
         file of its name any more: nothing will ever be appended to it. `RunFileError` when it cannot be understood.
         """
         file, reader = self._writer.file, self._reader
@@ -311,7 +311,7 @@ class Recording:
         return read_state(self._writer.file, checkpoint, size)
 
     def copy(self, path: Path, standing: Standing, by: str, on_done: Callable[[Exception | None], None]) -> None:
-        """A new run file that ends where `standing` says, written by the recording's thread, which calls `on_done`.
+        """Writes a new run file that ends at the seam `standing`, in the recording's thread, which then calls `on_done`.
 
         `OSError` at once when that is plainly impossible.
         """

@@ -32,7 +32,7 @@ def open_at(
     recording: Recording, programs: KeptPrograms, checkpoint: Checkpoint, entries: Sequence[Entry],
     detect: Detect | None = None, agenda: Agenda | None = None,
 ) -> Resource:  # fmt: skip
-    """A resource that stands at a checkpoint of a run file; `RunFileError` when its programs are not what they were."""
+    """A resource with the state of a checkpoint; `RunFileError` when its programs are not those of the recorded run."""
     try:
         loaded = programs.get(checkpoint.version)
     except NoProgram as error:
@@ -40,7 +40,7 @@ def open_at(
     model = loaded.program.layout.model
     if model_fingerprint(model) != recording.about.model_fingerprint:
         raise RunFileError(
-            f"{recording.path.name} was recorded on another description of the model {recording.about.model} than the "
+            f"{recording.path.name} was recorded with a different description of the model {recording.about.model} than the "
             f"one that is installed: use the models it was recorded with"
         )
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)

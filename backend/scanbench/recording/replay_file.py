@@ -73,7 +73,7 @@ def replay_file(
 def _compared(reader: RunReader, end: int, on_agreed: Callable[[int], None]) -> tuple[Resource, int]:
     """Runs from checkpoint to checkpoint, and on to `end`: the PLC there, and how many checkpoints agreed."""
     recording, entries, agreed = reader.recording, reader.entries, 0
-    resource = reader.stand(recording.checkpoints[0])
+    resource = reader.open_checkpoint(recording.checkpoints[0])
     last = recording.checkpoints[0].scan
     for checkpoint in recording.checkpoints:
         if checkpoint.scan > end:

@@ -19,7 +19,7 @@ class Rewritten:
     tail: int
     """From this byte on all blocks of the source follow each other in the new file too."""
     upto: int
-    """Bytes of the source that it stands for; what was appended after them is still to be copied."""
+    """Bytes of the source that are in the new file; what was appended after them is still to be copied."""
     blocks: dict[int, Block] = field(default_factory=dict)
     """Where keyframes and deltas before the tail are now, by their old offsets."""
 

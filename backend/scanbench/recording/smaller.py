@@ -24,7 +24,7 @@ class Bounds:
         self._enough, self._enough_entries = limit, ENTRY_LIMIT
 
     def set_limit(self, limit: int) -> None:
-        """Another bound for the file."""
+        """Sets a new bound for the file, in bytes."""
         self.limit = self._enough = limit
 
     def over(self, bytes: int, entries: int) -> bool:
@@ -65,12 +65,12 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     plan = plan_thinning(seen.checkpoints, seen.end - limit * 3 // 4, excess_entries)
     cut, kept = plan.cut, tuple[int, ...]()
 
-    def keep(block: Block, in_front: int) -> bool:
+    def keep(block: Block, before: int) -> bool:
         if block.offset in plan.dropped:
             return False
         if block.kind is Kind.PROGRAM or cut is None or block.offset >= cut.block.offset:
             return True
-        return block.kind is Kind.ENTRY and in_front in kept
+        return block.kind is Kind.ENTRY and before in kept
 
     about = replace(
         seen.about,
@@ -110,15 +110,15 @@ class Standing:
 
 
 def write_copy(seen: Seen, path: Path, standing: Standing) -> None:
-    """A new run file that ends with this state, and has before it what led there; `OSError`, `RunFileError`."""
+    """Writes a new run file with all that led to this state, and the state at its end; `OSError`, `RunFileError`."""
     refuse_existing(path)
 
-    def keep(block: Block, in_front: int) -> bool:
+    def keep(block: Block, before: int) -> bool:
         if block.kind is Kind.ENTRY:
-            return in_front < standing.entries
+            return before < standing.entries
         if block.kind is Kind.MARK:  # how the original is driven
             return False
-        return block.kind is Kind.PROGRAM or (block.scan <= standing.scan and in_front <= standing.entries)
+        return block.kind is Kind.PROGRAM or (block.scan <= standing.scan and before <= standing.entries)
 
     made = rewrite(seen.file, seen.end, part_of(path), seen.about.packed(), keep)
     try:

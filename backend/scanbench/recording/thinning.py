@@ -86,8 +86,8 @@ def _place_of_cut(
     for each in checkpoints:
         if each.whole and each is not begin:
             last = each
-            in_front = each.block.offset - begin.block.offset - thinned
-            if in_front >= excess and each.entries - begin.entries >= excess_entries:
+            before = each.block.offset - begin.block.offset - thinned
+            if before >= excess and each.entries - begin.entries >= excess_entries:
                 return each
         if each.block.offset in dropped:
             thinned += each.block.size

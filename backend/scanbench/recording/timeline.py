@@ -43,10 +43,10 @@ class Timeline:
         self._kept = programs
         self._checkpoints = Checkpoints(recording)
         self._live: Moment | None = None
-        """Where the PLC stands while the past is shown."""
+        """The state of the live PLC while an earlier scan is shown."""
         self._sent = 0
         self._whole = True
-        """What is shown began with the journal as it is: nothing was dropped since."""
+        """Whether the journal still has all entries that it had when the earlier scan was first shown."""
 
     @classmethod
     def begin(
@@ -88,7 +88,7 @@ class Timeline:
         return cls(recording, resource, programs)
 
     def close(self) -> None:
-        """Notes where the run stands, and closes the file."""
+        """Notes the scan that the run has reached, and closes the file."""
         self.recording.note(self.live_scan)
         self.recording.close()
 
@@ -178,7 +178,7 @@ class Timeline:
         self.recording.drive(self.live_scan, driven)
 
     def note(self) -> None:
-        """Marks where the run stands; keeps the file within its bounds. A few times a second is enough."""
+        """Marks the scan that the run has reached, and keeps the file within its bounds. A few calls a second are enough."""
         trim = self.recording.tidy()
         if trim is not None:
             self._forget(trim.kept, trim.cut)
@@ -232,16 +232,16 @@ class Timeline:
         return self.goto(min(shown + scans, self._live.scan))
 
     def return_live(self) -> None:
-        """Shows the PLC where it stands; it goes on when somebody lets it run."""
+        """Shows the live PLC again; it continues when somebody lets it run."""
         if self._live is not None:
             self._live.restore(self.resource)
             self._live, self._whole = None, True
 
     def copy(self, path: Path, scan: int | None, by: str, on_done: Callable[[Refusal | None], None]) -> None:
-        """A new run file that ends before `scan`, or where the PLC stands now: for a branch, a clone, an export.
+        """Writes a new run file that ends before `scan`, or with the current state: for a branch, a clone, an export.
 
-        All that it takes of the PLC is taken now; it is written in another thread, where `on_done` is called when that is
-        done. When it is refused at once, `on_done` is called at once.
+        The state is taken now; a different thread writes the file, and calls `on_done` when it has done so. If the copy is
+        refused at once, `on_done` is called at once.
         """
 
         def done(error: Exception | None) -> None:
@@ -265,14 +265,14 @@ class Timeline:
         """Runs what is shown of the past on, with the resource's hook, to the seam before scan `until`, at most to that
         before the PLC's next scan. With `until` after that and the PLC in the middle of it, the hook has to halt there.
 
-        HALTED: the hook halted it; INTERRUPTED: it stands somewhere on the way, perhaps as another program runs from here on.
+        HALTED: the hook halted it; INTERRUPTED: it stopped before `until`, perhaps because a different program follows here.
         """
         if self._live is None or not self._whole:
             raise RuntimeError("there is no past to go on in: go to a scan of it first")
         return run_on(self.resource, self._live, until)
 
     def rewind(self) -> None:
-        """Puts the live PLC back to the beginning of the scan in which it stands or has just trapped.
+        """Puts the live PLC back to the beginning of the scan in which it is halted or has just trapped.
 
         For code that cannot be gone on with inside of a scan. `Diverged` and the like when the run cannot be repeated.
         """
@@ -329,7 +329,7 @@ class Timeline:
         return None
 
     def _replay(self, entries: Sequence[Entry], scan: int) -> None:
-        """From where the resource stands to the seam before a scan, with nobody listening."""
+        """Runs the resource from its present state to the seam before a scan, without a listener."""
         with self.resource.listening.instead(None):
             replay(self.resource, entries, scan)
 

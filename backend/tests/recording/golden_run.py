@@ -1,6 +1,6 @@
 """Makes the golden run file: `python -m tests.recording.golden_run` writes `golden/format-N.run`, and beside it what it comes to.
 
-It is made once for each format of run files: a newer program must replay it byte for byte. It is made anew only together with
+It is made once for each format of run files: a newer program must replay it byte for byte. It is made again only together with
 a new format, or while nothing was released.
 """
 
@@ -99,7 +99,7 @@ COMMANDS: tuple[tuple[int, Command], ...] = (
     (131, Restart("Ada", "power")),
     (150, Restart("Ada", "cold")),
 )  # fmt: skip
-"""In front of which scan what is entered. In scan 130 a run-time error ends the program until it is restarted."""
+"""The scans before which commands are entered. In scan 130 a run-time error ends the program until it is restarted."""
 
 
 @dataclass(frozen=True, slots=True)

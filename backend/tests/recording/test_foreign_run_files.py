@@ -131,7 +131,7 @@ def test_many_programs_are_not_read_for_ever(tmp_path: Path, monkeypatch: pytest
 
 
 @pytest.mark.parametrize("hit", ["short keyframe", "long keyframe", "short delta", "packed bomb"])
-def test_a_state_of_another_size_is_never_used(hit: str, tmp_path: Path) -> None:
+def test_a_state_of_a_different_size_is_never_used(hit: str, tmp_path: Path) -> None:
     path = tmp_path / "run"
     timeline = begun(path)
     state = timeline.resource.state
@@ -174,7 +174,7 @@ def test_a_plan_that_leads_outside_is_refused(patch: Patch, tmp_path: Path) -> N
     assert open_files() == before
 
 
-def test_looking_for_blocks_behind_damage_has_an_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_search_for_blocks_after_damage_has_an_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A file full of beginnings of blocks that all reach to its end."""
     monkeypatch.setattr("scanbench.recording.format._SEARCH", 1 << 24)
     path = write(tmp_path / "run", [*FIRST, STATE])
@@ -196,7 +196,7 @@ def test_looking_for_blocks_behind_damage_has_an_end(tmp_path: Path, monkeypatch
     assert checked < 20 << 20
 
 
-def test_blocks_far_behind_damage_are_found(tmp_path: Path) -> None:
+def test_blocks_far_after_damage_are_found(tmp_path: Path) -> None:
     path = tmp_path / "run"
     for gap in (1, (1 << 20) - 3, (1 << 20) - 2, 3 << 20):
         write(path, [*FIRST, STATE])

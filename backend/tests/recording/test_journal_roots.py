@@ -41,7 +41,7 @@ def trapped(scan: int) -> Trapped:
 
 
 def journal(*commands: Command | Effect) -> list[Entry]:
-    """One entry a scan; an effect stands for the command that has it."""
+    """One entry a scan; an effect means a command that has it."""
     made, at = [], datetime(2026, 1, 1, tzinfo=UTC)
     for scan, each in enumerate(commands):
         command = each if isinstance(each, Command) else Write("Ada", "D0", "1")

@@ -57,7 +57,7 @@ def whole_run() -> tuple[bytes, tuple[bytes, ...], tuple[Entry, ...]]:
 
 
 def _recovered(tmp_path: Path, data: bytes, damaged_at: int) -> None:
-    """What is in front of the damage is all there, is what it was, and the file goes on."""
+    """Everything before the damage is there unchanged, and recording continues."""
     path = tmp_path / "run"
     for old in tmp_path.glob("run*"):
         old.unlink()
@@ -107,9 +107,7 @@ def test_a_file_that_was_cut_short_is_recovered_up_to_there(
 
 @settings(max_examples=80, deadline=None)
 @given(part=st.floats(0, 1, exclude_max=True), flip=st.integers(1, 255))
-def test_a_flipped_byte_costs_what_is_behind_it(
-    tmp_path_factory: pytest.TempPathFactory, part: float, flip: int
-) -> None:
+def test_a_flipped_byte_costs_what_follows_it(tmp_path_factory: pytest.TempPathFactory, part: float, flip: int) -> None:
     data = whole_run()[0]
     at = int(part * len(data))
     _recovered(tmp_path_factory.mktemp("flip"), data[:at] + bytes((data[at] ^ flip,)) + data[at + 1 :], at)
@@ -124,7 +122,7 @@ def test_what_was_lost_is_counted(tmp_path: Path) -> None:
     file.close()
     hit = next(each for each in blocks if each.kind is Kind.ENTRY and each.scan > 30)
     path.write_bytes(data[: hit.offset + 30] + b"\0\0" + data[hit.offset + 32 :])
-    timeline = resumed(path, until=SCANS)  # what the parent knew does not count behind damage: entries are missing
+    timeline = resumed(path, until=SCANS)  # what the parent knew does not count after damage: entries are missing
     assert timeline.live_scan <= hit.scan
     assert f"{SCANS - timeline.live_scan} scans after it, up to {SCANS}, are lost" in timeline.recording.damage
     assert timeline.recording.info.damage == timeline.recording.damage
@@ -145,11 +143,11 @@ def test_what_is_no_run_file_is_refused_and_left_alone(tmp_path: Path) -> None:
         assert path.read_bytes() == data
 
 
-def test_another_model_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_different_model_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "run"
     begun(path).close()
     monkeypatch.setattr("scanbench.recording.replay.model_fingerprint", lambda model: "another")
-    with pytest.raises(RunFileError, match="another description of the model CJ1M-CPU63"):
+    with pytest.raises(RunFileError, match="a different description of the model CJ1M-CPU63"):
         resumed(path)
 
 

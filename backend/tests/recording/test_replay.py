@@ -74,7 +74,7 @@ def test_a_trap_is_replayed_with_what_ran_before_it(engine: EngineFactory) -> No
     assert value(again, "Main.q") == value(run.resource, "Main.q")
 
 
-def test_a_journal_of_another_program_is_noticed() -> None:
+def test_a_journal_of_a_different_program_is_noticed() -> None:
     trapping = program("PROGRAM Main\nVAR d : INT; q : INT; END_VAR\n  q := 1 / d;\nEND_PROGRAM\n")
     run: HeadlessRun[None] = run_headless(program(SOURCE), 10, ENGINES[0], [(5, Write("Ada", "D0", "1"))])
     with pytest.raises(Diverged, match="scan 0"):
@@ -86,7 +86,7 @@ def test_rows_refusals_and_scans_of_a_headless_run() -> None:
     run = run_headless(program(SOURCE), 10, ENGINES[0], commands, 4, lambda resource: value(resource, "Main.n"))
     assert run.rows == ((4, 4), (8, 8))
     assert [(each.scan, each.command.author) for each in run.refused] == [(2, "Ada")]
-    assert value(run.resource, "D0") == 7  # for the seam behind the last scan
+    assert value(run.resource, "D0") == 7  # for the seam after the last scan
     assert run.scans == 10
 
 
