@@ -53,8 +53,8 @@ class Layout:
     INTERVAL: ClassVar[int] = 4040
     """i64 ns: length of a scan in virtual time. The engine writes it in every scan, from the program."""
     ORIGIN: ClassVar[int] = 4048
-    """i64 ns: virtual time of scan 0, had all scans been as long as they are now. It is 0 until a program with scans of
-    another length takes over, and then such that time goes on."""
+    """i64 ns: the virtual time that scan 0 would have if all scans had the present interval. It is 0 until a program with
+    a different interval takes over; then it is set so that virtual time continues without a jump."""
     STARTED_AT: ClassVar[int] = 4056
     """i64 ns: virtual time of the scan STARTED."""
     SUBRANGE_ERROR: ClassVar[int] = 4080
@@ -66,8 +66,8 @@ class Layout:
     VIOLATION_LIMIT: ClassVar[int] = 256
     """Entries of the list of violations."""
     VIOLATION_BYTES: ClassVar[int] = 48
-    """An entry: u32 site, u32 times (saturating), u64 byte offset of the instance whose body or method the check
-    stands in (0 in a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, 8 bytes reserved. Entries are (site, instance)
+    """An entry: u32 site, u32 times (saturating), u64 byte offset of the instance whose body or method has the check
+    (0 in a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, 8 bytes reserved. Entries are (site, instance)
     pairs in the order in which they first happened."""
 
     model: Model

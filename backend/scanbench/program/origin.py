@@ -9,10 +9,10 @@ SYSTEM_FILE = f"{LIBRARY_FOLDER}system.st"
 
 
 def in_library(span: Span) -> bool:
-    """Whether this stands in the library or in a model's text, and not in a project."""
+    """Whether this span is in the library or in a model's text, and not in a project."""
     return span.file.startswith(LIBRARY_FOLDER)
 
 
 def is_system(span: Span) -> bool:
-    """Whether this stands in text that is made from a model."""
+    """Whether this span is in text that is made from a model."""
     return span.file == SYSTEM_FILE

@@ -27,7 +27,7 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
   32-34. It traps at `null_trap` (0 is NULL), before the indices are evaluated, where bits 35-63 are not 0, or the byte
   offset is below `Layout.HEADER_SIZE`, or byte offset + `Place.offset` + the largest distance of the indices with fixed
   bounds + the size of `Place.type` is beyond the end: for a slot that of the image, for `Place.reference` that of the
-  state (`Layout.state_size`), as what stands in frames between calls is no business of a program. With an index of
+  state (`Layout.state_size`), because a program must not depend on the contents of frames between calls. With an index of
   computed bounds the place that was found must lie in there too. After a reference nothing is known of alignment.
 - A BOOL in a whole byte is written as 0 or 1, and read as bit 0.
 - A string value longer than the capacity of its target is cut. Only the length and the characters are written.
@@ -78,10 +78,10 @@ class Place:
     """Address = base + offset + the indices' strides. With `slot`, base is the reference stored there instead.
 
     With `reference`, base is the value of that expression, of a Reference type (evaluated before the indices).
-    `bit` is set for one bit of a byte: a BOOL inside an area, or a bit of an integer. A BOOL behind a slot or reference
+    `bit` is set for one bit of a byte: a BOOL inside an area, or a bit of an integer. A BOOL reached through a slot or reference
     without `bit` is the bit that the reference says. `type` may be smaller than the variable (a part of an integer, a
     member of a union), so places of one variable may overlap in any way. `variable` names the declared variable that holds this place ('' when it
-    may be any, as behind an in-out): places of different variables never overlap, except that all places whose
+    may be any, as through an in-out): places of different variables never overlap, except that all places whose
     variable begins with '@' (areas of the model) may overlap each other.
     """
 
@@ -282,7 +282,7 @@ class If:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """`selector` is an integer or bit string; labels are inclusive ranges, none stands twice."""
+    """`selector` is an integer or bit string; labels are inclusive ranges that do not overlap."""
 
     selector: Expr
     branches: tuple[tuple[tuple[tuple[int, int], ...], tuple["Stmt", ...]], ...]
@@ -348,7 +348,7 @@ class Blocks:
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """Goes on at block `target` of the Blocks around; stands in a block itself or in an If there. A jump to its own
+    """Goes on at block `target` of the Blocks around; it is in a block itself or in an If there. A jump to its own
     or an earlier block takes one from the loop budget."""
 
     target: int
@@ -393,8 +393,8 @@ class Pou:
     inline: bool = False
     """Small and from the standard library: worth inlining at every call."""
     first_trap: int = 0
-    """The numbers of trap sites in the body count from here: `Program.traps[first_trap + number - 1]`. So a body stays
-    as it is when another POU has more sites than before."""
+    """The numbers of trap sites in the body count from here: `Program.traps[first_trap + number - 1]`. So a body does not
+    change when other POUs get more sites."""
     first_check: int = 0
     """The same for `Program.checks`."""
 

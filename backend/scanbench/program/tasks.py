@@ -41,12 +41,12 @@ class Task:
     single: Place | None = None
     previous: Place | None = None
     single_span: Span | None = None
-    """Where SINGLE stands."""
+    """The span of SINGLE."""
 
 
 @dataclass(frozen=True, slots=True)
 class AccessPath:
-    """VAR_ACCESS: another name for a variable, for tools."""
+    """VAR_ACCESS: an additional name for a variable, for tools."""
 
     name: str
     path: str

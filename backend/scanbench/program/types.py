@@ -261,7 +261,7 @@ class Member:
 class Record:
     """A STRUCT, or the variables of a FUNCTION_BLOCK, PROGRAM or frame: members at offsets.
 
-    Located members stand in an area of the model and take no room here; VAR_EXTERNAL takes none either.
+    Located members are in an area of the model and take no room here; VAR_EXTERNAL takes none either.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Literals before they have a type: `7` becomes INT, REAL or WORD by what stands beside it."""
+"""Literals before they have a type: the other operands decide whether `7` becomes INT, REAL or WORD."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -44,7 +44,7 @@ def wrap(value: int, type: Elementary) -> int:
 
 
 def settle(expr: Expr) -> Expr:
-    """Gives an untyped literal the type it has where nothing asks for another: DINT (LINT, ULINT), LREAL."""
+    """Gives an untyped literal its default type, for a context that asks for none: DINT (LINT, ULINT), LREAL."""
     if isinstance(expr, Const) and expr.type == ANY_INT:
         value = int(expr.value)
         for type in (DINT, LINT, ULINT):
@@ -63,13 +63,13 @@ def real_beside(types: Sequence[Type | None], wanted: Type | None) -> Elementary
 
 
 def widens(source: Type, target: Type) -> bool:
-    """Whether a value of `source` can stand where `target` is asked for, without loss (IEC 61131-3, figure 11)."""
+    """Whether a value of `source` can be used as a `target` without loss (IEC 61131-3, figure 11)."""
     if source == target:
         return True
     if isinstance(source, StringType) and isinstance(target, StringType):
         return source.width == target.width
     if isinstance(source, Elementary) and base_of(source) is not source:
-        # as a number, never back to another enumeration
+        # as a number, never back to a different enumeration
         return widens(base_of(source), target)
     if isinstance(target, Subrange):
         return widens(source, base_of(target))

@@ -1,7 +1,7 @@
 """Who passes what to an in-out: the calls of a block instance in the statements of a program.
 
-Which of them ran last, the image tells (`check.bound`); what another one would pass is found with the values that stand in the
-image now. A call that reaches its instance through a reference counts where that refers to it at the moment.
+The image tells which of the calls ran last (`program/copies.py`); what the other calls would pass is computed from the values that
+are in the image now. A call that reaches its instance through a reference counts if the reference refers to it at the moment.
 """
 
 from collections.abc import Iterable, Iterator
@@ -164,7 +164,7 @@ class Calls:
 
 
 def address(pou: Pou, place: Place, instance: int, memory: Image) -> tuple[int, int] | None:
-    """Byte offset and bit of a place of a body, by the values that stand in the image; None where they lead nowhere."""
+    """Byte offset and bit of a place of a body, by the values in the image; None if these lead to no place."""
     bit = place.bit or 0
     if place.reference is not None or place.slot is not None:
         slot = _value(
@@ -247,7 +247,7 @@ def _calls(statements: Iterable[Stmt]) -> Iterator[CallBlock]:
 
 
 def in_every_run(pou: Pou, call: CallBlock) -> bool:
-    """Whether the body of `pou` never ends without this call of this instance: it stands in no branch or loop, nothing
+    """Whether the body of `pou` never ends without this call of this instance: it is in no branch or loop, nothing
     leaves before, and neither an index nor a reference picks the instance again each time."""
     if not _is_one(call.instance):
         return False

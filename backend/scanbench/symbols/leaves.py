@@ -28,7 +28,7 @@ class Leaf(NamedTuple):
         return WHOLE if self.bit is None else 1 << self.bit
 
     def cut(self, data: bytes | bytearray, start: int = 0) -> bytes:
-        """Its value, in bytes of the image that begin at `start`; of a string also what is behind its end."""
+        """Its value, in bytes of the image that begin at `start`; of a string also the bytes after its end."""
         at = self.offset - start
         if self.bit is not None:
             return bytes((data[at] >> self.bit & 1,))

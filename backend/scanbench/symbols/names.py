@@ -140,7 +140,7 @@ class Names:
     # ---- symbols, blocks, text ------------------------------------------------------------------------------------
 
     def variable(self, place: Spot, type: Type) -> Symbol | None:
-        """The variable, or part of one, or address; None where nothing of this type is there, as behind a stray pointer."""
+        """The variable, or part of one, or address; None if there is nothing of this type, as for a stray pointer."""
         for path in self._paths(place, type):
             try:
                 symbol = resolve(self.program, path)

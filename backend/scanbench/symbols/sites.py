@@ -21,14 +21,14 @@ class StatementSite:
 
     span: Span
     pou: str
-    """In which POU it stands; the text of one statement has several sites where several POUs are made of it."""
+    """The POU that has the statement. One statement of the text has several sites if several POUs are made from that text."""
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """One way a statement can go: a branch of an IF or CASE (`THEN`, `ELSIF 2`, `ELSE`, `CASE 3`), a loop's `BODY` or that
-    it runs no round at all, `NO ROUND`. `ELSE` also stands for no branch where none is written. A REPEAT, whose body runs
-    in any case, has none; nor have IFs that the compiler made (EN, S=, JMPC)."""
+    """One way a statement can go: a branch of an IF or CASE (`THEN`, `ELSIF 2`, `ELSE`, `CASE 3`), a loop's `BODY`, or
+    `NO ROUND` if the loop runs no round at all. `ELSE` is also the outcome of an IF or CASE without ELSE that takes no branch.
+    A REPEAT, whose body always runs, has no outcome; nor have IFs that the compiler made (EN, S=, JMPC)."""
 
     site: int
     name: str
@@ -46,7 +46,7 @@ class Sites:
         named += [(name, stmt, stmt.span.plain()) for name, stmt in joined]
         named.sort(key=lambda each: (each[2].file, each[2].line, each[2].column))
         self.statements = tuple(StatementSite(span, name) for name, _, span in named)
-        """Ordered by file, line and column, and what stands in one place as the program has it."""
+        """Ordered by file, line and column; those at the same place in the order of the program."""
         self._numbers = {id(stmt): number for number, (_, stmt, _) in enumerate(named)}
         self._first: dict[int, int] = {}
         self.outcomes: tuple[Outcome, ...] = tuple(self._number_outcomes([(stmt, span) for _, stmt, span in named]))
@@ -90,7 +90,7 @@ class Sites:
 
 
 def sites_of(program: Program) -> Sites:
-    """The sites of a program, as its statements stand now: the next incremental check may move and change them."""
+    """The sites of a program, for its present statements: the next incremental check may move and change them."""
     with without_collection():
         return Sites(program)
 
@@ -98,7 +98,7 @@ def sites_of(program: Program) -> Sites:
 def _of_pou(pou: Pou) -> Iterator[tuple[Stmt, Span]]:
     if in_library(pou.span) or is_system(pou.span):
         return
-    # start values stand where the variable is declared; what was made for the whole POU, where that is
+    # the span of a start value is that of the variable's declaration; of what was made for the whole POU, that of the POU
     made = {pou.span.plain(), *_declared(pou.frame), *_declared(pou.instance)}
     body = [(stmt, stmt.span.plain()) for stmt in pou.body]
     yield from _in_order([each for each in body if each[1] not in made])
@@ -109,7 +109,7 @@ def _declared(record: Record) -> Iterator[Span]:
 
 
 def _in_order(body: Iterable[tuple[Stmt, Span]]) -> Iterator[tuple[Stmt, Span]]:
-    """Statements one after the other. An instruction of IL may be several; only the first is not behind the text."""
+    """Statements in the order of the text. An IL instruction may make several; only the first has a span after the one before."""
     end = (0, 0)
     for stmt, span in body:
         if (span.line, span.column) >= end:

@@ -64,7 +64,7 @@ class Symbol:
     tool: Access = "write"
     constant: bool = False
     copies: Copies = NO_COPIES
-    """For what is behind slots: an in-out by value on the way is a copy, and the variable itself is wanted."""
+    """For what is reached through slots: an in-out by value on the way is a copy, and the variable itself is wanted."""
 
     @property
     def writable(self) -> bool:
@@ -121,7 +121,7 @@ def resolve(program: Program, path: str) -> Symbol:
 
 
 def members(program: Program, path: str) -> list[Symbol]:
-    """What stands below a path, in order of declaration; below '': program instances and globals."""
+    """The parts of the variable at a path, in order of declaration; for '': program instances and globals."""
     if not path.strip():
         return list(roots(program))
     symbol = resolve(program, path)
@@ -216,9 +216,9 @@ def member_of(owner: Symbol, member: Member, path: str) -> Symbol:
 
 def _step(program: Program, symbol: Symbol, name: str | None, index: str | None) -> Symbol:
     if index is None and name is None:
-        return behind(symbol)
+        return target_of(symbol)
     if isinstance(symbol.type, Reference) and symbol.type.automatic:
-        symbol = replace(behind(symbol), path=symbol.path)
+        symbol = replace(target_of(symbol), path=symbol.path)
     if index is not None:
         return _element(symbol, index)
     record = symbol.type
@@ -234,8 +234,8 @@ def _step(program: Program, symbol: Symbol, name: str | None, index: str | None)
     return member_of(symbol, member, f"{symbol.path}.{member.name}")
 
 
-def behind(symbol: Symbol) -> Symbol:
-    """What a reference refers to, wherever that is at the moment."""
+def target_of(symbol: Symbol) -> Symbol:
+    """The symbol to which a reference refers at the moment."""
     type = symbol.type
     if not isinstance(type, Reference) or type.target is None:
         raise UnknownPath(f"`{symbol.path}` is {type}, not a reference.")
@@ -342,7 +342,7 @@ def _addresses(program: Program, symbol: Symbol, array: ArrayType) -> list[Symbo
 
 
 def children(program: Program, symbol: Symbol, start: int = 0, count: int = MAX_MEMBERS) -> list[Symbol]:
-    """What stands below a variable, from number `start` on."""
+    """The parts of a variable, from number `start` on."""
     type = symbol.type
     if not isinstance(type, ArrayType):
         return _children(program, symbol)[start : start + count]

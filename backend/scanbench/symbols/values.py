@@ -65,7 +65,7 @@ def parse_value(type: Type, text: str) -> bytes:
 
 
 def _parse_number(type: Elementary, text: str) -> int:
-    """Of everything that an integer stands for in the image."""
+    """The number for any type that the image represents as an integer."""
     if isinstance(type, Enumeration):
         return _parse_enumeration(type, text)
     match type.kind:

@@ -41,7 +41,7 @@ class Violation:
 
 @dataclass(frozen=True, slots=True)
 class Violations:
-    """The list as it stands, in the order in which the places first violated."""
+    """The present list, in the order in which the places first violated."""
 
     entries: tuple[Violation, ...] = ()
     dropped: int = 0
