@@ -5,7 +5,7 @@ from typing import Literal
 
 BreakpointKind = Literal["line", "data", "error", "violation", "trap", "scan"]
 DataAccess = Literal["read", "write", "change", "access"]
-"""`access`: reads and writes. `change`: a write that leaves another value."""
+"""`access`: reads and writes. `change`: a write after which the value is different."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +17,7 @@ class Breakpoint:
     kind: BreakpointKind
     author: str
     group: str = ""
-    """Who manages it: empty is the list that all browsers share, else one debug session of another tool."""
+    """The list to which it belongs: empty for the one that all browsers share, else that of one debug session of a DAP client."""
     enabled: bool = True
     file: str = ""
     """Of a line: path in the project."""

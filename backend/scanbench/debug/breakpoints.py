@@ -1,4 +1,4 @@
-"""All breakpoints of one PLC, group by group, as they stand in the program that runs."""
+"""All breakpoints of one PLC, group by group, with their places in the program that runs."""
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.placed import Placed, Placing
@@ -41,7 +41,7 @@ class Breakpoints:
         return made
 
     def place_again(self, loaded: Loaded, scan: int) -> None:
-        """In another program."""
+        """Places all breakpoints in the program `loaded`."""
         if not self.placed:
             return
         placing = self.placing(loaded)
@@ -53,7 +53,7 @@ class Breakpoints:
         self.placed = tuple(again)
 
     def placed_in(self, loaded: Loaded, scan: int) -> tuple[Placed, ...]:
-        """Where they would stand in a program of the past."""
+        """The breakpoints with their places in a program that ran earlier; those in `placed` are not changed."""
         placing = self.placing(loaded)
         return tuple(placing.place(each.breakpoint, scan) for each in self.placed)
 

@@ -40,7 +40,7 @@ class Told(Protocol):
 
 
 class Debugger:
-    """Runs the PLC in place of its timeline. While `halt` stands it must not be run."""
+    """Runs the PLC in place of its timeline. The PLC must not be run while `halt` is set."""
 
     def __init__(self, timeline: Timeline, told: Told) -> None:
         self._timeline, self._told = timeline, told
@@ -81,7 +81,7 @@ class Debugger:
         return self._past_halt if self._timeline.past else self._live_halt
 
     @property
-    def stands(self) -> bool:
+    def is_halted(self) -> bool:
         """Whether the PLC itself is halted, also while its past is shown."""
         return self._live_halt is not None
 
@@ -139,7 +139,7 @@ class Debugger:
         return tuple(each.verdict(placing.sites) for each in made)
 
     def moved(self) -> None:
-        """Another program runs: each breakpoint has to find its place in it."""
+        """Places all breakpoints again after a program change."""
         self.breakpoints.place_again(self._timeline.live, self._timeline.live_scan)
         self._listener, self.changed = None, True
         self._find_probes()
@@ -159,8 +159,8 @@ class Debugger:
 
     # ---- running --------------------------------------------------------------------------------------------------
 
-    def stand(self, why: str) -> None:
-        """Halts in the seam where it is, before it runs for the first time."""
+    def halt_at_start(self, why: str) -> None:
+        """Halts in the present seam, before the PLC runs for the first time."""
         self._halted(Found("pause", why, ""))
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
@@ -186,7 +186,7 @@ class Debugger:
         elif listener is not None and stop.reason is Reason.TRAP:
             listener.pending = None
         elif listener is not None and not resource.begun:
-            found = listener.behind_scan()
+            found = listener.after_scan()
             if found is not None:
                 self._halted(found)
                 return Stop(Reason.HALTED)
@@ -220,7 +220,7 @@ class Debugger:
             self._halted(Found(halt.reason, f"{halt.text}; the scan ran to its end", halt.by, halt.breakpoints))
 
     def step(self, action: str, author: str, file: str = "", line: int = 0, path: str = "") -> Refusal | None:
-        """Begins a step: it is over when `halt` is another. Steps back are done at once."""
+        """Begins a step, which is over when `halt` has a new number. Steps back are completed at once."""
         if action in ("back", "reverse"):
             return self._back(action, author, path)
         if action not in STEPS:
@@ -321,7 +321,7 @@ class Debugger:
         return None
 
     def _return(self) -> None:
-        """Back to where the PLC stands."""
+        """Shows the live PLC again."""
         self._timeline.return_live()
         self._past_halt = None
         if self._live_halt is None:

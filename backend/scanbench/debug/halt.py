@@ -25,10 +25,10 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class Halt:
-    """The PLC stands before a statement of scan `scan`, or in the seam before that scan (`count` 0)."""
+    """The PLC is halted before a statement of scan `scan`, or in the seam before that scan (`count` 0)."""
 
     number: int
-    """Counts the halts of this process: another number is another halt."""
+    """Counts the halts of this process: each halt has a number of its own."""
     reason: HaltReason
     text: str
     """For people: `breakpoint at Main.st:12`, `Main.level changed from 3 to 7`, `step over by Ann`."""
@@ -45,11 +45,11 @@ class Halt:
     """Path of the instance; empty in a FUNCTION or the seam."""
     task: str
     past: bool
-    """What is shown is behind where the PLC stands: nothing can be written; going on leads up to that place."""
+    """The position is earlier than that of the live PLC: nothing can be written; Continue runs up to the live position."""
 
 
 def halt_of(resource: Resource, placing: Placing, found: Found, number: int, past: bool) -> Halt:
-    """The halt of a resource as it stands now."""
+    """The halt of a resource at its present position."""
     scan, inside = resource.header.scan, resource.listening.inside
     if inside is None or not inside.frames:
         return Halt(

@@ -112,7 +112,7 @@ class Listener:
             self._violated = self._violation_count()
             self._take_due()
             return False
-        found = self._behind() or self._acting(site, count, scan)
+        found = self._after_statement() or self._acting(site, count, scan)
         if found is None and self.goal is not None:
             if self.goal.reached(site, count, depth, self._frames, scan):
                 found = reached(self.goal)
@@ -150,14 +150,14 @@ class Listener:
             self._resource.loaded.debugged().interrupt()
             self._tell(in_scan=True)
 
-    def behind_scan(self) -> Found | None:
-        """In the seam after a scan that ended: what its last statement did."""
-        return self._behind()
+    def after_scan(self) -> Found | None:
+        """The halt that the last statement of a scan caused, in the seam after that scan; None if there is none."""
+        return self._after_statement()
 
     # ---- why --------------------------------------------------------------------------------------------------------
 
-    def _behind(self) -> Found | None:
-        """What the statement before did."""
+    def _after_statement(self) -> Found | None:
+        """The halt that the previous statement caused; None if there is none."""
         pending, self.pending = self.pending, None
         count, before = self._violation_count(), self._violated
         self._violated = count

@@ -15,7 +15,7 @@ LONGEST = 4000
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """Understood in the scope of the POU for which it was made. `{{` and `}}` stand for braces."""
+    """A log message, understood in the scope of the POU for which it was made. `{{` and `}}` stand for braces."""
 
     parts: tuple[str | Local, ...]
 

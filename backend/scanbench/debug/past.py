@@ -1,4 +1,4 @@
-"""Steps in what was: back to an earlier position, and forward again up to where the PLC stands."""
+"""Steps in the past: back to an earlier position, and forward again up to the position of the live PLC."""
 
 from typing import Literal
 
@@ -17,7 +17,7 @@ _EMPTY = 10_000
 
 
 class Past:
-    """Moves what is shown. The PLC stands meanwhile."""
+    """Moves through earlier scans. The live PLC does not run meanwhile."""
 
     def __init__(self, timeline: Timeline, breakpoints: Breakpoints) -> None:
         self._timeline, self._breakpoints = timeline, breakpoints
@@ -42,7 +42,7 @@ class Past:
         self._goal = self._listener = None
 
     def move(self) -> Found | Literal["live"] | None:
-        """Goes on: where it halted, or up to where the PLC stands; None: it is still under way."""
+        """Continues: gives where it halted, "live" if it reached the position of the live PLC, None if it was interrupted."""
         timeline, resource, goal = self._timeline, self._timeline.resource, self._goal
         assert goal is not None
         listener = self._listener
@@ -55,7 +55,7 @@ class Past:
             listener.begin()
             stop = timeline.go_on(timeline.live_scan + 1)
         if stop.reason is Reason.INTERRUPTED:
-            found = listener.behind_scan()
+            found = listener.after_scan()
             if found is not None:
                 self.stop()
             return found
@@ -96,7 +96,7 @@ class Past:
         if count > 1:
             return scan, count - 1
         if timeline.resource.header.halted_by_trap:
-            scan += 1  # the scan that trapped is behind it, in part
+            scan += 1  # part of the scan that trapped was run, so that scan is searched too
         first = max(timeline.recording.first_scan, scan - _EMPTY)
         for each in range(scan - 1, first - 1, -1):
             found = timeline.statements(each)

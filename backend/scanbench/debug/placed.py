@@ -1,4 +1,4 @@
-"""Breakpoints in the program that runs: where each stands, or why it stands nowhere."""
+"""Breakpoints in the program that runs: the place of each, or the reason why it has none."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -19,7 +19,7 @@ from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 
 @dataclass(eq=False, slots=True)
 class Placed:
-    """A breakpoint, and what it means in one program. Texts are understood in the scope of each POU it stands in."""
+    """A breakpoint, and what it means in one program. Texts are understood in the scope of each POU in which it is placed."""
 
     breakpoint: Breakpoint
     sites: frozenset[int] = frozenset()
@@ -36,7 +36,7 @@ class Placed:
     messages: Mapping[Pou | None, Says] = field(default_factory=dict)
     assigns: Mapping[Pou | None, Assigning] = field(default_factory=dict)
     flaw: str = ""
-    """Why it stands nowhere."""
+    """Why it has no place; empty if it has one."""
     remark: str = ""
     hits: int = 0
 
@@ -83,7 +83,7 @@ class Placing:
                 yield from (each for each in self.sites.bodies[pou] if self.sites.statements[each].span in spans)
 
     def place(self, breakpoint: Breakpoint, scan: int) -> Placed:
-        """What it means here; `scan` is where the PLC stands."""
+        """What the breakpoint means in this program; `scan` is the next scan of the PLC."""
         placed = Placed(breakpoint)
         try:
             rule = parse_hits(breakpoint.hits)

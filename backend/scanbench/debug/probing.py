@@ -11,7 +11,7 @@ from scanbench.runtime.programs import Loaded
 
 
 class Probes:
-    """The probes that stand for the breakpoints of a program, and code that has them."""
+    """The probes that implement the breakpoints of a program, and code that has them."""
 
     def __init__(self) -> None:
         self._wanted: tuple[Probe, ...] | None = None

@@ -266,10 +266,10 @@ def search(
         return noted
     if noted is None:
         return Refusal(f"that did not happen since scan {timeline.recording.first_scan}, the first one that is kept")
-    return timeline.goto(*in_front(timeline, noted)) or noted.found
+    return timeline.goto(*position_before(timeline, noted)) or noted.found
 
 
-def in_front(timeline: Timeline, noted: Noted) -> Position:
+def position_before(timeline: Timeline, noted: Noted) -> Position:
     """The position before a statement that made an access."""
     scan, count = noted.position
     if noted.writer is None or timeline.goto(scan, 1) is not None:

@@ -20,7 +20,7 @@ class Scene:
     frames: tuple[Frame, ...] = ()
     """Innermost first; none while it runs, or in the seam."""
     past: bool = False
-    """What is shown is behind: nothing can be written."""
+    """What is shown is an earlier position of the PLC: nothing can be written."""
     locals: Locals = field(init=False, repr=False)
     evaluator: Evaluator = field(init=False, repr=False)
 

@@ -12,7 +12,7 @@ from scanbench.debug.variables import Shown, info, tool_path, with_bounds
 from scanbench.engines.debug import Frame
 from scanbench.engines.interpreter.evaluate import NoValue
 from scanbench.program.types import Member, Record, Reference, Section, actual_of
-from scanbench.symbols.symbols import Symbol, UnknownPath, behind, children, member_of, resolve, roots
+from scanbench.symbols.symbols import Symbol, UnknownPath, children, member_of, resolve, roots, target_of
 
 MOST = 1000
 """Variables in one answer."""
@@ -31,7 +31,7 @@ def scopes(scene: Scene, index: int | None) -> tuple[ScopeInfo, ...]:
 def variables(
     scene: Scene, index: int | None, scope: str, expression: str, start: int = 0, count: int = 0
 ) -> tuple[tuple[VariableInfo, ...], int]:
-    """Those of a scope, or what stands below an expression; and how many there are in all. Raises NoFrame, NoValue."""
+    """The variables of a scope, or the parts of an expression; and how many there are in all. Raises NoFrame, NoValue."""
     frame = scene.frame(index)
     most = min(count or MOST, MOST)
     if not expression:
@@ -159,9 +159,9 @@ def _below(scene: Scene, parent: Shown, start: int, count: int) -> list[Shown]:
     symbol, head = with_bounds(scene, parent.symbol), parent.expression
     if isinstance(symbol.type, Reference):
         if not symbol.type.automatic:
-            target = behind(symbol)
+            target = target_of(symbol)
             return [Shown(f"{head}^", replace(target, name="^"), f"{parent.path}^" if parent.path else "")]
-        symbol = replace(behind(symbol), path=symbol.path)
+        symbol = replace(target_of(symbol), path=symbol.path)
     symbol = replace(symbol, path=parent.path)
     found = []
     for each in children(scene.program, symbol, start, count):

@@ -1,4 +1,4 @@
-"""Giving a variable of a frame another value: through the one door, as a write or, for temporaries, by its frame."""
+"""Changes the value of a variable of a frame, through the one door: by a write or, for temporaries, by its frame."""
 
 from dataclasses import dataclass
 

@@ -16,7 +16,7 @@ from scanbench.program.types import (
     Type,
 )
 from scanbench.symbols.names import names_of
-from scanbench.symbols.symbols import Symbol, behind
+from scanbench.symbols.symbols import Symbol, target_of
 from scanbench.symbols.values import format_value
 
 UNBOUND = "not connected"
@@ -61,17 +61,17 @@ def info(scene: Scene, shown: Shown, name: str = "") -> VariableInfo:
 
 
 def _through(scene: Scene, symbol: Symbol) -> Symbol:
-    """What uses of the variable mean: behind a REFERENCE TO; of an ARRAY[*] with the bounds of what was passed."""
+    """What a use of the variable means: for a REFERENCE TO its target; for an ARRAY[*] the array with its actual bounds."""
     type = symbol.type
     if isinstance(type, Reference) and type.automatic and type.target is not None:
-        return replace(behind(symbol), path=symbol.path, name=symbol.name)
+        return replace(target_of(symbol), path=symbol.path, name=symbol.name)
     if isinstance(type, OpenArray):
         return with_bounds(scene, symbol)
     return symbol
 
 
 def with_bounds(scene: Scene, symbol: Symbol) -> Symbol:
-    """An ARRAY[*] as the array that was passed: its bounds stand behind the slot."""
+    """An ARRAY[*] as the array that was passed: its bounds follow the slot in memory."""
     type = symbol.type
     if not isinstance(type, OpenArray) or not symbol.slots:
         return symbol
@@ -90,7 +90,7 @@ def with_bounds(scene: Scene, symbol: Symbol) -> Symbol:
 
 
 def _value(scene: Scene, symbol: Symbol, offset: int, bit: int | None) -> tuple[str, int]:
-    """The value as text, and how many stand below."""
+    """The value as text, and the number of its parts."""
     type = symbol.type
     if isinstance(type, Reference):
         target = _target(scene, symbol)
@@ -134,7 +134,7 @@ def _target(scene: Scene, symbol: Symbol) -> str | None:
     assert isinstance(type, Reference)
     if type.target is None:
         return None
-    target = behind(symbol)
+    target = target_of(symbol)
     spot = target.locate(scene.memory)
     return None if spot is None else names_of(scene.program).text(*spot, target.type)
 

@@ -36,7 +36,7 @@ class Watching:
         return any(each.symbol is not None and each.symbol.slots for each in self._placed)
 
     def follow(self) -> bool:
-        """Finds out where they are and what is there; whether `bytes` is another."""
+        """Finds their places and values; returns whether `bytes` changed."""
         bytes: dict[int, int] = {}
         self._places = {}
         for placed in self._placed:

@@ -117,7 +117,7 @@ class _Search:
             own = this is not None and place.slot is not None and place.slot.offset == this.offset
             if own and place.slot is not None and place.slot.base is Base.FRAME and isinstance(this.type, Record):  # type: ignore[union-attr]
                 return self._in_instance(this.type, place)  # type: ignore[union-attr]
-            return self._fits(place.type) and (not _behind_in_out(pou, place) or self.is_passed())
+            return self._fits(place.type) and (not _through_in_out(pou, place) or self.is_passed())
         if place.base is Base.IMAGE:
             return self._reaches(place, 0)
         return place.base is Base.SELF and self._in_instance(pou.instance, place)
@@ -182,7 +182,7 @@ def _kind(type: Elementary) -> tuple[Kind, int]:
 
 
 def _numbered(body: object, sites: Sites) -> Iterator[Stmt]:
-    """The statements of a body that have a site, wherever they stand in it."""
+    """The statements of a body that have a site, at any depth."""
     for node in _nodes(body):
         if sites.number(node) is not None:  # type: ignore[arg-type]
             yield node  # type: ignore[misc]
@@ -275,7 +275,7 @@ def _passed(body: tuple[Stmt, ...]) -> Iterator[Place]:
             yield from (arg for arg in node.args if isinstance(arg, Place))
 
 
-def _behind_in_out(pou: Pou, place: Place) -> bool:
+def _through_in_out(pou: Pou, place: Place) -> bool:
     """Whether a place is what was passed to an in-out of the POU, or a part of that."""
     slot = place.slot
     if slot is None or slot.slot is not None or slot.reference is not None or slot.base is Base.IMAGE:

@@ -64,7 +64,7 @@ class Driving:
     def _driven(self) -> protocol.Driven:
         """How the PLC is driven now. A step that is under way ends in a halt."""
         pacer, condition = self._pacer, self._pacer.condition
-        halted = self._debugger.stands or self._debugger.stepping
+        halted = self._debugger.is_halted or self._debugger.stepping
         text = condition.text if condition is not None else None
         return protocol.Driven(pacer.speed, pacer.paused, pacer.end, text, halted)
 
@@ -107,7 +107,7 @@ class Driving:
         if drive.action == "speed":
             return self._keep(replace(self._driven(), speed=speed)) or ""
         if drive.action == "pause":
-            refusal = self._keep(protocol.Driven(speed, paused=True, halted=self._debugger.stands))
+            refusal = self._keep(protocol.Driven(speed, paused=True, halted=self._debugger.is_halted))
             if refusal is not None:
                 return refusal
             self._pacer.pause()
@@ -120,7 +120,7 @@ class Driving:
         if not self._resource.runnable:
             return Refusal(f"the program is stopped: {self._services.state.message}")
         if drive.action == "scan":
-            halted = self._debugger.stands
+            halted = self._debugger.is_halted
             wanted = replace(self._driven(), speed=speed) if halted else protocol.Driven(speed, paused=True)
             return self._no_room() or self._keep(wanted) or self._single(drive.author)
         condition: Condition | None = None
@@ -170,7 +170,7 @@ class Driving:
         self._shown_moved(program)
 
     def _shown_moved(self, program: Program) -> None:
-        """Perhaps another program is shown."""
+        """Adapts to the program that is shown, if it changed."""
         if not self._timeline.past:
             self._services.past_by = ""
         if self._resource.program is not program:
@@ -208,7 +208,7 @@ class Driving:
     # ---- time travel ----------------------------------------------------------------------------------------------
 
     def travel(self, travel: protocol.Travel) -> None:
-        """Shows a scan of the past, or the PLC where it stands."""
+        """Shows a scan of the past, or the PLC where it is_halted."""
         program = self._resource.program
         if travel.scan is None:
             self._timeline.return_live()

@@ -57,7 +57,7 @@ class Loop:
         self.debugging = Debugging(timeline, link, Covering(timeline, programs.sources))
         self._debugger = self.debugging.debugger
         if driven.halted:
-            self._debugger.stand("it was halted in this scan when its process ended")
+            self._debugger.halt_at_start("it was halted in this scan when its process ended")
         self._services = Services(timeline, self._pacer, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
         self._answers = Answers(timeline, self._services, link, self._wants_tick)
@@ -216,7 +216,7 @@ class Loop:
                 self._services.entered()
 
     def _copy(self, copy: protocol.Copy) -> None:
-        """Writing takes a while, and another thread."""
+        """Writes the copy in a different thread, as that takes a while."""
 
         def done(refusal: Refusal | None) -> None:
             self.give(Copied(copy.ref, refusal))
@@ -242,7 +242,7 @@ class Loop:
         self._answers.entered(swap.ref, outcome)
 
     def _moved(self) -> None:
-        """Another program runs: its places, pace and conditions are others."""
+        """Adapts places, pace and conditions to a new program."""
         self._pacer.set_pace(self.resource.program.interval_ns)
         condition = self._pacer.condition
         if condition is not None and self.resource.waiting.until is None:

@@ -11,7 +11,7 @@ from tests.caseformat import MODELS
 
 
 class HaltAtLine:
-    """Halts in front of the n-th statement that begins in a line."""
+    """Halts before the n-th statement that begins in a line."""
 
     def __init__(self, engine: DebugEngine, file: str, line: int, times: int = 1) -> None:
         self.sites = frozenset(engine.sites.at_line(file, line))
@@ -35,7 +35,7 @@ def checked(sources: str | Mapping[str, str], model: str = "GENERIC-IEC") -> Pro
 
 
 def halted(program: Program, line: int, times: int = 1, file: str = "a.st", scans: int = 0) -> Scene:
-    """What there is to see in front of a line, after so many whole scans."""
+    """The scene of a halt before a line, after `scans` whole scans."""
     memory = bytearray(program.initial_image)
     engine = debug_engine(program, memory)
     if scans:

@@ -55,12 +55,12 @@ def data(path: str, access: str = "change", **more: object) -> Breakpoint:
 
 
 def test_a_line_without_a_statement_moves_down_and_says_so(walker: Walker) -> None:
-    moved, unknown, behind = walker.set(line(24), Breakpoint(2, "line", "Ann", file="mian.st", line=1), line(99))
+    moved, unknown, beyond = walker.set(line(24), Breakpoint(2, "line", "Ann", file="mian.st", line=1), line(99))
     assert (moved.verified, moved.line, moved.message) == (True, 24, "")
     moved, *_ = walker.set(line(8))
     assert (moved.verified, moved.line, moved.message) == (True, 13, "moved to line 13: line 8 has no statement")
     assert (unknown.verified, "Did you mean `main.st`?" in unknown.message) == (False, True)
-    assert (behind.verified, behind.message) == (
+    assert (beyond.verified, beyond.message) == (
         False, "no statement begins at main.st:99 or below; the last one is at line 30"
     )  # fmt: skip
 
@@ -156,7 +156,7 @@ def test_a_logpoint_speaks_and_an_execution_point_assigns_without_halting(walker
     assert resource.state == state, "what was assigned is replayed in the middle of its scan"
 
 
-def test_a_data_breakpoint_halts_behind_the_write(walker: Walker) -> None:
+def test_a_data_breakpoint_halts_after_the_write(walker: Walker) -> None:
     (verdict,) = walker.set(data("Main.list"))
     assert verdict.verified
     walker.run()
@@ -208,7 +208,7 @@ def test_a_write_in_the_last_statement_halts_in_the_seam(make: MakeDebug, tmp_pa
     assert walker.here == (2, 0)
 
 
-def test_an_error_halts_in_front_of_the_first_statement_behind_it(walker: Walker) -> None:
+def test_an_error_halts_before_the_next_statement(walker: Walker) -> None:
     error = next(each.id for each in walker.timeline.resource.program.layout.model.errors() if each.severity != "fatal")
     walker.set(Breakpoint(1, "error", "Ann", error=error), Breakpoint(2, "error", "Ann", error="", hits="2"))
     walker.run(5)
@@ -219,7 +219,7 @@ def test_an_error_halts_in_front_of_the_first_statement_behind_it(walker: Walker
     assert walker.run(5) is None
 
 
-def test_a_violation_halts_behind_the_statement(make: MakeDebug, tmp_path: Path) -> None:
+def test_a_violation_halts_after_the_statement(make: MakeDebug, tmp_path: Path) -> None:
     source = STATIONS.replace(
         "  sum := sum + total;", "  sum := sum + total;\n  small := DINT_TO_INT(total);\n  t := 1;"
     )
@@ -241,7 +241,7 @@ def test_at_a_scan(walker: Walker) -> None:
     assert walker.debugger.flavour == ""
 
 
-def test_several_at_one_scan_and_in_front_of_one_task(make: MakeDebug, tmp_path: Path) -> None:
+def test_several_at_one_scan_and_before_one_task(make: MakeDebug, tmp_path: Path) -> None:
     walker = Walker(tmp_path / "a.run", TASKS, make)
     walker.set(
         Breakpoint(1, "scan", "Ann", scan=9),
@@ -312,7 +312,7 @@ def test_an_in_out_is_watched_where_its_block_works_on_it(
         walker.debugger.step("continue", "Ann")
 
 
-def test_a_trap_halts_in_front_of_the_statement_and_then_traps(make: MakeDebug, tmp_path: Path) -> None:
+def test_a_trap_halts_before_the_statement_and_then_traps(make: MakeDebug, tmp_path: Path) -> None:
     source = "PROGRAM Main\nVAR n : DINT := 5; d : DINT; END_VAR\n  n := n - 1;\n  d := 10 / n;\nEND_PROGRAM\n"
     walker = Walker(tmp_path / "a.run", source, make)
     walker.set(Breakpoint(1, "trap", "Ann"))
@@ -326,7 +326,7 @@ def test_a_trap_halts_in_front_of_the_statement_and_then_traps(make: MakeDebug, 
     walker.submit(Write("Ann", "Main.n", "5"))
     walker.debugger.step("continue", "Ann")
     walker.run(3)
-    assert walker.timeline.resource.runnable, "what was written in front of it saved the program"
+    assert walker.timeline.resource.runnable, "what was written before it saved the program"
     walker.debugger.step("continue", "Ann")
     walker.run()
     assert walker.halt.reason == "trap"
@@ -334,10 +334,10 @@ def test_a_trap_halts_in_front_of_the_statement_and_then_traps(make: MakeDebug, 
     assert walker.run() is None
     assert walker.timeline.resource.header.halted_by_trap
     walker.step("back")
-    assert (walker.line, walker.halt.past) == (4, True), "back from a trap is in front of the statement that trapped"
+    assert (walker.line, walker.halt.past) == (4, True), "back from a trap is before the statement that trapped"
 
 
-def test_disabled_ones_cost_nothing_and_groups_stand_side_by_side(walker: Walker) -> None:
+def test_disabled_ones_cost_nothing_and_groups_are_independent(walker: Walker) -> None:
     walker.set(line(25))
     walker.run()
     assert walker.debugger.flavour == "debug"

@@ -49,7 +49,7 @@ def test_what_needs_the_seam_is_never_entered_inside_of_a_scan(kind: str, tmp_pa
     entry = walker.submit(Restart("Bob", "cold"))
     assert (entry.scan, entry.step) == (scan + (kind == "line"), 0)
     assert (walker.timeline.resource.listening.inside, value(walker.timeline.resource, "Main.n")) == (None, 0)
-    assert (walker.debugger.halt is None) == (kind == "trap"), "what had trapped begins anew"
+    assert (walker.debugger.halt is None) == (kind == "trap"), "what had trapped begins again"
     assert len(walker.heard.logs) == (2 if kind == "line" else 0), "what was set acts in the rest of the scan"
     walker.set()
     walker.debugger.step("continue", "Ann")
@@ -62,7 +62,7 @@ def test_what_needs_the_seam_is_never_entered_inside_of_a_scan(kind: str, tmp_pa
 
 
 @pytest.mark.parametrize("by", ["people", "an execution point"])
-def test_a_change_behind_what_was_entered_is_a_change(by: str, tmp_path: Path) -> None:
+def test_a_change_after_what_was_entered_is_a_change(by: str, tmp_path: Path) -> None:
     walker = Walker(tmp_path / "a.run", SETS, BUILDS.engine)
     walker.run(3)
     if by == "people":

@@ -168,7 +168,7 @@ def test_globals_with_their_addresses(method: Scene) -> None:
 # ---- below ----------------------------------------------------------------------------------------------------------
 
 
-def test_every_expression_that_is_shown_means_what_it_stands_for(method: Scene, function: Scene) -> None:
+def test_every_expression_that_is_shown_gives_its_variable(method: Scene, function: Scene) -> None:
     def walk(scene: Scene, frame: int, infos: list[VariableInfo], depth: int) -> int:
         seen = 0
         for each in infos:

@@ -71,7 +71,7 @@ def test_wherever_one_goes_a_position_shows_the_same(make: MakeDebug, moves: lis
         known: dict[tuple[int, int], tuple[object, ...]] = {}
         for action, number in moves:
             _move(walker, action, number, known)
-            # what is written where it stands shows there at once; so only what comes behind counts from then on
+            # what is written at a halt shows there at once; so only later positions count from then on
             if not walker.halt.past and action != "write":
                 known[walker.here] = walker.seen
             assert known.get(walker.here, walker.seen) == walker.seen, (action, walker.halt)
