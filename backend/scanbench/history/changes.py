@@ -1,4 +1,4 @@
-"""What is another at one moment than at another: variables by their names, addresses where there are none."""
+"""What differs between two moments: variables by their names, addresses where there is no variable."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -36,15 +36,15 @@ class Moment:
 
 
 def moment_of(reader: RunReader) -> Moment:
-    """Where it stands now."""
+    """The present moment of the reader's timeline."""
     resource = reader.timeline.resource
     digest = reader.timeline.recording.programs[resource.version].digest
     return Moment(resource.program, resource.version, digest, resource.state)
 
 
 def find_changes(reader: RunReader, first: int, last: int, other: RunReader | None = None) -> Changes:
-    """What is another at the beginning of scan `last` (of the other run) than at that of scan `first`. `Unreadable` says
-    why that cannot be told."""
+    """The values that differ between the beginnings of scan `first` and of scan `last` (of the other run, if there is one).
+    `Unreadable` says why they cannot be compared."""
     if other is None and first > last:
         raise Unreadable(f"scan {last} is before scan {first}: name the earlier one first")
     reader.goto(first)
@@ -56,7 +56,7 @@ def find_changes(reader: RunReader, first: int, last: int, other: RunReader | No
     entries = [] if other is not None else list(_between(reader, first, last))
     note = ""
     if before.digest != after.digest:
-        note = "the program is another: variables are compared by their names, and those that only one of them has are left out"
+        note = "the program is different: variables are compared by their names, and those that only one of them has are left out"
     if len(entries) > MAX_ENTRIES:
         left = len(entries) - MAX_ENTRIES
         note += "; " * bool(note) + f"{left:,} more entries in between are not listed"
@@ -110,7 +110,7 @@ class Comparer:
         return self.same and np.array_equal(np.frombuffer(one, np.uint8, size), np.frombuffer(other, np.uint8, size))
 
     def differ(self, one: bytearray, other: bytearray) -> bool:
-        """Whether anything in two whole images is another that people count."""
+        """Whether two whole images differ in anything but what every run has of its own, such as the clock."""
         if not self.same:
             return bool(self._differing(one, other).any())
         mask = self._mask.view(np.uint64)
@@ -118,7 +118,7 @@ class Comparer:
         return bool(((here ^ there) & mask).any())
 
     def changes(self, one: bytes | bytearray, other: bytes | bytearray) -> tuple[tuple[Change, ...], int]:
-        """The variables that are another, the first of them by their place, and how many there are."""
+        """The first variables that differ, in the order of their places, and the number of all of them."""
         found = list(self._changed(one, other))
         there = self._moved(one, other)
         made = [_change(each, one, there) for each in found[:MAX_CHANGES]]
@@ -133,7 +133,7 @@ class Comparer:
         there, known = self._moved(one, other), set[str]()
         for index in np.flatnonzero(halves)[:_MOST].tolist():
             for leaf in self._names.at(2 * index, int(halves[index])):
-                if leaf.name not in known and _is_another(leaf, one, there):
+                if leaf.name not in known and _is_different(leaf, one, there):
                     known.add(leaf.name)
                     yield leaf
 
@@ -187,7 +187,7 @@ def _carried(old: Program, image: Bytes, new: Program) -> Bytes:
     return np.frombuffer(into, np.uint8)
 
 
-def _is_another(leaf: Leaf, one: bytes | bytearray, other: bytes | bytearray) -> bool:
+def _is_different(leaf: Leaf, one: bytes | bytearray, other: bytes | bytearray) -> bool:
     if not isinstance(leaf.type, StringType):
         return True
     return python_value(leaf.type, leaf.cut(one)) != python_value(leaf.type, leaf.cut(other))

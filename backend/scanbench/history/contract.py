@@ -17,7 +17,7 @@ class Writer(Public):
     PUBLIC: ClassVar = "LastWriter"
 
     path: str
-    """The variable that is meant, behind in-outs."""
+    """The variable itself, after in-outs have been followed."""
     by: Literal["program", "command", "plc", "start"]
     """program: a statement. command: somebody, or an armed fault. plc: the PLC itself (system words, plant, input refresh).
     start: nobody wrote it since the first scan that is kept."""
@@ -31,14 +31,14 @@ class Writer(Public):
     text: str
     """For people: `Main.st:31, Main.belt[3]: speed := LIMIT(...)`, `Write by Ada: Main.level := 7`."""
     value: Hex
-    """What stands there after the write."""
+    """The value after the write."""
     shown: str
     """The value as text."""
 
 
 @dataclass(frozen=True, slots=True)
 class Change(Public):
-    """A variable, or an address without one, that is another."""
+    """A variable, or an address without one, whose value differs."""
 
     PUBLIC: ClassVar = "VariableChange"
 
@@ -93,26 +93,25 @@ class Divergence(Public):
     last: int
     """The scans that were compared."""
     scan: int | None
-    """The first scan after which anything is another; None: the same, as far as both go."""
+    """The first scan after which anything differs; None: the two are the same as far as both go."""
     cause: Literal["", "command", "program", "start"]
-    """command: something was entered in one of them only, or something else. program: another program runs. start: they are
-    different where they begin."""
+    """command: what was entered differs. program: the programs differ. start: the runs differ from their beginning."""
     text: str
     """One sentence: the scan, the task, the variable, why."""
     place: Place | None
-    """The statement that wrote the first variable which is another, where that is known."""
+    """The statement that wrote the first variable that differs, if it is known."""
     changes: Changes | None
-    """All variables that are another after that scan."""
+    """All variables that differ after that scan."""
     entries: tuple[BetweenEntry, ...]
-    """Commands that only one of them has, up to there and a few behind."""
+    """Commands that only one of them has, up to that scan and shortly after it."""
     marks: tuple[tuple[int, int], ...] = ()
     """Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more."""
 
 
 @dataclass(frozen=True, slots=True)
 class RerunChange:
-    """What is to be another this time: an error that was raised, raised earlier or later, or another one instead of it, or not
-    at all. What else was entered is entered again as commands, planned again."""
+    """What changes in the new run: an error that was raised is raised earlier or later, replaced by a different one, or left
+    out. Everything else that was entered is entered again as commands, planned again."""
 
     scan: int
     """Before which the error was raised, in the original."""
@@ -121,7 +120,7 @@ class RerunChange:
     by: int = 0
     """So many scans later; negative: earlier. Its recovery and whatever an armed fault does move with it."""
     instead: str = ""
-    """Id of another error; empty: the same."""
+    """Id of the error to raise in its place; empty: the same one."""
     leave_out: bool = False
     behind: int = 0
-    """So many scans it goes on after the end of the original."""
+    """The number of scans that the new run continues after the end of the original."""

@@ -1,4 +1,4 @@
-"""Where two runs part first, and why: a command that only one of them has, another program, another beginning.
+"""Where two runs first differ, and why: a command that only one of them has, a different program, a different beginning.
 
 Runs are determined by what was entered. So while two of one program have the same journal and the same state, they stay the
 same: only where their journals differ every scan is looked at.
@@ -24,8 +24,8 @@ from scanbench.verify.contract import Place
 
 MAX_MARKS = 200
 MAX_ENTRIES = 200
-BEHIND = 100
-"""Scans after the difference whose entries are told too."""
+AFTER = 100
+"""Scans after the difference whose entries are listed too."""
 _CHUNK = 10_000
 """Scans between two looks at both."""
 _LOOKS = 50_000
@@ -35,12 +35,12 @@ OnProgress = Callable[[int, int], None]
 
 
 def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = lambda done, of: None) -> Divergence:
-    """The first scan after which anything is another. `Unreadable` says why they cannot be compared.
+    """The first scan after which anything differs. `Unreadable` says why the runs cannot be compared.
 
     Both have been followed; their programs must not share memory.
     """
     if one is other:
-        raise Unreadable("that is one and the same run: choose another one to compare it with")
+        raise Unreadable("that is one and the same run: choose a different one to compare it with")
     first, end = max(one.first, other.first), min(one.over, other.over)
     if first > end:
         raise Unreadable(
@@ -54,8 +54,7 @@ def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = 
 
 
 class _Side:
-    """One run, on its way through the scans. It stands in the seam, after a scan and before the entries of the next,
-    or after those."""
+    """One run, on its way through the scans. It is always in a seam, either before or after the entries for the next scan."""
 
     def __init__(self, reader: RunReader, first: int) -> None:
         self.reader = reader
@@ -72,8 +71,8 @@ class _Side:
         """The whole image."""
         return self.resource.memory
 
-    def behind(self, scan: int) -> None:
-        """After the scan before this one, with nothing entered before it."""
+    def run_to(self, scan: int) -> None:
+        """Runs to the seam before `scan`, before anything was entered there."""
         done = len(self.resource.journal)
         replay(self.resource, self.entries[done : bisect_left(self.entries, scan, key=attrgetter("scan"))], scan)
 
@@ -86,7 +85,7 @@ class _Side:
             resource.reenter(entry)
 
     def moment(self) -> Moment:
-        """Where it stands."""
+        """Its present moment."""
         return moment_of(self.reader)
 
 
@@ -139,7 +138,7 @@ class _Comparison:
         return self._comparer().equal(self._one.state, self._other.state)
 
     def _differ(self) -> bool:
-        """Whether anything is another that people count: not the clock, which every run has of its own."""
+        """Whether the two differ in anything but what every run has of its own, such as the clock."""
         return self._comparer().differ(self._one.state, self._other.state)
 
     def _changes(self, first: int, last: int) -> Changes:
@@ -151,7 +150,7 @@ class _Comparison:
     # ---- to where they part ---------------------------------------------------------------------------------------
 
     def _part(self) -> int | None:
-        """The first scan after which they differ; both stand after it."""
+        """Runs both to the end of the first scan after which they differ, and gives this scan; None if there is none."""
         places = sorted({each.entry.scan for each in self._only})
         now = self._first
         while now < self._end:
@@ -165,7 +164,7 @@ class _Comparison:
                 continue
             self._one.front()
             self._other.front()
-            self._behind(now + 1)
+            self._run_to(now + 1)
             if self._differ():
                 return now
             now += 1
@@ -178,7 +177,7 @@ class _Comparison:
         now = first
         while now < end:
             upto = min(end, now + _CHUNK)
-            self._behind(upto)
+            self._run_to(upto)
             self._on_progress(upto - self._first, self._end - self._first)
             if self._differ():
                 return self._exactly(now, upto)
@@ -190,14 +189,14 @@ class _Comparison:
         for side in (self._one, self._other):
             side.reader.goto(first)
         for scan in range(first, end):
-            self._behind(scan + 1)
+            self._run_to(scan + 1)
             if self._differ():
                 break
         return scan
 
-    def _behind(self, scan: int) -> None:
-        self._one.behind(scan)
-        self._other.behind(scan)
+    def _run_to(self, scan: int) -> None:
+        self._one.run_to(scan)
+        self._other.run_to(scan)
 
     # ---- after that ----------------------------------------------------------------------------------------------
 
@@ -211,7 +210,7 @@ class _Comparison:
             if equal:
                 upto = max(now, min(self._end, next((each for each in places if each >= now), self._end)))
                 upto = upto + 1 if upto == now else upto
-            self._behind(upto)
+            self._run_to(upto)
             self._on_progress(upto - self._first, self._end - self._first)
             equal = self._equal()
             if not equal and self._differ():
@@ -234,7 +233,7 @@ class _Comparison:
 
     def _told(self, scan: int, begun: bool, changes: Changes, marks: tuple[tuple[int, int], ...]) -> Divergence:
         before = [each for each in self._only if each.entry.scan <= scan and each.entry.command.author != "PLC"]
-        told = [each.told for each in self._only if each.entry.scan <= scan + BEHIND]
+        told = [each.told for each in self._only if each.entry.scan <= scan + AFTER]
         differ = self._programs_differ(scan)
         cause: Literal["command", "program", "start"]
         cause = "command" if before else "program" if differ else "start" if begun else "program"
@@ -324,4 +323,6 @@ def _sentence(
         return text + entered(only.entry)
     if differ:
         return text + "; different programs run"
-    return text + "; nothing else was entered: one of them was recorded on another machine, or by another version"
+    return (
+        text + "; nothing else was entered: one of them was recorded on a different machine, or by a different version"
+    )

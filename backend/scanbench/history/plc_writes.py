@@ -16,8 +16,8 @@ _CHUNK = 1 << 17
 """Scans whose changes are looked at at once."""
 
 
-def last_change(reader: RunReader, symbol: Symbol, scan: int, behind: int) -> int | None:
-    """The last scan behind scan `behind` and before `scan` in which it became another, where the PLC may do that itself."""
+def last_change(reader: RunReader, symbol: Symbol, scan: int, after: int) -> int | None:
+    """The last scan after `after` and before `scan` in which the value changed, for a variable that the PLC itself may write."""
     timeline = reader.timeline
     if not _may_be_written(timeline.resource.program, symbol) or not isinstance(symbol.type, Elementary):
         return None
@@ -25,12 +25,12 @@ def last_change(reader: RunReader, symbol: Symbol, scan: int, behind: int) -> in
     for checkpoint in reversed(timeline.recording.checkpoints):
         if checkpoint.scan >= until:
             continue
-        first = max(checkpoint.scan, behind + 1)
+        first = max(checkpoint.scan, after + 1)
         if first < until:
             found = _in_stretch(reader, symbol.path, first, until)
             if found is not None:
                 return found
-        if checkpoint.scan <= behind + 1:
+        if checkpoint.scan <= after + 1:
             return None
         until = checkpoint.scan
     return None
@@ -51,7 +51,7 @@ def _may_be_written(program: Program, symbol: Symbol) -> bool:
 
 
 def _in_stretch(reader: RunReader, path: str, first: int, end: int) -> int | None:
-    """The last of these scans after which it is another than before it."""
+    """The last of these scans that changed the value."""
     timeline = reader.timeline
     last: int | None = None
     before: int | None = None

@@ -1,8 +1,8 @@
-"""A run once more with one thing another: an error earlier, later, another one, or none.
+"""Repeats a run with one change: an error is raised earlier or later, replaced by a different one, or left out.
 
-The new run file has the original up to the first thing that is another. From there on the PLC runs: what somebody entered
-is entered again as a command, planned again, at its scan; what the PLC, the program, an armed fault or a disturbance entered
-by itself comes by itself, or not.
+The new run file has the original up to the first change. From there on the PLC runs: what somebody entered is entered again as
+a command, planned again, at its scan; what the PLC, the program, an armed fault or a disturbance entered by itself may come
+again by itself or not.
 """
 
 from collections.abc import Callable
@@ -72,7 +72,7 @@ def rerun(
 
 
 class _Again:
-    """The new run, from where it is another on."""
+    """The new run, from the change on."""
 
     def __init__(self, timeline: Timeline, plan: Planned, end: int, on_progress: OnProgress) -> None:
         self._timeline, self._end, self._on_progress = timeline, end, on_progress

@@ -1,4 +1,4 @@
-"""What is entered when a run is run once more with one error another: where the original ends, and what comes behind."""
+"""What is entered when a run is repeated with one error changed: where the copy of the original ends, and what follows."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -38,13 +38,13 @@ class Planned:
 
 
 def planned(reader: RunReader, change: RerunChange) -> Planned:
-    """What is to be entered. `Unreadable` says why it cannot be another."""
+    """What is to be entered. `Unreadable` says why the change is impossible."""
     _check(reader, change)
     entries = reader.entries
     raised = _raised(reader, change)
     index = _changed(reader, raised)
     entry = entries[index]
-    scan, command = entry.scan, _another(entry, entries[raised], change)
+    scan, command = entry.scan, _changed_command(entry, entries[raised], change)
     if command is not None:
         scan = _moved_to(entry, entries[raised], change)
     first = min(scan, entry.scan)
@@ -65,9 +65,9 @@ def planned(reader: RunReader, change: RerunChange) -> Planned:
 
 def _check(reader: RunReader, change: RerunChange) -> None:
     if change.leave_out and (change.by or change.instead):
-        raise Unreadable("it cannot be left out and be another too: choose one of them")
+        raise Unreadable("the error cannot be left out and be changed too: choose one of them")
     if not (change.leave_out or change.by or change.instead):
-        raise Unreadable("nothing would be another: say how many scans later, which error instead, or leave it out")
+        raise Unreadable("nothing would change: say how many scans later, which error instead, or leave it out")
     if change.instead:
         found = find_error(reader.timeline.resource.program.layout.model, change.instead)
         if isinstance(found, Refusal):
@@ -97,7 +97,7 @@ def _raised(reader: RunReader, change: RerunChange) -> int:
 
 
 def _changed(reader: RunReader, raised: int) -> int:
-    """The entry that is another: of an armed fault the one that armed it."""
+    """The entry that changes: for an armed fault the one that armed it."""
     entries, command = reader.entries, reader.entries[raised].command
     assert isinstance(command, Generate)
     index = raised
@@ -112,7 +112,7 @@ def _changed(reader: RunReader, raised: int) -> int:
     return index
 
 
-def _another(entry: Entry, raised: Entry, change: RerunChange) -> Command | None:
+def _changed_command(entry: Entry, raised: Entry, change: RerunChange) -> Command | None:
     """The command as it is to be this time; None: not at all."""
     match entry.command:
         case Arm(wanted=wanted) as command:

@@ -7,7 +7,7 @@ from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.frames import frame_name, instance_path, task_of
 from scanbench.debug.listener import Position
 from scanbench.debug.placed import bytes_of
-from scanbench.debug.reverse import Noted, Search, in_front
+from scanbench.debug.reverse import Noted, Search, position_before
 from scanbench.engines.probe import MakeProbed
 from scanbench.history.contract import Writer
 from scanbench.history.plc_writes import last_change
@@ -90,7 +90,7 @@ def find_writer(reader: RunReader, path: str, scan: int, prober: MakeProbed | No
 
 
 def _meant(reader: RunReader, path: str) -> Symbol:
-    """The variable itself, behind in-outs, where it is now."""
+    """The variable itself, after in-outs have been followed, at its present place."""
     resource = reader.timeline.resource
     found = meant(resource.view, path, "")
     if not isinstance(found, Meant):
@@ -125,7 +125,7 @@ class _Commands:
                 return entry
             if place is not None and isinstance(effect, Held) and place.held_by(effect):
                 return entry
-            if isinstance(effect, Swapped) and self._begins_anew(versions[index], effect):
+            if isinstance(effect, Swapped) and self._begins_differently(versions[index], effect):
                 return entry
             if isinstance(effect, Restarted) and place is not None and not self._survives(entry, effect, place):
                 return entry
@@ -136,8 +136,8 @@ class _Commands:
             self._places[version] = _in_program(self._programs.get(version).program, self._path)
         return self._places[version]
 
-    def _begins_anew(self, old: int, effect: Swapped) -> bool:
-        """Whether the new program began with another value than the old one had."""
+    def _begins_differently(self, old: int, effect: Swapped) -> bool:
+        """Whether the new program began with a different value than the old one had."""
         program = self._programs.get(effect.version).program
         place, before = self._place(effect.version), self._programs.get(old).program
         if place is None:
@@ -190,9 +190,9 @@ def _statement(reader: RunReader, path: str, here: Position, prober: MakeProbed 
 
 
 def _by_statement(reader: RunReader, noted: Noted, symbol: Symbol, value: bytes) -> Writer:
-    """Where it stands: the state before it is shown then."""
+    """The statement that wrote the value; afterwards the reader shows the state before it."""
     timeline = reader.timeline
-    scan, count = in_front(timeline, noted)
+    scan, count = position_before(timeline, noted)
     reader.goto(scan, count)
     resource = timeline.resource
     inside, program, sites = resource.listening.inside, resource.loaded.statements, resource.loaded.debugged().sites

@@ -24,7 +24,7 @@ from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass, Recorder, results_are
 
 MAX_BYTES = 2000
-"""Bytes that are another of which the variables are looked for."""
+"""The number of differing bytes whose variables are looked up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +124,7 @@ class Both:
         return entries[at] if at < len(entries) and entries[at].scan == scan else None
 
     def seam(self, scan: int) -> None:
-        """Enters what was entered before the scan; then the monitor stands where the control device stands."""
+        """Enters what was entered before the scan; then monitor and control device are in the same seam."""
         control, monitor = self.control, self.monitor
         disturbed = entered = False
         while (entry := self._next(scan)) is not None and not entry.step and not isinstance(entry.command, Trapped):
@@ -237,9 +237,9 @@ class Both:
     def different(
         self, one: bytes | bytearray = b"", other: bytes | bytearray = b"", begin: bytes = b""
     ) -> list[int]:  # fmt: skip
-        """The bytes of the two states (else those of now) that are another, but for the force table, and what a disturbance
-        holds. Where only one side came to the end of the scan: those that the control device has changed since it began,
-        and not what the system counts; what it did not come to is no difference of its own."""
+        """The bytes in which the two states (by default the present ones) differ, except for the force table and what a
+        disturbance holds. If only one side came to the end of the scan: those that the control device has changed since the
+        scan began, except for counters of the system; what it did not reach is not reported as a difference."""
         one, other = one or self.control.side.memory, other or self.monitor.side.memory
         size = self.control.side.resource.program.layout.state_size
         found = np.flatnonzero(_bytes(one, size) != _bytes(other, size)).tolist()
@@ -279,12 +279,12 @@ class Both:
         return list(leaves.values())[:MAX_MISMATCHES]
 
     def trap(self, view: View, scan: int, control: int, monitor: int) -> Mismatch:
-        """A run-time error, by its number, ended the scan on one side, and none or another one on the other."""
+        """A run-time error, given by its number, ended the scan on one side; the other side had none or a different one."""
         program = self.control.side.resource.program
         texts = [str(trap_info(program, each, scan)) if each else "" for each in (control, monitor)]
         if control:
             text = f"a run-time error ended scan {scan}: {texts[0]}; " + (
-                f"in the reference another one: {texts[1]}" if monitor else "the reference went on"
+                f"in the reference a different one: {texts[1]}" if monitor else "the reference went on"
             )
         else:
             text = f"the control device went to the end of scan {scan}, and a run-time error ended the reference: {texts[1]}"
@@ -361,8 +361,9 @@ def _cut(leaf: Leaf, memory: bytes | bytearray) -> bytes:
 def _settle(
     passes: list[Pass], other: list[Pass], control: bytearray, monitor: bytearray, different: list[int]
 ) -> None:  # fmt: skip
-    """What is another in the end although the statements came to the same: the code that ran live came to it, or it was
-    changed right behind. It counts as the result of the last statement that wrote it, if nobody wrote it later."""
+    """Handles bytes that differ at the end although the statements gave the same results: the code that ran live computed
+    them, or they were changed right after a statement. Each counts as the result of the last statement that wrote it, unless
+    something else wrote it later."""
     for at in different[:MAX_BYTES]:
         for mine, right in zip(reversed(passes), reversed(other), strict=False):
             last = _last(right.log, at)

@@ -16,15 +16,15 @@ Memory = Literal["recorded", "set"]
 RowKind = Literal["pass", "scan", "step", "none"]
 """A run through the range; a whole scan; one statement (pace step by step); the range did not run in this scan."""
 Cause = Literal["logic", "input", "order", "trap", "outside", "recorded"]
-"""logic: the same inputs gave another result. input: a value that nobody wrote since it was right (a disturbance between two
-scans, or of an input refresh). order: another statement ran, or another variable was used. trap: one of them ended by a
-run-time error. outside: a variable that the range does not use. recorded: code that ran live came to something else than
-the same code run again (the run file's checkpoint differs)."""
+"""logic: the same inputs gave a different result. input: a value became wrong although no statement wrote it (a disturbance
+between two scans, or of an input refresh). order: a different statement ran, or a different variable was used. trap: a run-time
+error ended one of the two. outside: a variable that the range does not use. recorded: re-running the recorded scan gave a
+different result than the live run (the run file's checkpoint differs)."""
 
 ENDED = "ended by a run-time error"
-"""How the note of a row begins whose scan one did."""
+"""The beginning of the note of a row if a run-time error ended its scan."""
 DEFAULT_LIMIT = 4096
-"""Uses of variables that are recorded in a scan, unless somebody wants another limit."""
+"""The default for the number of uses of variables that are recorded in a scan."""
 MAX_LIMIT = 1_000_000
 MAX_COLUMNS = 400
 
@@ -42,7 +42,7 @@ class Range:
     """A stretch of one POU, as it was asked for. Neither file nor POU: the whole scan."""
 
     pou: str = ""
-    """Name of a PROGRAM, FUNCTION_BLOCK, FUNCTION or method (`FB.method`); empty: the POU in which the lines of `file` stand."""
+    """Name of a PROGRAM, FUNCTION_BLOCK, FUNCTION or method (`FB.method`); empty: the POU that has the lines of `file`."""
     file: str = ""
     first: int = 0
     """Line of the file, counted from 1; 0: from the POU's first statement."""
@@ -54,8 +54,8 @@ class Range:
 
 @dataclass(frozen=True, slots=True)
 class Column(Public):
-    """A variable that the range reads or writes. Of a function block or method the name is that inside of it (`speed`,
-    `zone.parts` behind an in-out), so rows of several instances share the column; else it is a path or an address."""
+    """A variable that the range reads or writes. In a function block or method the name is the local one (`speed`, or
+    `zone.parts` through an in-out), so rows of several instances share the column; else it is a path or an address."""
 
     PUBLIC: ClassVar = "VerifyColumn"
 

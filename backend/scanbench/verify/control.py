@@ -10,11 +10,11 @@ from scanbench.verify.uses import Recorder
 
 
 class Control:
-    """Stands between two scans; what was entered before the next one is entered by whoever runs it."""
+    """The control device, always in the seam between two scans. The caller enters what was entered before the next scan."""
 
     def __init__(self, reader: RunReader) -> None:
         self._reader = reader
-        self.side = Side(reader.stand(reader.recording.checkpoints[0]))
+        self.side = Side(reader.open_checkpoint(reader.recording.checkpoints[0]))
 
     @property
     def scan(self) -> int:
@@ -31,7 +31,7 @@ class Control:
         checkpoint, end = reader.before(scan), reader.front(scan)
         here = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end
         if not (here and resource.recorder is reader.recording and resource.listening.inside is None):
-            self.side = Side(reader.stand(checkpoint))
+            self.side = Side(reader.open_checkpoint(checkpoint))
         reader.replay(self.side.resource, scan, end)
 
     def enter(self, entry: Entry) -> None:
@@ -46,7 +46,7 @@ class Control:
             if side.waits:  # only the debug flavour can enter anything inside of a scan
                 return trap_of(side.run(recorder, recorder.listen))
             stop, live = side.run(None), side.state
-            side.stand(begin)
+            side.restore(begin)
             side.run(recorder, recorder.listen)
         except Diverged as error:
             raise Unreadable(str(error)) from error
@@ -54,7 +54,7 @@ class Control:
         return trap_of(stop)
 
     def recorded(self) -> bytes | None:
-        """The state that the run file has of this very moment, if that is another one."""
+        """The state that the run file holds for this moment, if it differs from the present one; else None."""
         resource = self.side.resource
         state = self._reader.state(resource)
         return None if state == resource.state else state

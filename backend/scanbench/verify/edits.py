@@ -21,7 +21,7 @@ class BadEdit(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """An input that is another."""
+    """An input that was given a different value."""
 
     leaf: Leaf
     value: bytes
@@ -42,7 +42,7 @@ class Edits:
     _all: dict[tuple[int, int], dict[str, Edit]] = field(default_factory=dict)
 
     def copy(self) -> "Edits":
-        """Another one, which may be given up."""
+        """A copy, which may be discarded."""
         return Edits({key: dict(each) for key, each in self._all.items()})
 
     def of(self, scan: int, call: int) -> Mapping[str, Edit]:

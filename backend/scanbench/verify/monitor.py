@@ -16,7 +16,7 @@ from scanbench.verify.uses import Fresh, Pass, Recorder
 
 
 class Monitor:
-    """Stands where the control device stands, and has what that should have."""
+    """The monitor device: it is in the same seam as the control device, with the values that that one should have."""
 
     def __init__(self, programs: Programs, version: int) -> None:
         """`programs`: those of the control device; it shares what was checked, and nothing else."""
@@ -25,7 +25,7 @@ class Monitor:
 
     def _made(self, version: int) -> Side:
         resource = Resource(self._programs.get(version), programs=self._programs)
-        resource.lenient = True  # where control goes another way, what was entered inside of the scan still counts
+        resource.lenient = True  # entries inside of a scan count even where the control device takes a different path
         return Side(resource)
 
     def take_over(self, control: Side, own: bytes | None = None) -> None:

@@ -110,7 +110,7 @@ def _named(sites: Sites, wanted: Range) -> list[Pou]:
 
 
 def _in_file(sites: Sites, wanted: Range) -> list[Pou]:
-    """The one POU in which the lines stand."""
+    """The one POU that has the lines."""
     files = {pou.span.file for pou in sites.bodies}
     there = [pou for pou in sites.bodies if _is_file(pou.span.file, wanted.file)]
     if not there:
@@ -182,10 +182,10 @@ def _within(sites: Sites, mine: frozenset[int], wanted: Range, name: str) -> tup
     if around:  # inside of a statement of several lines: the innermost
         chosen = max(around, key=lambda site: _span(sites, site).line)
     else:
-        behind = [site for site in mine if _span(sites, site).line > last]
+        after = [site for site in mine if _span(sites, site).line > last]
         chosen = (
-            min(behind, key=lambda site: _span(sites, site).line)
-            if behind
+            min(after, key=lambda site: _span(sites, site).line)
+            if after
             else max(mine, key=lambda site: _span(sites, site).line)
         )
     line = _span(sites, chosen).line

@@ -191,7 +191,7 @@ def _inputs(
 def _differences(
     pair: Pair, names: NamesInside, teller: Teller, control_at: FramesAt, monitor_at: FramesAt
 ) -> list[Mismatch]:  # fmt: skip
-    """The first place where they part, then every result that is another in the end."""
+    """The first place where the two differ, then every result that differs at the end."""
     control = pair.control.log if pair.control is not None else []
     monitor = pair.monitor.log if pair.monitor is not None else []
     if control == monitor and pair.control is not None and pair.monitor is not None:

@@ -142,7 +142,7 @@ class RunSubject:
             places = Places(program, sites, lambda file, line: self._reader.text(version, file, line))
             try:
                 resolved = resolve_range(program, sites, self._range)
-            except BadRange:  # another program runs meanwhile: nothing of it is in the range
+            except BadRange:  # a different program runs by now, which does not have the range
                 resolved = Resolved("nothing", pous=frozenset(list(sites.bodies)[:1]))
             self._views[version] = View(Reader(Names(program, sites), places, self.columns), resolved, self._limit)
         return self._views[version]

@@ -1,4 +1,4 @@
-"""Differences as sentences: what is another, where, in which scan."""
+"""Differences as sentences: what differs, where, in which scan."""
 
 from dataclasses import dataclass
 
@@ -30,7 +30,7 @@ class Teller:
     def differs(
         self, cause: Cause, leaf: Leaf, control: bytes, monitor: bytes, site: int, frames: tuple[Frame, ...]
     ) -> Mismatch:  # fmt: skip
-        """A value is another."""
+        """A value differs."""
         place = self.places.of(site, frames)
         was, right = values(leaf, control, monitor)
         text = f"{self._subject(leaf)} is {was}, the reference gives {right}, at {_at(place)} in scan {self.scan}"
@@ -43,7 +43,7 @@ class Teller:
         return mismatch("input", leaf, recorded, expected, None, text)
 
     def order(self, one: Access, other: Access, here: tuple[Frame, ...], there: tuple[Frame, ...]) -> Mismatch:
-        """Another statement ran, or another variable was used."""
+        """A different statement ran, or a different variable was used."""
         place, meant = self.places.of(one.site, here), self.places.of(other.site, there)
         if one.site != other.site:
             text = f"{_at(place)} ran, and {_at(meant)} in the reference, in scan {self.scan}"

@@ -50,8 +50,8 @@ class Side:
         journal = self.resource.journal
         return Begin(self.resource.loaded, bytes(self.memory), journal, len(journal))
 
-    def stand(self, begin: Begin) -> None:
-        """Back to where a scan began. A run that is run again enters nothing, so the journal need not be a copy."""
+    def restore(self, begin: Begin) -> None:
+        """Restores the beginning of a scan. Running it again enters nothing, so the journal need not be a copy."""
         journal = begin.journal if len(begin.journal) == begin.entries else begin.journal.prefix(begin.entries)
         self.resource.restore(begin.loaded, begin.memory, journal)
 
@@ -75,10 +75,10 @@ class Side:
         return front(journal, self.resource.header.scan) < len(journal)
 
     def again(self, begin: Begin, run: Callable[[], T]) -> T:
-        """Runs something from where a scan began, and leaves everything as it is."""
+        """Calls `run` at the beginning of a scan, and restores the present state afterwards."""
         resource = self.resource
         here, journal, loaded = bytes(self.memory), resource.journal, resource.loaded
-        self.stand(begin)
+        self.restore(begin)
         try:
             return run()
         finally:

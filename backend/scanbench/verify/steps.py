@@ -56,7 +56,7 @@ class _Stepper:
 
 @dataclass(slots=True)
 class _Stood:
-    """Where a side stands."""
+    """The present position of a side."""
 
     memory: bytes
     frames: tuple[Frame, ...]
@@ -72,7 +72,7 @@ class _Stood:
 
 
 def step_row(both: Both, scan: int, count: int, view_of: ViewOf) -> Row:
-    """Both stand before what was entered in the scan; they go to the statement of this count (0: before the scan)."""
+    """Runs both from the seam, before its entries, to the statement with this count (0: the seam before the scan)."""
     both.seam(scan)
     control, monitor = both.control.side, both.monitor.side
     view = view_of(control)
@@ -122,7 +122,7 @@ class _Step:
     monitor: _Stood
 
     def row(self) -> Row:
-        """What the statement before used, and whether anything is another now."""
+        """What the previous statement used, and whether anything differs now."""
         reader, control, monitor = self.view.reader, self.control, self.monitor
         place = reader.places.of(control.frames[0].site, control.frames) if control.frames else None
         names = self._names()
@@ -188,7 +188,7 @@ class _Step:
             yield mismatch("logic" if mine else "outside", leaf, was, right, before if mine else None, text)
 
     def _different(self, written: set[int], begin: bytes) -> Iterator[tuple[Leaf, bool]]:
-        """The variables that are another now, and whether the statement before wrote them."""
+        """The variables that differ now, and whether the previous statement wrote them."""
         control, monitor = self.control.memory, self.monitor.memory
         found = self.both.different(control, monitor, begin)
         mine = [at for at in found if at in written]

@@ -1,7 +1,8 @@
 """The used-variable record: what a range reads and writes in a scan, pass by pass, in the order of use.
 
 The recorder listens to the debug flavour of either side. A pass begins when a statement of the range begins in a frame of its
-POU, and ends when another statement begins in that frame, or the frame ends; what is called belongs to it.
+POU. It ends when a statement outside of the range or a new call of the POU begins in that frame, or when the frame ends;
+what is called belongs to it.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -55,7 +56,7 @@ class Pass:
     used: int = 0
     """Uses, the ones that found no room included."""
     called: int = 1 << 62
-    """Where frames begin. What stands there of the POUs that it calls is no input: arguments are passed untold."""
+    """The offset of the frames. Frames of the POUs that it calls are no inputs, as the engine does not report arguments."""
     frames_of: list[tuple[Frame, ...]] = field(default_factory=list)
     """Of each entry of the log the open calls, where that was asked for."""
 
@@ -194,10 +195,10 @@ class Recorder:
             return depth > self._depth
         if site not in self._range.sites:
             return False
-        return site not in self._range.first_sites or not self._is_anew(open)
+        return site not in self._range.first_sites or not self._is_new_call(open)
 
-    def _is_anew(self, open: Pass) -> bool:
-        """The first statement of the POU begins: another call of it, unless an instruction list jumps back there."""
+    def _is_new_call(self, open: Pass) -> bool:
+        """Whether the first statement of the POU begins a new call of it, and not a jump back of an instruction list."""
         frame = self._engine.frames()[0]
         if frame.instance != open.instance or frame.pou is not open.pou:
             return True
@@ -228,7 +229,7 @@ class Recorder:
 
 
 def results_are(log: list[Access], memory: bytes | bytearray, span: range | None = None) -> bool:
-    """Makes the last results in a log those that stand in memory now (in these bytes); whether any was another."""
+    """Replaces the last results in a log by the present values in memory (in these bytes); returns whether any changed."""
     known: set[tuple[int, int]] = set()
     changed = False
     for index in range(len(log) - 1, -1, -1):

@@ -56,7 +56,7 @@ def _again(timeline: Timeline, change: RerunChange) -> tuple[Rerun, Timeline]:
 
 
 def _with_an_error(folder: Path) -> Timeline:
-    """Raised before scan 10, recovered in front of 15; something is written in front of 5, 12 and 20; 30 scans."""
+    """Raised before scan 10, recovered before 15; something is written before 5, 12 and 20; 30 scans."""
     timeline = _begun(folder / "run")
     for scan, command in (
         (5, Write("Ada", "Main.level", "2")),
@@ -101,7 +101,7 @@ def test_the_same_error_earlier_or_later(by: int, tmp_path: Path) -> None:
         assert find_divergence(one, two).scan == min(10, 10 + by)
 
 
-def test_another_error_instead(tmp_path: Path) -> None:
+def test_a_different_error_instead(tmp_path: Path) -> None:
     made, again = _again(_with_an_error(tmp_path), RerunChange(10, BATTERY, instead=SETUP))
     assert made.refused == ()
     assert (value(again.resource, "Main.low"), value(again.resource, "Main.seen")) == (0, 5)
@@ -172,7 +172,7 @@ def test_a_run_time_error_ends_it(tmp_path: Path) -> None:
     _enter(timeline, Write("Ada", "Main.level", "4"))
     advance(timeline, 5)
     assert timeline.live_scan == 15
-    assert value(timeline.resource, "Main.n") == 5, "it stands since"
+    assert value(timeline.resource, "Main.n") == 5, "it has not run since"
     made, again = _again(timeline, RerunChange(5, "memory-error", leave_out=True))
     assert made == Rerun(15, ())
     assert value(again.resource, "Main.n") == 15
@@ -197,13 +197,13 @@ def test_the_new_run_is_one(tmp_path: Path) -> None:
     [
         (RerunChange(10, SETUP, 1), "was not raised in this run at all"),
         (RerunChange(11, BATTERY, 1), "it was before scan 10"),
-        (RerunChange(10, BATTERY), "nothing would be another"),
+        (RerunChange(10, BATTERY), "nothing would change"),
         (RerunChange(10, BATTERY, 1, leave_out=True), "choose one"),
         (RerunChange(10, BATTERY, instead="batery-error"), "batery-error"),
         (RerunChange(10, BATTERY, -11), "scan -1 is not kept"),
     ],
 )
-def test_what_cannot_be_another(change: RerunChange, says: str, tmp_path: Path) -> None:
+def test_changes_that_are_refused(change: RerunChange, says: str, tmp_path: Path) -> None:
     timeline = _with_an_error(tmp_path)
     with pytest.raises(Unreadable, match=says):
         _again(timeline, change)

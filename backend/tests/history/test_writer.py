@@ -132,7 +132,7 @@ def test_paths_of_every_kind(
     assert found.path.replace("CIO", "") == meant
 
 
-def test_the_position_is_in_front_of_the_statement(tmp_path: Path) -> None:
+def test_the_position_is_before_the_statement(tmp_path: Path) -> None:
     timeline = begun(tmp_path / "run", LINE)
     advance(timeline, 20)
     with _reading(timeline.recording.path) as reading:
@@ -155,7 +155,7 @@ def test_a_command_that_came_later(tmp_path: Path) -> None:
     found = _last(timeline, "Main.quiet")
     assert (found.by, found.author, found.scan, found.shown) == ("command", "Ada", 8, "9")
     assert found.text.startswith("Write by Ada: Main.quiet")
-    assert _last(timeline, "Main.quiet", 8).by == "command", "what was entered in front of the scan is there"
+    assert _last(timeline, "Main.quiet", 8).by == "command", "what was entered before the scan is there"
     assert _last(timeline, "Main.quiet", 7).by == "program"
     assert _last(timeline, "Main.one").by == "program", "a statement wrote it since"
 
@@ -170,7 +170,7 @@ def test_a_force_holds(tmp_path: Path) -> None:
     assert "holds" in found.text
 
 
-def test_a_restart_and_another_program(tmp_path: Path) -> None:
+def test_a_restart_and_a_program_change(tmp_path: Path) -> None:
     timeline = begun(tmp_path / "run", LINE)
     advance(timeline, 12)
     timeline.submit(Restart("Ada", "warm"))
@@ -209,7 +209,7 @@ def test_a_block_that_was_never_called(tmp_path: Path) -> None:
         _last(timeline, "Main.belt[1].level")
 
 
-def test_another_run_of_the_same_name_has_its_own_programs(tmp_path: Path) -> None:
+def test_a_new_run_of_the_same_name_has_its_own_programs(tmp_path: Path) -> None:
     first = begun(tmp_path / "run", LINE)
     advance(first, 20)
     first.close()

@@ -1,7 +1,7 @@
 """A native emitter with a fault: one operation of one statement is emitted as another one. For tests only.
 
 The emitters find their operators, and the statements that they emit, by the names of their modules: a copy of those names is put
-in place while a program is emitted, and taken away behind it.
+in place while a program is emitted, and taken away afterwards.
 """
 
 from collections.abc import Callable, Iterator

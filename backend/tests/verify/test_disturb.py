@@ -108,9 +108,7 @@ def kinds(result: HeadlessRun[None]) -> list[str]:
         ("Main.text", 32, "abc", "ab" + chr(ord("c") ^ 1)), ("Main.r", 31, 1.5, -1.5), ("Main.twice.y", 1, 8, 10), ("W3.02", 0, False, True),
     ],
 )  # fmt: skip
-def test_a_bit_turns_over_in_front_of_its_scan(
-    engine: EngineFactory, path: str, bit: int, before: object, after: object
-) -> None:
+def test_a_bit_flips_before_its_scan(engine: EngineFactory, path: str, bit: int, before: object, after: object) -> None:
     result = run(engine, 5, (2, disturb(Disturbance("flip", path, bit, scan=5))))
     assert kinds(result) == ["Disturb", "Flip"]
     entry = result.entries[1]
@@ -268,7 +266,7 @@ def test_a_restart_does_not_mend_an_input(engine: EngineFactory, kind: str) -> N
 
 
 @ON
-def test_another_program_finds_it_stuck_too(engine: EngineFactory) -> None:
+def test_a_new_program_finds_it_stuck_too(engine: EngineFactory) -> None:
     new = program(SOURCE.replace("sum : DINT;", "sum : LINT; more : ARRAY[0..99] OF LINT;"))
     resource = Resource(Loaded.make(program(SOURCE), engine), agenda=DisturbanceSchedule())
     resource.programs = Shelf(resource.loaded, Loaded.make(new, engine, 2))
@@ -312,7 +310,7 @@ END_PROGRAM"""
 
 
 @ON
-def test_the_result_of_the_last_statement_is_corrupted_behind_it(engine: EngineFactory) -> None:
+def test_the_result_of_the_last_statement_is_corrupted_after_it(engine: EngineFactory) -> None:
     result = run(engine, 6, (0, disturb(Disturbance("result", bit=3, site=site("n := n + 1;"), scan=3))))
     assert [each.scan for each in result.entries] == [0, 3]
     assert value(result.resource, "Main.n") == 4 + 8 + 2

@@ -70,7 +70,7 @@ def define(timeline: Timeline) -> None:
 
 
 def advance(timeline: Timeline, until: int, states: dict[int, bytes]) -> None:
-    """To a scan, in runs of whatever length; what the state is in front of each scan in which it comes back."""
+    """Runs to a scan, in runs of varying lengths; `states` gets the state before each scan at which a run ends."""
     while timeline.live_scan < until:
         if timeline.live_scan % 3 == 0:
             timeline.submit(Write("Bob", "word", str(timeline.live_scan)))

@@ -62,7 +62,7 @@ FAULTS = [
     (12, "lt", "le", "Main.belt["),  # the way of an IF
     (21, "add", "sub", "Main"),
     (25, "div", "mul", "Main"),  # REAL
-    (27, "ge", "gt", "Main"),  # a comparison that is another one at its bound only
+    (27, "ge", "gt", "Main"),  # a comparison that differs at its bound only
 ]
 
 
@@ -81,7 +81,7 @@ def recorded(path: Path, program: Program, fault: Fault) -> None:
 
 
 def first_wrong(program: Program, fault: Fault) -> int:
-    """The scan behind which the fault shows: the same from the same state by both engines, until it is not."""
+    """The first scan after which the fault shows, found by running both engines from the same state."""
     wrong = Resource(planted(fault, debug=False)(1, program))
     right = Resource(Loaded.make(program, ReferenceEngine))
     for scan in range(SCANS):
@@ -126,7 +126,7 @@ def test_it_is_found_in_its_scan_at_its_statement(
 def test_it_is_found_in_its_scan_where_only_the_code_that_runs_live_has_it(
     program: Program, tmp_path: Path, line: int, right: str, wrong: str, instance: str
 ) -> None:
-    """Then what statements came to is known of variables alone that stand in memory behind the scan."""
+    """Then results of statements are known only for variables that are in memory after the scan."""
     fault = Fault("main.st", line, right, wrong)
     recorded(tmp_path / "run", program, fault)
     first = differing(tmp_path / "run", fault, "", debug=False)[0]

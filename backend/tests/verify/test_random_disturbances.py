@@ -144,7 +144,7 @@ class Expected:
         self._wires = bytearray(image)
         """What was written to the inputs, whatever is held there."""
         self._wrong: dict[int, int] = {}
-        """Bits that turned over in this seam, and that nobody wrote behind that."""
+        """Bits that flipped in this seam, and that nobody wrote afterwards."""
         self._held: dict[int, tuple[tuple[int, int, int], ...]] = {}
         by_scan: dict[int, list[Entry]] = {}
         for entry in entries:

@@ -1,4 +1,4 @@
-"""Verification against traces of controllers: our own runs as CSV, and what is another in them is found at its scan and variable."""
+"""Verification against traces of controllers: our own runs as CSV; what differs in them is found at its scan and variable."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -89,7 +89,7 @@ def test_one_changed_cell_is_found_at_its_scan_and_variable(
     assert f"in scan {scan}" in difference.message
 
 
-def test_what_the_program_remembers_is_taken_over_where_it_was_another() -> None:
+def test_state_of_the_program_is_taken_over_where_it_differed() -> None:
     """The level was 33 instead of 21 in one scan of the trace: that scan differs, and so does the one that was right again."""
     text = with_cell(conveyor_csv(), 60, "bufferLevel", "33")
     rows = verified(opened(text, conveyor(), "Buffer"))
@@ -97,7 +97,7 @@ def test_what_the_program_remembers_is_taken_over_where_it_was_another() -> None
     assert found(verified(opened(text, conveyor()))) == [(60, "logic", "bufferLevel"), (61, "logic", "bufferLevel")]
 
 
-def test_a_wrong_input_makes_another_result() -> None:
+def test_a_wrong_input_gives_a_different_result() -> None:
     """The controller saw no stop button: its trace says that it was pressed, and went on."""
     text = conveyor_csv()
     for scan in (160, 161, 162):

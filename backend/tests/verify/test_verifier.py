@@ -258,7 +258,7 @@ def test_what_the_program_wrote_over_a_flipped_bit_is_no_input_difference(
     assert ("nobody wrote it" in difference.message) == (read is None)
 
 
-def test_a_stuck_input_is_an_input_difference_while_it_is_another(tmp_path: Path) -> None:
+def test_a_stuck_input_is_an_input_difference_while_it_differs(tmp_path: Path) -> None:
     path = record(
         tmp_path / "run", program(BELTS), 14,
         [(4, Disturb("Ada", Disturbance("stuck", "start", scan=5, scans=5))), (7, Write("Bob", "start", "TRUE"))],
@@ -354,7 +354,7 @@ def test_a_program_change_on_the_way(tmp_path: Path) -> None:
     assert [b - a for a, b in pairwise(steps)] == [6, 6, 6, 9, 9, 9, 9]
 
 
-def test_a_block_that_another_program_does_not_have_and_that_comes_back(tmp_path: Path) -> None:
+def test_a_block_that_a_program_in_between_does_not_have(tmp_path: Path) -> None:
     small, big = program("PROGRAM Main VAR n : INT; END_VAR n := n + 1; END_PROGRAM"), program(BELTS)
     shelf = Shelf(*(Loaded.make(each, ReferenceEngine, number) for number, each in ((1, big), (2, small), (3, big))))
     path = record(
@@ -367,7 +367,7 @@ def test_a_block_that_another_program_does_not_have_and_that_comes_back(tmp_path
     assert differences(found) == []
 
 
-def test_another_run_of_the_same_name_has_its_own_programs(tmp_path: Path) -> None:
+def test_a_new_run_of_the_same_name_has_its_own_programs(tmp_path: Path) -> None:
     text = "PROGRAM Main VAR n : DINT; END_VAR n := n + %d; END_PROGRAM"
     made = {b"1": program(text % 1), b"2": program(text % 10)}
 
@@ -429,7 +429,7 @@ def test_a_run_time_error_on_one_side_is_the_difference_of_its_step(tmp_path: Pa
     assert {each.name for each in row.differences} == {"run-time error", "Main.ix"}
 
 
-def test_scans_in_which_the_program_stands_still_are_not_compared(tmp_path: Path) -> None:
+def test_scans_in_which_the_program_does_not_run_are_not_compared(tmp_path: Path) -> None:
     stopped = [(3, SetMode("Ada", "PROGRAM")), (6, SetMode("Ada", "RUN"))]
     path = record(tmp_path / "run", program(BELTS), 8, stopped)
     verified = verifier(path, program(BELTS))

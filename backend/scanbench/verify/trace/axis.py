@@ -42,7 +42,7 @@ class Scans:
 
 
 def plain_name(column: str) -> tuple[str, Unit | None]:
-    """A column's name without the unit that stands after it in brackets."""
+    """A column's name without the unit in brackets after it, and the unit."""
     found = _NAMED.fullmatch(column)
     if found is None:
         return column, None
@@ -66,7 +66,7 @@ def _unit(text: str) -> Unit:
 
 
 def number(text: str, comma: bool) -> Decimal:
-    """A decimal number as it stands in a cell. Raises ValueError that says what fits."""
+    """The decimal number in the text of a cell. Raises ValueError with the notation that is expected."""
     plain = text.strip().replace("\u2212", "-")
     found = _COMMA.fullmatch(plain)
     if found is not None:

@@ -50,14 +50,14 @@ def read_csv(text: str, name: str, note: str = "") -> Table:
 
 
 def _delimiter(text: str) -> str:
-    """What stands most often in the first line that is not empty."""
+    """The delimiter that occurs most often in the first line that is not empty."""
     first = next((line for line in text.splitlines() if line.strip()), "")
     plain = _QUOTED.sub("", first)
     return max(_DELIMITERS, key=plain.count) if any(each in plain for each in _DELIMITERS) else ","
 
 
 def _cells(cells: list[str], count: int) -> list[str]:
-    """Without empty cells that stand after the last column."""
+    """The cells without empty ones after the last column."""
     found = [each.strip() for each in cells]
     while len(found) > count and not found[-1]:
         found.pop()

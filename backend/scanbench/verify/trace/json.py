@@ -109,7 +109,7 @@ def _names(columns: Sequence[object]) -> list[str]:
 
 
 def _cell(value: object, index: int, column: str, problems: Problems) -> str:
-    """As it would stand in a CSV file."""
+    """The text that a cell of a CSV file would have for this value."""
     if value is None:
         return ""
     if isinstance(value, bool):

@@ -47,7 +47,7 @@ def widened(table: Table) -> Table:
 
 
 def _columns(columns: tuple[str, ...]) -> tuple[int, int, int] | None:
-    """Where scan or time, the variable's name, and the value stand."""
+    """The indices of the columns with the scan or time, the variable's name, and the value."""
     if len(columns) != 3:
         return None
     axis = next((at for at, each in enumerate(columns) if axis_of(each) is not None), None)
@@ -57,7 +57,7 @@ def _columns(columns: tuple[str, ...]) -> tuple[int, int, int] | None:
 
 
 def _ordered(keys: list[str], comma: bool) -> list[str]:
-    """By number: a file may have one variable behind the other. As they stand where any is no number, which is told later."""
+    """Sorted by number, as a file may have the variables one after the other. Unchanged if any is no number: that is reported later."""
     try:
         known: dict[str, Decimal] = {key: number(key, comma) for key in keys}
     except ValueError:

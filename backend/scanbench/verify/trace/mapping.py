@@ -110,7 +110,7 @@ def fits(mapping: TraceMapping, table: Table) -> bool:
 
 
 def bits_of(symbol: Symbol) -> range:
-    """Those of the image in which a variable lives that is behind no in-out."""
+    """The bits of the image that hold a variable which is not reached through an in-out."""
     if symbol.bit is not None:
         return range(8 * symbol.offset + symbol.bit, 8 * symbol.offset + symbol.bit + 1)
     return range(8 * symbol.offset, 8 * (symbol.offset + symbol.type.size))

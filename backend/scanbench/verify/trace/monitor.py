@@ -66,7 +66,7 @@ class Ran:
 
 
 class TraceMonitor:
-    """Stands before a scan, as it is by itself: from a cold start, and where it was told another value by that."""
+    """The monitor in the seam before a scan, with the state that it computed from a cold start and from recorded values."""
 
     def __init__(self, program: Program, trace: Trace) -> None:
         self.trace = trace
@@ -112,8 +112,8 @@ class TraceMonitor:
         self.settle(self.run(None))
 
     def run(self, recorder: Recorder | None, edits: Mapping[int, Sequence[Patch]] | None = None) -> Ran:
-        """Runs the scan that is next, on recorded inputs; with `edits` (pass -> patches) as that pass begins. The monitor stands
-        after it then, until it is settled or gone back to where it began."""
+        """Runs the next scan on recorded inputs; applies `edits` (pass -> patches) as each pass begins. Afterwards the monitor
+        is at the end of this scan, until `settle` or `back` is called."""
         memory, recorded = self.side.memory, self.recorded(self.scan)
         self._keep()
         patches = self.inputs(recorded.scan)
@@ -145,11 +145,11 @@ class TraceMonitor:
         )
 
     def back(self, ran: Ran) -> None:
-        """To where a scan began."""
-        self.side.stand(ran.begin)
+        """Restores the beginning of a scan."""
+        self.side.restore(ran.begin)
 
     def settle(self, ran: Ran) -> None:
-        """Goes on after it, with what the controller had where that was another."""
+        """Completes the scan: takes over the recorded values of the controller where they differ."""
         memory = self.side.memory
         if ran.trap:
             pass_time(memory, 1, self._program.interval_ns)
@@ -220,7 +220,7 @@ def value_of(signal: Signal, memory: bytes | bytearray) -> bytes:
     if symbol.bit is not None:
         return bytes((memory[symbol.offset] >> symbol.bit & 1,))
     value = bytes(memory[symbol.offset : symbol.offset + signal.type.size])
-    if isinstance(signal.type, StringType):  # what is behind its end means nothing
+    if isinstance(signal.type, StringType):  # bytes after its end have no meaning
         used = 2 + signal.type.width * min(int.from_bytes(value[:2], "little"), signal.type.capacity)
         return value[:used].ljust(len(value), b"\0")
     return value

@@ -80,7 +80,7 @@ class TraceRows:
     def _differences(
         self, names: NamesInside, made: Pass, results: Mapping[str, Result], scan: int
     ) -> Iterator[Mismatch]:  # fmt: skip
-        """In the order in which the statements that wrote them ran; what nobody wrote is behind them."""
+        """In the order in which the statements that wrote them ran; those that no statement wrote come last."""
         found = [
             (name, each, _last_use(made, each.signal, written=True)) for name, each in results.items() if not each.same
         ]
@@ -101,8 +101,8 @@ class TraceRows:
     # ---- inside of a scan ---------------------------------------------------------------------------------------------
 
     def step(self, monitor: TraceMonitor, scan: int, count: int, range: Resolved) -> Row:
-        """The monitor before the statement of a count; after the last one its results are compared. It stands before
-        the scan before and after."""
+        """The row of the monitor before the statement with this count; after the last one the results are compared. Before and
+        after this call the monitor is in the seam before the scan."""
         hook = _Halt(count, monitor)
         ran = monitor.run_with(hook, Listen(count=1, every=True)) if count else None
         place = None

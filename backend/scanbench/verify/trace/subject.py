@@ -49,7 +49,7 @@ class TraceSubject:
         self._limit = DEFAULT_LIMIT
         self._rows = TraceRows(self._reader, trace)
         self._last: tuple[Recorder, Ran] | None = None
-        """The scan that was run last. The monitor stands before it, or of another one."""
+        """The scan that was run last. The monitor is in the seam before this or a different scan."""
 
     def close(self) -> None:
         """There is nothing to let go of."""
@@ -144,7 +144,7 @@ class TraceSubject:
         return self._last
 
     def _run(self, scan: int, detail: bool = False) -> tuple[tuple[Row, ...], Recorder, Ran]:
-        """The rows of a scan. The monitor stands before it."""
+        """The rows of a scan. Afterwards the monitor is in the seam before it."""
         self._monitor.goto(scan)
         recorder = self._recorder(detail)
         ran = self._monitor.run(recorder)

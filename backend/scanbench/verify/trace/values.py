@@ -60,7 +60,7 @@ class Exactness:
     """What 1 in the file is in the variable: ns of a TIME."""
 
     def same(self, type: Leaf, recorded: bytes, found: bytes) -> bool:
-        """Whether the cell may stand for the value that was found."""
+        """Whether the cell can mean the value that was found."""
         if isinstance(type, StringType):
             size = 2 + int.from_bytes(recorded[:2], "little") * type.width
             return recorded[:size] == found[:size]
