@@ -104,8 +104,8 @@ class Builder:
                 return self._checked(sources, model)
             return _program(Checks(), sources, model)
 
-    def anew(self, sources: Sources) -> Program:
-        """The program checked once more, by itself: no later check changes its statements."""
+    def checked_alone(self, sources: Sources) -> Program:
+        """A separate check of the sources: no later check changes the statements of this program."""
         return _program(Checks(), sources, find_model(sources.model))
 
     def prepare(self, sources: Sources) -> None:

@@ -34,9 +34,9 @@ class Builds:
         """Begins what is asked for; the answer comes when it is done."""
         match message:
             case protocol.Build():
-                _behind("build", lambda: self._build(message.ref, message.sources, message.author, loop))
+                _in_background("build", lambda: self._build(message.ref, message.sources, message.author, loop))
             case protocol.Preview():
-                _behind("preview", lambda: self._preview(message, loop))
+                _in_background("preview", lambda: self._preview(message, loop))
             case protocol.RollBack():
                 sources = loop.previous_sources()
                 if sources is None:
@@ -44,18 +44,18 @@ class Builds:
                         BuildRefused(message.ref, "there is no program to go back to: this is the first one of the run")
                     )
                 else:
-                    _behind("build", lambda: self._build(message.ref, sources, message.author, loop))
+                    _in_background("build", lambda: self._build(message.ref, sources, message.author, loop))
 
     def observe(self, submit: protocol.Submit, loop: Loop) -> None:
         """Builds observed code of what runs; the command that waits for a statement is entered when that is there."""
-        _behind("observe", lambda: self._observe(submit, loop))
+        _in_background("observe", lambda: self._observe(submit, loop))
 
     def get_ready(self, loop: Loop) -> None:
         """Somebody looks, and may edit or debug: checks what runs, once, so that the next check is a short one, and builds
         debugged code of it, so that a breakpoint holds at once."""
         ready, self._ready = self._ready, True
         if not ready or loop.timeline.live.debug is None:
-            _behind("prepare", lambda: self._prepare(loop, not ready))
+            _in_background("prepare", lambda: self._prepare(loop, not ready))
 
     def serve_debugger(self, loop: Loop) -> None:
         """Builds what the debugger asks for from now on."""
@@ -66,7 +66,7 @@ class Builds:
 
     def debug(self, loop: Loop) -> None:
         """Builds debugged code of what runs; the loop gets it."""
-        _behind("debug", lambda: self._debug(loop))
+        _in_background("debug", lambda: self._debug(loop))
 
     def optimise(self, loop: Loop) -> None:
         """Begins to optimise the program that was built last, if that is left to do."""
@@ -137,7 +137,7 @@ class Builds:
 
     def probe(self, loop: Loop, loaded: Loaded, probes: tuple[Probe, ...]) -> None:
         """Builds code with probes, in whose place the debug flavour runs meanwhile."""
-        _behind("probe", lambda: self._probe(loop, loaded, probes))
+        _in_background("probe", lambda: self._probe(loop, loaded, probes))
 
     def _probe(self, loop: Loop, loaded: Loaded, probes: tuple[Probe, ...]) -> None:
         with self._building:
@@ -161,5 +161,5 @@ class Builds:
         return self._memory.report(error) if isinstance(error, MemoryError) else str(error)
 
 
-def _behind(name: str, work: Callable[[], None]) -> None:
+def _in_background(name: str, work: Callable[[], None]) -> None:
     threading.Thread(target=work, name=name, daemon=True).start()

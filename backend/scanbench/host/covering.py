@@ -36,7 +36,7 @@ class Covering:
         self.more = True
 
     def moved(self, debugger: Debugger) -> None:
-        """Another program runs."""
+        """Adapts to a new program after a program change."""
         if self._tap is not None and not self._timeline.past:
             sites = debugger.breakpoints.placing(self._timeline.live).sites
             self._tap.change(sites, self._texts())

@@ -18,7 +18,7 @@ class Debuggable:
     message: str = ""
 
     def put_in_place(self) -> None:
-        """In the seam. What stands there already stays: somebody may have listened to it."""
+        """Puts the code in place, in the seam. An engine that is there already stays: somebody may have listened to it."""
         if self.loaded.debug is None and self.engine is not None:
             self.loaded.fresh = self.program
             self.loaded.debug = self.engine

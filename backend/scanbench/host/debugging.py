@@ -78,7 +78,7 @@ class Debugging:
             for message in waiting:
                 self._ack(getattr(message, "ref", 0), False, code.message)
             return []
-        if waiting and self._timeline.live.debug is None:  # another program runs by now
+        if waiting and self._timeline.live.debug is None:  # a new program runs by now
             self._waiting.extend(waiting)
             self._building = True
             self.build()
@@ -230,7 +230,7 @@ class Debugging:
                 self._link.post(self._covering.answer(None))
 
     def moved(self) -> None:
-        """Another program runs."""
+        """Adapts to a new program after a program change."""
         self.debugger.moved()
         self._covering.moved(self.debugger)
 

@@ -4,7 +4,7 @@ A request on the socket FD is the entry of the new process and the directory of 
 reply is the number of the process, or why there is none. It ends when the server closes the socket, or is gone.
 
 A host is forked twice, so that the server, which adopts orphans, becomes its parent. This process has one thread, and must
-never get another: a fork would lose it.
+never start a second one, because a fork would lose it.
 """
 
 import gc

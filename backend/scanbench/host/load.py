@@ -50,7 +50,7 @@ class Loads:
                 seen[pid] = cpu, now
                 cpu_before, before = self._last.get(pid, (cpu, now))
                 span = now - before
-                # a number may stand for another process by now, which has used less
+                # a number may belong to a new process by now, which has used less
                 share = max(0.0, 100 * (cpu - cpu_before) / span) if span > 0 else 0.0
                 found[pid] = Load(share, memory)
         self._last, self._found = seen, found

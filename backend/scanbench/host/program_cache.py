@@ -30,7 +30,7 @@ def key_of(sources: Sources, model: Model) -> str:
 
 @cache
 def _own_code() -> str:
-    """A fingerprint of the code that makes programs: another version of ours makes others."""
+    """A fingerprint of the code that makes programs: a different version of Scanbench may make different programs."""
     package = files("scanbench")
     digest = hashlib.sha256(sys.version.encode())
     for path, data in [("problems.py", package.joinpath("problems.py").read_bytes())] + [

@@ -65,11 +65,11 @@ class HostPrograms:
         built = self._builder.build(sources)
         memory = bytearray(built.program.layout.size)
         loaded = Loaded(sources.version, built.program, memory, built.engine(built.program, memory))
-        loaded.renew = _Once(lambda: self._builder.anew(sources))
+        loaded.renew = _Once(lambda: self._builder.checked_alone(sources))
         return loaded
 
     def put(self, loaded: Loaded, sources: Sources) -> None:
-        """Takes a program that was built behind."""
+        """Takes a program that was built in the background."""
         self._sources[loaded.version] = sources
         self._cache.put(loaded)
 

@@ -115,8 +115,8 @@ class Services:
                 self._attended = message.anybody
 
     def entered(self) -> None:
-        """Tells of the journal's new entries, and first what runs now, when that is another program. What they leave armed or
-        present is told before anybody gets an answer."""
+        """Reports the journal's new entries, after the program that runs now if that changed. Which faults and errors they
+        leave armed or present is reported before anybody gets an answer."""
         if self._timeline.live.version != self._version_told:
             self._version_told = self._timeline.live.version
             self._link.post(protocol.NowRuns(self._sources(self._version_told)))
@@ -134,7 +134,7 @@ class Services:
             self._tell_state(monotonic_ns())
 
     def moved(self) -> None:
-        """Another program is shown: every variable may have another place."""
+        """Plans the watch again, as a new program is shown, in which every variable may have a new place."""
         self._link.post(protocol.Watching(None, self._plan_watch(self._watched)))
 
     # ---- at each tick ---------------------------------------------------------------------------------------------

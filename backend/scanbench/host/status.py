@@ -30,7 +30,7 @@ def previous_version(timeline: Timeline) -> int | None:
 
 
 def host_state(timeline: Timeline, pacer: Pacer, past_by: str, note: str, debugger: Debugger) -> PlcState:
-    """What the top bar shows. `note` stands where nothing more pressing is to be said."""
+    """What the top bar shows. `note` is shown if there is nothing more urgent."""
     resource = timeline.resource
     header = resource.header
     state, message = _state(resource, pacer.paused, note)

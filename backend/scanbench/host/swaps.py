@@ -45,7 +45,7 @@ class Copied:
 
 
 class Optimising(Protocol):
-    """Who makes optimised code behind."""
+    """Makes optimised code in the background."""
 
     @property
     def optimising(self) -> bool:

@@ -48,7 +48,7 @@ class Tiers:
             self._waiting = None
 
     def engine(self, program: Program, memory: bytearray, key: str) -> Engine:
-        """An engine that can run soon; `key` stands for the program."""
+        """An engine that can run soon; `key` identifies the program."""
         self.supersede()
         with self._lock:
             objects = self._recalled(key)
@@ -72,7 +72,7 @@ class Tiers:
         return self._waiting is not None
 
     def optimise(self, deliver: Callable[[Recode], None]) -> None:
-        """Begins to optimise what runs quick code; `deliver` gets the result, from another thread."""
+        """Begins to optimise what runs quick code; `deliver` is called with the result, from a different thread."""
         waiting = self._waiting
         if waiting is not None:
             threading.Thread(target=self._optimise, args=(waiting, deliver), name="optimise", daemon=True).start()

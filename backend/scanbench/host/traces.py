@@ -73,7 +73,7 @@ class Traces:
             self._tell()
 
     def moved(self) -> None:
-        """Another program may run: the signals are found in it. What the old one gave was drained after its last run."""
+        """Looks the signals up again, as a new program may run. The samples of the old one were drained after its last run."""
         if self._timeline.past:
             return
         self.drain()

@@ -1,4 +1,4 @@
-"""Questions to another process, each with a typed answer, and what is told it without one: one way for all processes.
+"""Questions to a process, each with a typed answer, and messages to it without an answer: one way for all processes.
 
 A question is a message with a `ref`, which the channel gives it; whatever comes back with that `ref` belongs to it.
 """

@@ -15,7 +15,7 @@ from scanbench.wire.refused import Unavailable
 
 log = logging.getLogger("scanbench")
 INTERVAL_NS = 10_000_000
-"""A scan where no CONFIGURATION says another."""
+"""The interval of a scan if no CONFIGURATION has one."""
 
 
 class Checker:

@@ -133,5 +133,5 @@ _LARGEST = Elementary("LWORD", BOOL.kind, 8)
 
 
 def _swaps(entries: Sequence[Entry]) -> list[int]:
-    """Where the program becomes another one."""
+    """The first scan before which the program changed; empty if it never did."""
     return [each.scan for each in entries if isinstance(each.plan.effect, Swapped)][:1]

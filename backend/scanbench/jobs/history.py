@@ -65,7 +65,7 @@ class HistoryJob:
 
     def _reader(self, run: str, until: int) -> RunReader:
         reader = self._open.pop(run, None) or RunReader(Path(run), self._programs_of, ENTRIES, texts_in)
-        self._open[run] = reader  # the last one used stands last
+        self._open[run] = reader  # the dict keeps the order of use: the last one used is last
         while len(self._open) > _OPEN:
             self._open.pop(next(iter(self._open))).close()
         reader.follow(until or None)

@@ -66,7 +66,7 @@ class Job:
     """Answers requests, one after the other."""
 
     def __init__(self, cache: Path | None, answers: BinaryIO, asked: Callable[[], bool] = lambda: False) -> None:
-        """`asked`: whether another request waits."""
+        """`asked`: whether a further request waits."""
         self._cache = BlobCache(cache) if cache is not None else None
         self._asked = asked
         self._verify: verify_job.VerifyJob | None = None
@@ -175,7 +175,7 @@ class Job:
             program = recall(self._cache, key)
         if program is None:
             program = checked_program(sources, model)
-        self._programs[key] = program  # the last one used stands last
+        self._programs[key] = program  # the dict keeps the order of use: the last one used is last
         while len(self._programs) > _PROGRAMS:
             del self._programs[next(iter(self._programs))]
         return program

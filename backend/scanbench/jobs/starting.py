@@ -88,7 +88,7 @@ def _reaction_in(path: Path, error: str, scan: int, window: int, program_of: Pro
 
 
 def point_in(path: Path, scan: int | None, sources: Sources, program_of: ProgramOf, make: MakeObserved) -> Point:
-    """The PLC before `scan`, or where the run ends, with the program of `sources`: carried over where it had another.
+    """The PLC before `scan`, or where the run ends, with the program of `sources`: carried over if it ran a different program.
 
     The version of the point is that of `sources`. `Unreadable` when there is no such scan, or nothing runs there.
     """
@@ -107,7 +107,7 @@ def point_in(path: Path, scan: int | None, sources: Sources, program_of: Program
 
 
 def _raised(entries: Sequence[Entry], error: str, scan: int) -> int | None:
-    """Where the journal has it; the last one, as that is what stands."""
+    """The index of the last entry that raised the error at this scan; None if there is none."""
     for index in range(len(entries) - 1, -1, -1):
         entry = entries[index]
         if entry.scan < scan:
@@ -119,7 +119,7 @@ def _raised(entries: Sequence[Entry], error: str, scan: int) -> int | None:
 
 
 def _carried_over(resource: Resource, program: Program, version: int, make: MakeObserved) -> Resource:
-    """The PLC with another program, as an online change leaves it. It may be in RUN: here nobody works with it."""
+    """The PLC with the program `program`, as after an online change. It may be in RUN, as nobody works with it here."""
     programs = cached({resource.version: resource.program, version: program}, observed(make))
     there = Resource(programs.get(resource.version), programs=programs)
     there.restore(there.loaded, resource.state, resource.journal)

@@ -50,7 +50,7 @@ class VerifyJob:
     def __init__(
         self, program_of: ProgramOf, cache: BlobCache | None, say: Callable[[object], None], asked: Callable[[], bool]
     ) -> None:  # fmt: skip
-        """`asked`: whether another request waits."""
+        """`asked`: whether a further request waits."""
         self._program_of, self._cache, self._say, self._asked = program_of, cache, say, asked
         self._verifier: Verifier | None = None
 

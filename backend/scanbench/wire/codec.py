@@ -100,7 +100,7 @@ _CLASSES: dict[str, type] = {
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,
     )
 }  # fmt: skip
-_CLASSES["FaultStart"] = FaultStart  # there is another Start
+_CLASSES["FaultStart"] = FaultStart  # `protocol.Start` has the same name
 _NAMES = {cls: name for name, cls in _CLASSES.items()}
 _FIELDS = {name: tuple(field.name for field in fields(cls)) for name, cls in _CLASSES.items()}
 

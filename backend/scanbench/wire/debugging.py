@@ -72,7 +72,7 @@ class WantScopes:
 
 @dataclass(frozen=True, slots=True)
 class WantVariables:
-    """What stands below an expression that is a place: members, elements; answered with `Variables`.
+    """The parts of an expression that is a place: members, elements; answered with `Variables`.
 
     `scope` (one of the names in `Scopes`) with an empty expression: the variables of that scope. `frame` None as in
     `Evaluate`: an expression in the scope of the whole program, also while it runs.
@@ -209,7 +209,7 @@ class Evaluated:
 
 @dataclass(frozen=True, slots=True)
 class PlaceInfo:
-    """A statement that a breakpoint can stand at."""
+    """A statement at which a breakpoint can be set."""
 
     line: int
     column: int

@@ -38,7 +38,7 @@ class CheckOutcome:
 
     @property
     def errors(self) -> int:
-        """How many problems stand in the way of a program."""
+        """The number of problems that prevent the program from running."""
         return sum(problem.severity is Severity.ERROR for problem in self.problems)
 
 
@@ -86,7 +86,7 @@ class LogEntry(Public):
 
 @dataclass(frozen=True, slots=True)
 class StateChanged:
-    """The PLC's state is another."""
+    """The PLC's state changed."""
 
     state: PlcState
 
@@ -280,7 +280,7 @@ class VerifyWish:
 
 @dataclass(frozen=True, slots=True)
 class VerificationStatus:
-    """How a verification stands."""
+    """The state of a verification."""
 
     id: int
     instance: int

@@ -229,7 +229,7 @@ class Pong:
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """The program runs (or stands); `message` says on what, `sources` what it is made of."""
+    """The program is there, running or not; `message` names its engine, `sources` is what it is made of."""
 
     message: str
     sources: Sources
@@ -239,7 +239,7 @@ class Ready:
 
 @dataclass(frozen=True, slots=True)
 class NowRuns:
-    """Another program runs from the next entries on: what it is made of."""
+    """From the next entries on a new program runs, made of these sources."""
 
     sources: Sources
 

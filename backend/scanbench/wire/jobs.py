@@ -41,7 +41,7 @@ class StartPoint:
 class RunSweep:
     """Every error alone from every point, but for the pairs in `done`. Answered with `CellFound` for each, then `JobDone`.
 
-    Errors in the order given, for each all points. A point of another version of the program is carried over to `sources`.
+    Errors in the order given, for each all points. A point of a different version of the program is carried over to `sources`.
     """
 
     ref: int

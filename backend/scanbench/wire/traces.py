@@ -11,8 +11,8 @@ from scanbench.taps.trace import State, TraceDefinition, TraceSignal
 
 @dataclass(frozen=True, slots=True)
 class DefineTrace:
-    """A new trace with this id, or another definition for it; what runs is started again. With `start` it is started in any
-    case. Answered with `Ack`, behind `TracesAre`."""
+    """A new trace with this id, or a new definition for it; a trace that runs is started again. With `start` it is always
+    started. Answered with `TracesAre`, then `Ack`."""
 
     ref: int
     id: int
@@ -23,7 +23,7 @@ class DefineTrace:
 
 @dataclass(frozen=True, slots=True)
 class DriveTrace:
-    """`start` (arms it again, too), `stop` or `delete`. Answered with `Ack`, behind `TracesAre`."""
+    """`start` (arms it again, too), `stop` or `delete`. Answered with `TracesAre`, then `Ack`."""
 
     ref: int
     id: int
@@ -51,7 +51,7 @@ class ReadTrace:
 
 @dataclass(frozen=True, slots=True)
 class TraceStatus(Public):
-    """A trace of a PLC, which everybody shares, and how it stands."""
+    """A trace of a PLC, which everybody shares, and its state."""
 
     PUBLIC: ClassVar = "TraceInfo"
 
@@ -61,7 +61,7 @@ class TraceStatus(Public):
     state: State
     signals: tuple[TraceSignal, ...]
     generation: int
-    """Other samples than those of another generation."""
+    """Changes whenever the trace is recorded again."""
     triggered: int | None
     """After which scan the trigger came, of what is shown."""
     hits: int

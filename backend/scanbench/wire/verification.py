@@ -1,7 +1,7 @@
 """What the parent and a job process say to each other about verification and about the past of a run.
 
-One process belongs to one verification: it re-runs the run file natively (the control device), and the monitor beside it. Requests are
-answered in order; rows come as they are made, and the parent keeps them. Another process answers the questions about the past.
+One process belongs to one verification: it runs the control device (the run file, re-run natively) and the monitor. It answers requests in
+order; it sends rows as they are made, and the parent keeps them. A different process answers the questions about the past.
 """
 
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ class BeginTrace:
 @dataclass(frozen=True, slots=True)
 class VerifyScans:
     """Verifies scans `first` to `last`, both included, in order. Answered with `ScansVerified` a few times a second, then
-    `ScansDone`. It ends early, after the scan that runs, when another request waits."""
+    `ScansDone`. It ends early, after the scan that runs, when a further request waits."""
 
     ref: int
     first: int
@@ -209,8 +209,8 @@ class WriterFound:
 
 @dataclass(frozen=True, slots=True)
 class FindChanges:
-    """What is another at the beginning of scan `last` than at that of scan `first`; with `other`, a second run file: what is
-    another in that at `last` than in `run` at `first`. Answered with `ChangesFound`."""
+    """The values that differ between the beginnings of scan `first` and of scan `last` of `run`; with `other`, a second run file:
+    between `first` in `run` and `last` in `other`. Answered with `ChangesFound`."""
 
     ref: int
     run: str
@@ -260,7 +260,7 @@ class RunsCompared:
 
 @dataclass(frozen=True, slots=True)
 class RerunRun:
-    """The run once more with one thing another, up to scan `until`, into a new run file. Answered with `PastAt` a few times a
+    """Repeats the run with one change, up to scan `until`, into a new run file. Answered with `PastAt` a few times a
     second, then `RerunDone`."""
 
     ref: int

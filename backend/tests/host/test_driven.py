@@ -105,7 +105,7 @@ def test_what_the_server_asks_for_is_kept_before_it_is_told(tmp_path: Path, cach
 
 
 @pytest.mark.parametrize("end", [killed, ended])
-def test_halted_it_stands_there_again_also_after_a_step(tmp_path: Path, cache: Path, end: Ended) -> None:
+def test_a_halted_plc_is_halted_there_again_also_after_a_step(tmp_path: Path, cache: Path, end: Ended) -> None:
     run = tmp_path / "a.run"
     with Child(run, COUNTING, cache) as child:
         assert child.step("pause").ok

@@ -87,7 +87,7 @@ def test_what_is_changed_while_halted_is_seen_by_the_next_statement(tmp_path: Pa
         child.wait(protocol.PlcState, lambda state: state.state == "running" and not state.flavour)
 
 
-def test_back_into_an_earlier_scan_and_forward_to_where_it_stands(tmp_path: Path, cache: Path) -> None:
+def test_back_into_an_earlier_scan_and_forward_to_the_live_position(tmp_path: Path, cache: Path) -> None:
     with Child(tmp_path / "a.run", STATIONS, cache) as child:
         set_breakpoints(child, at_line(10, condition="n > 30"))
         live = child.halted()
@@ -103,7 +103,7 @@ def test_back_into_an_earlier_scan_and_forward_to_where_it_stands(tmp_path: Path
         assert again == live
 
 
-def test_a_plc_that_is_killed_while_halted_stands_in_front_of_that_scan(tmp_path: Path, cache: Path) -> None:
+def test_a_plc_that_is_killed_while_halted_comes_back_before_that_scan(tmp_path: Path, cache: Path) -> None:
     run = tmp_path / "a.run"
     with Child(run, STATIONS, cache) as child:
         set_breakpoints(child, at_line(5, instance="Main.c", condition="total > 30"))
@@ -124,7 +124,7 @@ def test_a_plc_that_is_killed_while_halted_stands_in_front_of_that_scan(tmp_path
         assert int(child.value("Main.c.total")) == total + 500, "what was written inside of the scan is in the journal"
 
 
-def test_a_plc_that_was_halted_comes_back_standing(tmp_path: Path, cache: Path) -> None:
+def test_a_plc_that_was_halted_comes_back_halted(tmp_path: Path, cache: Path) -> None:
     run = tmp_path / "a.run"
     with Child(run, STATIONS, cache) as child:
         assert child.step("pause").ok

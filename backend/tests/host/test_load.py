@@ -38,7 +38,7 @@ def put(proc: Path, pid: int, ticks: int, **files: str) -> None:
         (folder / name).write_text(text)
 
 
-def test_a_number_that_stands_for_another_process_now(tmp_path: Path) -> None:
+def test_a_number_that_belongs_to_a_new_process_now(tmp_path: Path) -> None:
     loads = Loads(tmp_path)
     put(tmp_path, 7, 5000, smaps_rollup="00-ff ---p 00000000 00:00 0 [rollup]\nRss: 900 kB\nPss: 300 kB\n")
     assert loads.look([7])[7].memory_bytes == 300 * 1024

@@ -18,14 +18,14 @@ def lines(program: Program) -> list[int]:
     return [site.span.line for site in sites_of(program).statements]
 
 
-def test_the_program_checked_anew_has_the_statements_that_run() -> None:
+def test_the_program_checked_again_has_the_statements_that_run() -> None:
     builder = Builder(None)
     built = builder.build(sources(SOURCE, 1))
     memory = bytearray(built.program.layout.size)
     loaded = Loaded(1, built.program, memory, built.engine(built.program, memory))
     builder.build(sources(EDITED, 2))  # never swapped in
     assert lines(loaded.program) == [5, 6, 7, 8], "programs of one host share their bodies"
-    loaded.fresh = builder.anew(sources(SOURCE, 1))
+    loaded.fresh = builder.checked_alone(sources(SOURCE, 1))
     builder.preview(sources(SOURCE.replace("n := 7", "n := 8"), 3))
     assert lines(loaded.statements) == [3, 4, 5]
 

@@ -1,4 +1,4 @@
-"""Quick code first, optimised code behind, and what is known already at once: all compute the same."""
+"""Quick code first, optimised code later, and what is known already at once: all compute the same."""
 
 import gc
 import threading

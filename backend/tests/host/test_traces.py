@@ -73,7 +73,7 @@ def test_all_pages_are_taken_from_the_newest_on() -> None:
 
 
 def test_what_fits_on_one_page_is_asked_for_once() -> None:
-    """A trace that is armed again and again would be another one by the second time."""
+    """A trace that is armed again and again would be a different one by the second time."""
     generations = iter((3, 4))
 
     def answer(ask: ReadTrace) -> TraceRead:

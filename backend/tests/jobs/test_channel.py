@@ -154,7 +154,7 @@ def test_an_acknowledgement_that_was_asked_for_is_an_answer_also_where_it_refuse
     assert story(ask) == Ack(1, False, "no", 3)
 
 
-def test_an_answer_of_another_kind_is_none() -> None:
+def test_an_answer_of_a_different_kind_is_none() -> None:
     async def ask(process: Process) -> None:
         asking = asyncio.ensure_future(process.channel.ask(look("a"), Found, 5))
         await process.hear()
@@ -192,7 +192,7 @@ def test_where_nobody_waits_any_more_nothing_is_kept() -> None:
 
 
 @pytest.mark.parametrize("in_turn", [False, True])
-def test_a_deadline_behind_other_questions(in_turn: bool) -> None:
+def test_a_deadline_after_other_questions(in_turn: bool) -> None:
     """One that answers in turn is busy with those before it; one that answers them all is not."""
 
     async def ask(process: Process) -> bool:

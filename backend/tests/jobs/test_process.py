@@ -392,7 +392,7 @@ def test_what_a_debugger_entered_inside_of_scans_belongs_to_both_runs(job: Job, 
 
 
 def inside(timeline: Timeline, count: int, command: Command) -> None:
-    """Enters a command in front of the statement of this count of the scan that is next."""
+    """Enters a command before the statement with this count in the next scan."""
     resource = timeline.resource
     resource.listening.attach(HaltAt(count), Listen(count=count))
     while timeline.run(1).reason is not Reason.HALTED:

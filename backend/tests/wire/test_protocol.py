@@ -141,7 +141,7 @@ def test_a_run_file_gives_entries_back(command: object) -> None:
 
 
 def test_paths_are_shared_as_they_are_typed() -> None:
-    """Another spelling is another row of somebody's list, and has a value of its own."""
+    """A different spelling is a separate row of somebody's list, and has a value of its own."""
     watches = Watches()
     first = watches.add(1, ["Main.n", "D100"])
     assert watches.add(1, ["main.N"])[0][0] != first[0][0]
