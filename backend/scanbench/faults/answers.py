@@ -38,7 +38,7 @@ class Answers:
         self.commands: list[Command] = []
 
     def add(self, asked: Asked) -> None:
-        """Another thing that it asked for; in the order in which it did."""
+        """Adds the commands for one request of the program; requests are added in the order in which it made them."""
         match asked.form:
             case Form.CLEAR_CODE:
                 self._clear(lambda one: nonfatal(one) and one.code == asked.number)

@@ -274,18 +274,18 @@ def _changed(lane: Lane, command: Command, scan: int) -> Lane:
             taken = ids is None or lane.number in ids
             return replace(lane, ending=True, due=scan if lane.present else None) if taken else lane
         case Generate(arm=lane.number, step=step) if _own(lane, _ids(command)):
-            return _behind(lane, step, scan, lane.ids)
+            return _after(lane, step, scan, lane.ids)
         case Generate():
             return _without(lane, _ids(command))
         case Recover(arm=lane.number, step=step) if _own(lane, command.ids or ()):
-            return _behind(lane, step, scan)
+            return _after(lane, step, scan)
         case Recover():
             return _without(lane, lane.present if command.ids is None else command.ids)
         case Missed(arm=lane.number, step=step) if _own(lane, command.ids):
             if step % 2 == 1:
-                return _behind(lane, step, scan)
+                return _after(lane, step, scan)
             # the scans in which it would have been present pass all the same
-            return _behind(lane, step + 1, scan + lasts(lane.wanted.shape, step))
+            return _after(lane, step + 1, scan + lasts(lane.wanted.shape, step))
     return lane
 
 
@@ -293,8 +293,8 @@ def _own(lane: Lane, ids: Sequence[str]) -> bool:
     return not set(ids).isdisjoint(lane.ids)
 
 
-def _behind(lane: Lane, step: int, scan: int, present: tuple[str, ...] = ()) -> Lane:
-    """After a step before `scan`."""
+def _after(lane: Lane, step: int, scan: int, present: tuple[str, ...] = ()) -> Lane:
+    """The lane after a step that was due before `scan`."""
     last = step_count(lane.wanted.shape)
     more = last is None or step + 1 < last
     due = scan + lasts(lane.wanted.shape, step) if more else None
@@ -308,7 +308,7 @@ def _without(lane: Lane, ids: Sequence[str]) -> Lane:
         return lane
     if left or lane.ending or lane.due is None:
         return replace(lane, present=left)
-    return _behind(lane, lane.step, lane.due)  # the next time comes when it would have come
+    return _after(lane, lane.step, lane.due)  # the next time comes when it would have come
 
 
 def _with_others(changed: Lanes, lanes: Lanes, number: int, scan: int) -> dict[str, Lane]:

@@ -1,7 +1,7 @@
-"""Errors that are present while another program takes over: they must be the same errors to it.
+"""Errors that are present while a new program takes over: they must be the same errors in its catalogue.
 
-Only the project's own errors can differ (`plcmodel.user_errors`). One that is present and gone from the catalogue could never be
-recovered; one that writes other bits now would leave the old ones behind. So such a change is refused, in words.
+Only the project's own errors can differ (`plcmodel.user_errors`). A present error that is missing in the new catalogue could
+never be recovered; one that writes different bits now would leave the old bits set. So such a change is refused with a message.
 """
 
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Details of an error: what was chosen or entered, checked, and the bits it stands for."""
+"""Details of an error: what was chosen or entered, checked, and the bits that represent it."""
 
 import re
 from collections.abc import Mapping
@@ -93,7 +93,7 @@ def word_text(detail: ErrorDetail, word: int) -> str:
 
 
 def field_bits(location: Location, shift: int, width: int, value: int, layout: Layout) -> list[Bits]:
-    """The bits of a field of `width` bits that begins `shift` bits behind `location`."""
+    """The bits of a field of `width` bits that begins `shift` bits after `location`."""
     first = layout.areas[location.area.name] * 8 + location.byte * 8 + (location.bit or 0) + shift
     found: list[Bits] = []
     done = 0
@@ -167,7 +167,7 @@ def _whole_word(detail: ErrorDetail, text: str) -> int | None:
 
 
 def _word_bits(detail: ErrorDetail, word: int, layout: Layout) -> list[Bits]:
-    """All choices, on or off, and what else is on in the word: bits beside them may be another's."""
+    """All choices, on or off, and the other bits that are on in the word, which may belong to other details."""
     assert detail.word is not None
     bits = {_bit_in_word(each) for each in detail.addresses} | {bit for bit in range(16) if word >> bit & 1}
     return [part for bit in sorted(bits) for part in field_bits(detail.word, bit, 1, word >> bit, layout)]

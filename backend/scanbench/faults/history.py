@@ -156,7 +156,7 @@ class History:
         return []
 
     def take_model(self, model: Model) -> None:
-        """The program that runs has another catalogue: the user's own errors are part of its version."""
+        """Takes the catalogue of a new program: the user's own errors are part of its version."""
         self._model = model
         self._layout = _layout(model)
 
@@ -165,7 +165,7 @@ class History:
         self._version = version
 
     def turn_to(self, version: int, at: datetime, scan: int) -> list[ErrorRow]:
-        """From here on another version runs, and what is present is present in its rows too; the rows that changed."""
+        """Turns to the version that runs from now on. Present errors get rows of this version too; gives the rows that changed."""
         if version == self._version:
             return []
         present = {id: self._now[id] for id in self._present}

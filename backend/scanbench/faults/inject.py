@@ -69,7 +69,7 @@ class Generate(Command):
     """Raises errors, all or none of them.
 
     What somebody raises at the simulator must not be present, unless `again` says that it is raised again, with these
-    details. What the PLC finds takes other details; numbers that the program raises stand side by side, as on the device.
+    details. An error that the PLC finds takes new details; several numbers that the program raises are present together, as on the device.
     """
 
     category: ClassVar[Category] = "error"

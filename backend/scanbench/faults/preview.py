@@ -19,7 +19,7 @@ _MOST_OTHERS = 40
 
 @dataclass(frozen=True, slots=True)
 class PreviewedWrite(Public):
-    """A bit or a word, before and behind."""
+    """A bit or a word, with its values before and after."""
 
     address: str
     """In the vendor's notation."""
@@ -159,7 +159,7 @@ class _Looked:
         )
 
     def _address(self, area: Area, byte: int, bit: int | None) -> str:
-        """As people know it: some devices have names for words, and numbers of the bench's own behind them."""
+        """The name that people know: some devices have names for words, to which Scanbench assigns numbers of its own."""
         symbol = self._symbols.get((area.name, byte))
         if bit is None:
             return symbol or self._layout.model.format(area, byte, None, 16)

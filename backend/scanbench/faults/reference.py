@@ -27,7 +27,7 @@ def find_error(model: Model, id: str) -> ErrorEntry | Refusal:
 
 
 def parse_reference(model: Model, text: str) -> ErrorRef | Refusal:
-    """Reads the notation of the command line. A choice of a List may stand without the name of its detail."""
+    """Reads the notation of the command line. A choice of a List may be given without the name of its detail."""
     id, _, rest = text.strip().partition(":")
     entry = find_error(model, id.strip())
     if isinstance(entry, Refusal):

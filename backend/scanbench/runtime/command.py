@@ -70,7 +70,7 @@ class Numbered:
 @dataclass(frozen=True, slots=True)
 class Held:
     """Bits of the image stay as they are, whatever inputs or the program say, until they are `Freed`: a disturbed input.
-    They stand in the force table, and are nobody's force (`runtime.holds`)."""
+    They are in the force table, but are nobody's force (`runtime.holds`)."""
 
     number: int
     """By which they are freed."""
@@ -99,7 +99,7 @@ class Plan:
 
     @property
     def cuts(self) -> bool:
-        """Whether what ran before cannot be compared with what runs after it: a restart, another program."""
+        """Whether what ran before cannot be compared with what runs after it: a restart or a program change."""
         return isinstance(self.effect, Restarted | Swapped)
 
     @property
@@ -146,7 +146,7 @@ class Entry:
     plan: Plan
     step: int = 0
     """Applied before the statement of this count of the scan (`engines.debug`); 0 is the seam; one more than there are:
-    after the last one. Such a plan has patches only, and may reach temporaries behind `Layout.state_size`."""
+    after the last one. Such a plan has patches only, and may reach temporaries after `Layout.state_size`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ class Detect(Protocol):
     """
 
     def on_trap(self, info: TrapInfo, view: View) -> Command | None:
-        """The error that stands for a trap, of any kind; `Trapped` and the answers to `on_asked` were entered before."""
+        """The error that represents a trap, of any kind; `Trapped` and the answers to `on_asked` were entered before."""
 
     def on_asked(self, asked: tuple[Asked, ...], view: View) -> tuple[Command, ...]:
         """What becomes of what the program asked for in the scan that just ended, or trapped."""

@@ -1,7 +1,7 @@
 """Force and Release: values that hold after input refresh and before output, whatever the program writes.
 
 A force is a patch of the force table in the image header (each engine applies it in every scan: `engines/native/emit_scan.py`, `engines/interpreter/engine.py`), one entry a byte; forces of
-bits in one byte share an entry. Bits that are forced under one path are not forced under another: `D100` and the variable
+bits in one byte share an entry. Bits that are forced under one path cannot be forced under a second one: `D100` and the variable
 there are the same bytes, and whoever releases one of them would release the other.
 """
 
@@ -28,8 +28,8 @@ Known = TypeVar("Known")
 
 @dataclass(frozen=True, slots=True)
 class Force(Naming):
-    """Holds a variable or address at a value. A path through an in-out means a variable, as with `Write`: that is held, also
-    when the block is called with another one from then on."""
+    """Holds a variable or address at a value. A path through an in-out means a variable, as with `Write`: that variable is held,
+    even if the block is called with a different one later."""
 
     category: ClassVar[Category] = "force"
 
@@ -65,7 +65,7 @@ class Force(Naming):
         return target.patch(self.value)
 
     def _held_as(self, view: View, patch: Patch) -> "Force | None":
-        """Another force of some of these bits."""
+        """A force of some of these bits under a different path; None if there is none."""
         others = (force for force in view.derived(FORCED).values() if _key(force.path) != _key(self.path))
         first = 8 * patch.offset
         mine = range(first, first + 8 * len(patch.mask))

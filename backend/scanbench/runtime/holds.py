@@ -1,6 +1,6 @@
 """What is held at its value by the PLC's surroundings, not by people: inputs that are stuck, or come late.
 
-It stands in the force table of the image beside people's forces, so that both engines let it win over the plant and over
+It is in the force table of the image, like people's forces, so that in both engines it takes precedence over the plant and over
 whatever is written. People's forces neither see nor release it; a bit is never both.
 """
 
@@ -73,7 +73,7 @@ def _step(helds: Helds, entry: Entry) -> Helds:
 
 
 def _written(helds: Helds, entry: Entry) -> Iterator[tuple[str, HeldByte]]:
-    """Those that an entry gives another value, which is seen later."""
+    """Those to which an entry gives a new value, which is seen later."""
     for key, each in helds.items():
         now = each
         for patch in entry.plan.patches:

@@ -1,8 +1,8 @@
 """Inside of a scan: where a debugger halts it, and where what was entered there is entered again.
 
-What was entered inside of a scan stands in the journal after all that was entered before it. So the entries with a
-`step` at the end of a journal, of the scan that is next, are those that have to be entered when it runs (again): nothing
-else has to be kept of a scan that is halted but the image with which it began.
+In the journal, entries inside of a scan follow all entries before it. So the entries with a `step` at the end of a journal
+that belong to the next scan are those that have to be entered when it runs (again): apart from these, a halted scan needs
+only the image with which it began.
 """
 
 from collections.abc import Callable, Sequence
@@ -112,13 +112,13 @@ class Passage:
         self.engine.hook(None)
         self._inner = None
         waiting, self._waiting = self._waiting, []
-        behind = self.engine.count + 1
-        while whole and waiting and waiting[0].step == behind:
+        last = self.engine.count + 1
+        while whole and waiting and waiting[0].step == last:
             self._apply(waiting.pop(0))
         insider, self._insider = self._insider, None
         if whole and insider is not None and self._wrote and not waiting:
             for command in insider.due():
-                self._enter(command, behind)
+                self._enter(command, last)
         if ended and lenient:
             for entry in waiting:
                 self._apply(entry)

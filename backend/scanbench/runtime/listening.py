@@ -50,7 +50,7 @@ class Listening:
         self._on_trap: Callable[[], bool] | None = None
         self._on_probe: Callable[[], None] | None = None
         self.inside: Inside | None = None
-        """Where the scan is halted that is next; the image stands there."""
+        """The position at which the next scan is halted, to which the image belongs; None if it is not halted."""
 
     # ---- who listens ----------------------------------------------------------------------------------------------
 
@@ -196,5 +196,5 @@ class Listening:
             self.inside = None
 
     def load(self, loaded: Loaded) -> None:
-        """Another program runs."""
+        """Takes over a new program."""
         self._loaded, self.inside, self._probed, self._passage = loaded, None, None, None

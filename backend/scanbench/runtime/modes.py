@@ -111,9 +111,9 @@ def _inputs(view: View, area: str) -> list[tuple[int, int]]:
 
 def _between(first: int, end: int, holes: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
     """The parts of first..end that are in no hole."""
-    for start, behind in holes:
+    for start, after in holes:
         if start > first:
             yield first, min(start, end)
-        first = max(first, behind)
+        first = max(first, after)
     if first < end:
         yield first, end

@@ -1,4 +1,4 @@
-"""ProgramChange: another program takes over in the seam, with the variables that both have."""
+"""ProgramChange: a new program takes over in the seam, and keeps the variables that both have."""
 
 from dataclasses import dataclass
 from typing import ClassVar

@@ -33,8 +33,8 @@ class Loaded:
     """Tells what `engine` reads and writes, where that was made to be observed."""
 
     def debugged(self) -> DebugEngine:
-        """The debug flavour: the reference engine's, if nobody has put another one in place. So a run can be replayed that
-        was debugged, wherever it is."""
+        """The debug flavour: that of the reference engine, unless a different one was put in place. So a run that was debugged
+        can be replayed anywhere."""
         if self.debug is None:
             self.debug = (self.make_debug or debug_engine)(self.settled(), self.memory)
         return self.debug

@@ -75,7 +75,7 @@ class Resource:
 
     @property
     def memory(self) -> bytearray:
-        """The image. A change of the program brings another one."""
+        """The image. A program change replaces it."""
         return self.loaded.memory
 
     @property
@@ -113,7 +113,7 @@ class Resource:
     def submit(self, command: Command) -> Entry | Refusal:
         """Enters a command, now: planned, kept, then applied. What cannot be kept is refused.
 
-        In a scan that is halted it is entered where that stands; what needs the seam lets it run to its end first.
+        In a halted scan it is entered at the halt; a command that needs the seam lets the scan run to its end first.
         """
         if self.begun:
             plan = command.settled(self.view).plan(self.view)

@@ -17,7 +17,7 @@ class Right(StrEnum):
     CHANGE = "change the program"
     """Online change: the program goes on with new code."""
     TRANSFER = "transfer a program"
-    """A new program while the old one stands still."""
+    """A new program while the old one does not run."""
     MODE = "change the mode"
     CLEAR = "clear errors"
     RESTART = "restart"

@@ -1,4 +1,4 @@
-"""What a path means for a command: the variable behind it, its place in the image now, and whether a tool may write there.
+"""What a path means for a command: the variable it leads to, its place in the image now, and whether a tool may write there.
 
 A path may lead through an in-out or a reference: `Main.fb1.level`. What is meant is the variable that the block's last
 execution was given, so that is what a command names in the journal.
@@ -46,7 +46,7 @@ class Meant:
     path: str
     """That of the variable itself; as it was typed where nothing of the program has a name there."""
     through: str
-    """The path that led here, when that is another: `Main.fb1.level`."""
+    """The path that led here, if it differs: `Main.fb1.level`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,7 @@ def find(view: View, path: str) -> Symbol | Refusal:
 
 
 def meant(view: View, path: str, site: str) -> Meant | Refusal:
-    """The variable that is meant by a path through in-outs, or by what another call (`file:line`) passes; why there is none."""
+    """The variable to which a path leads through in-outs, or that the call at `site` (`file:line`) passes; why there is none."""
     symbol = find(view, path)
     if isinstance(symbol, Refusal):
         return symbol
@@ -115,7 +115,7 @@ def meant(view: View, path: str, site: str) -> Meant | Refusal:
 
 
 def _at_site(view: View, path: str, site: str) -> Spot | Refusal | None:
-    """What another call would pass now."""
+    """What the call at `site` would pass now."""
     formal = formal_of(view.program, path)
     if formal is None:
         return Refusal(f"{path} is reached through a reference, and no call passes anything for that")
@@ -156,7 +156,7 @@ def _gone(path: str, pou: Pou | None, name: str) -> str:
 
 
 def writable_target(view: View, path: str, verb: Right, through: str = "") -> Target | Refusal:
-    """The place behind `path` if a tool may write (force ...) there now; `verb` is for the refusal."""
+    """The place to which `path` leads if a tool may write (force ...) there now; `verb` is for the refusal."""
     symbol = find(view, path)
     if isinstance(symbol, Refusal):
         return symbol

@@ -33,8 +33,7 @@ class CoverageTap:
         return len(self._reached) + len(self._outcomes) > before
 
     def change(self, sites: Sites, sources: Mapping[str, str]) -> None:
-        """Another program takes over: what was noted stays with the statements that read as they did, and is forgotten of
-        all others."""
+        """Turns to a new program: statements whose text is the same keep what was noted for them; the rest is forgotten."""
         moved = _moved(_keys(self._sites, self._sources), _keys(sites, sources))
         outcomes = {(each.site, each.name): number for number, each in enumerate(sites.outcomes)}
         went = [self._sites.outcomes[number] for number in self._outcomes]
@@ -73,17 +72,21 @@ def _keys(sites: Sites, sources: Mapping[str, str]) -> dict[str, list[tuple[int,
     statements = sites.statements
     for number, site in enumerate(statements):
         span = site.span
-        behind = statements[number + 1].span if number + 1 < len(statements) else None
-        text = _text(lines.get(span.file, []), span, behind)
+        following = statements[number + 1].span if number + 1 < len(statements) else None
+        text = _text(lines.get(span.file, []), span, following)
         found.setdefault(site.pou, []).append((number, (site.pou, text)))
     return found
 
 
-def _text(lines: list[str], span: Span, behind: Span | None) -> str:
+def _text(lines: list[str], span: Span, following: Span | None) -> str:
     """What a statement reads up to the next one that begins in it, without how it is laid out."""
     end = (span.end_line, span.end_column)
-    if behind is not None and behind.file == span.file and (behind.line, behind.column) > (span.line, span.column):
-        end = min(end, (behind.line, behind.column))
+    if (
+        following is not None
+        and following.file == span.file
+        and (following.line, following.column) > (span.line, span.column)
+    ):
+        end = min(end, (following.line, following.column))
     found = []
     for line in range(span.line, min(end[0], len(lines)) + 1):
         text = lines[line - 1]

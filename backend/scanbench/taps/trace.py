@@ -154,7 +154,7 @@ class Trace:
         self.buffer = TraceBuffer((), 1)
         """What is shown."""
         self.generation = 0
-        """Counts the buffers that were shown: samples of another one have nothing to do with these."""
+        """Counts the buffers that were shown: samples of different buffers do not belong together."""
         self.triggered: int | None = None
         """The scan after which the trigger came, of what is shown."""
         self.hits = 0
@@ -198,7 +198,7 @@ class Trace:
         return self.row_bytes * self.definition.rows
 
     def define(self, definition: TraceDefinition, program: Program, by: str) -> None:
-        """Another definition: nothing is recorded until it is started. `BadTrace`."""
+        """Sets a new definition: nothing is recorded until the trace is started. `BadTrace`."""
         check_definition(definition)
         found = resolve_signals(program, definition.signals)
         bad = next((each for each in found if isinstance(each, BadCondition)), None)
@@ -209,10 +209,10 @@ class Trace:
         self.definition, self.by = definition, by
         self._aim(found)
         self.stop()
-        self._anew()
+        self._begin_again()
 
     def rename(self, name: str, by: str) -> None:
-        """Another name; the record goes on."""
+        """Sets a new name; recording continues."""
         self.definition, self.by = replace(self.definition, name=name), by
 
     def choose(self, definition: TraceDefinition, program: Program, scan: int, by: str) -> None:
@@ -236,7 +236,7 @@ class Trace:
         self.aim(program, scan, fresh=True)
         if self._sampling is None:
             raise BadTrace("No signal of the trace is in the program that runs: " + self.signals[0].message)
-        self._anew()
+        self._begin_again()
         self.hits, self.note = 0, ""
         self._arm(program, scan)
 
@@ -261,7 +261,7 @@ class Trace:
             self.state = "complete" if self.state == "triggered" else "stopped"
 
     def aim(self, program: Program, scan: int, fresh: bool = False) -> None:
-        """Another program runs from `scan` on: finds the signals there. What was sampled must have been taken before."""
+        """Finds the signals in a program that runs from `scan` on. The caller has drained what was sampled before."""
         types = dict(self._types)
         found = resolve_signals(program, self.definition.signals)
         self._aim(found)
@@ -274,8 +274,8 @@ class Trace:
         if fresh or not self.running:
             return
         if others:
-            self._anew()
-            self.note = f"begun again at scan {scan}: {', '.join(others)} has another type"
+            self._begin_again()
+            self.note = f"begun again at scan {scan}: {', '.join(others)} has a different type"
         self._aim_trigger(program, scan)
 
     def _aim(self, found: "list[Signal | BadCondition]") -> None:
@@ -302,7 +302,7 @@ class Trace:
             if self.state == "armed":
                 self.stop()
 
-    def _anew(self) -> None:
+    def _begin_again(self) -> None:
         self._current = self._empty()
         self._show(self._current, None)
 
@@ -341,7 +341,7 @@ class Trace:
                 self._current.append(rows)
                 return
             assert self._fired is not None
-            end = self._fired + 1 + self._behind
+            end = self._fired + 1 + self._scans_after
             cut = int(np.searchsorted(rows[:, 0], end))
             self._current.append(rows[:cut])
             if scan < end:
@@ -352,7 +352,7 @@ class Trace:
                 return
 
     @property
-    def _behind(self) -> int:
+    def _scans_after(self) -> int:
         """Scans that are recorded after the one of the trigger."""
         trigger = self.definition.trigger
         assert trigger is not None

@@ -35,7 +35,7 @@ def number_type(type: Elementary) -> "np.dtype[Any]":
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Rows, oldest first. Of decimated ones two stand for each stretch: the least values in its first scan, the
+    """Rows, oldest first. Decimated ones have two for each range of scans: the least values in its first scan, the
     greatest in its last."""
 
     scans: Words

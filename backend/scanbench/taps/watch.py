@@ -89,7 +89,7 @@ class WatchPlan:
         return (raw >> self._shift) & self._mask
 
     def _follow(self, memory: bytearray) -> None:
-        """Aims the rows behind in-outs at where their blocks were last called with."""
+        """Points the rows that lead through in-outs to the variables with which their blocks were last called."""
         for row, symbol in self._moving:
             place = symbol.locate(memory)
             if row in self._located and self._located[row] == place:

@@ -135,7 +135,7 @@ def test_chance_is_the_same_everywhere(kind: Kind) -> None:
 
 
 @ON
-def test_two_in_one_scan_and_one_behind_the_other(kind: Kind) -> None:
+def test_two_in_one_scan_and_one_after_the_other(kind: Kind) -> None:
     run = ran(kind, 60, (5, arm(BATTERY, UNIT, shape=Shape("for", 2))))
     assert (seen(run), seen(run, "also")) == ([5, 6], [5, 6])
     assert kinds(run) == [(5, "Arm"), (5, "Generate"), (7, "Recover")]

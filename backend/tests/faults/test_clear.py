@@ -122,7 +122,7 @@ def _packed(entry: Entry) -> Entry:
 
 
 @pytest.mark.parametrize("command", [ClearErrors("a", "all"), ClearErrors("a", 3), ClearErrorLog("a")])
-def test_they_go_to_another_process(command: Command) -> None:
+def test_they_go_to_a_different_process(command: Command) -> None:
     assert codec.unpack(codec.pack_body(command)) == command
 
 
@@ -248,7 +248,9 @@ def test_fals_raises_a_fatal_error_of_the_system(
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("hidden", [False, True])
-def test_the_same_code_with_other_details_is_another_error_of_the_system(engine: EngineFactory, hidden: bool) -> None:
+def test_the_same_code_with_other_details_is_a_different_error_of_the_system(
+    engine: EngineFactory, hidden: bool
+) -> None:
     resource = plc(OMRON, engine)
     if hidden:
         raise_(resource, "fal:number=9")  # more serious: A400 does not show what the program asks for

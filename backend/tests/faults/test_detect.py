@@ -81,7 +81,7 @@ def test_a_trap_is_an_error_of_the_device(
     assert (generated.scan, generated.command.author) == (5, "PLC")
 
 
-def test_the_task_that_ran_stands_in_the_error_memory() -> None:
+def test_the_error_memory_has_the_task_that_ran() -> None:
     source = """
     PROGRAM Calm
     VAR n : INT; END_VAR
@@ -148,7 +148,7 @@ def test_program_mode_ends_the_trap_but_not_the_error() -> None:
     assert resource.header.scan == 6
 
 
-def test_another_fatal_error_goes_on_stopping_it() -> None:
+def test_a_second_fatal_error_keeps_it_stopped() -> None:
     resource = run_into(1)
     done(resource, Generate("Ada", (ErrorRef("memory-error"),)))
     done(resource, Recover("Ada", ("program-error",)))

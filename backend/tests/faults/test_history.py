@@ -33,7 +33,7 @@ def row(history: History, id: str) -> ErrorRow:
     return next(each for each in history.rows if each.id == id)
 
 
-def test_another_version_begins_with_rows_of_its_own() -> None:
+def test_a_new_version_begins_with_rows_of_its_own() -> None:
     history = History(model(), 1)
     raise_(history, "battery-error")
     history.fold(entry(Recover("Ada", ("battery-error",)), 5))
@@ -90,7 +90,7 @@ def test_reactions_belong_to_one_generation() -> None:
     (first,) = raise_(history, "battery-error", scan=7)
     assert first.reaction == RowReaction("recording", scan=7)
     raise_(history, "battery-error", scan=9)
-    assert history.set_reaction("battery-error", 1, 7, REACTED) is None  # raised anew since
+    assert history.set_reaction("battery-error", 1, 7, REACTED) is None  # raised again since
     assert row(history, "battery-error").reaction == RowReaction("recording", scan=9)
     done = history.set_reaction("battery-error", 1, 9, REACTED)
     assert done is not None
@@ -125,7 +125,7 @@ def test_rows_are_kept_over_a_restart() -> None:
     assert (gone.id, gone.status) == ("fal", "cleared")
 
 
-def test_the_past_may_be_of_another_version() -> None:
+def test_the_past_may_be_of_a_different_version() -> None:
     history = History(model(), 1)
     raise_(history, "battery-error")
     swap(history, 2)

@@ -25,14 +25,14 @@ from tests.runtime.bench import ENGINES, model, value
 SOURCE = """
 VAR_GLOBAL motor AT CIO 100.00 : BOOL; END_VAR
 PROGRAM Main
-VAR n : INT; first, second, fatal, i : INT; ok : BOOL; before, behind : INT; work AT W0 : INT; END_VAR
+VAR n : INT; first, second, fatal, i : INT; ok : BOOL; before, after : INT; work AT W0 : INT; END_VAR
   n := n + 1; motor := TRUE; work := n;
   ok := FAL(first);
   IF second <> 0 THEN FAL(N := second); END_IF;
   IF fatal < 0 THEN FOR i := 100 TO 150 DO FAL(i); END_FOR; END_IF;
   before := n;
   IF fatal <> 0 THEN FALS(ABS(fatal)); END_IF;
-  behind := n;
+  after := n;
 END_PROGRAM
 """
 
@@ -80,7 +80,7 @@ def test_an_error_that_the_program_raises_in_every_scan_is_one_error(engine: Eng
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_numbers_stand_side_by_side(engine: EngineFactory) -> None:
+def test_numbers_are_present_together(engine: EngineFactory) -> None:
     resource = plc(SOURCE, engine)
     set_to(resource, first=40, second=3)
     assert go(resource, 50) == [Reason.ASKED, Reason.DONE]
@@ -133,7 +133,7 @@ def test_a_fatal_instruction_stops_right_there(engine: EngineFactory) -> None:
     set_to(resource, fatal=5)
     go(resource, 10)
     assert [value(resource, word) for word in ("A400", "A401", "A100", "A300")] == [0xC105, 1 << 6, 0xC105, 1]
-    assert (value(resource, "Main.before"), value(resource, "Main.behind"), resource.header.scan) == (5, 4, 4)
+    assert (value(resource, "Main.before"), value(resource, "Main.after"), resource.header.scan) == (5, 4, 4)
     assert (value(resource, "motor"), value(resource, "Main.work")) == (
         True,
         5,
@@ -148,7 +148,7 @@ def test_a_fatal_instruction_stops_right_there(engine: EngineFactory) -> None:
     set_to(resource, fatal=0)
     done(resource, SetMode("Ada", "RUN"))
     go(resource, 3)
-    assert (value(resource, "Main.behind"), resource.header.scan) == (8, 7)
+    assert (value(resource, "Main.after"), resource.header.scan) == (8, 7)
 
 
 @pytest.mark.parametrize("engine", ENGINES)

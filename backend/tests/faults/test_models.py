@@ -98,7 +98,7 @@ _STEPS = st.sampled_from(["generate", "generate", "again", "recover", "clear", *
 @pytest.mark.parametrize("name", MODELS)
 @settings(max_examples=30, deadline=None)
 @given(data=st.data())
-def test_whatever_happened_nothing_is_left_behind(name: str, data: st.DataObject) -> None:
+def test_whatever_happened_nothing_is_left(name: str, data: st.DataObject) -> None:
     ids = [error.id for error in model(name).errors()]
     resource = plc(SOURCE, model_name=name)
     before = areas_without_log(resource)

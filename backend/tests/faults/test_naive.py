@@ -24,7 +24,7 @@ def first_bit(place: Location) -> Bit:
 
 
 def writes(address: ErrorAddress, number: int) -> dict[Bit, int]:
-    """The bits that one address of the catalogue stands for."""
+    """The bits that one address of the catalogue means."""
     if address.location is None:
         return {}
     area, start = first_bit(address.location)
@@ -125,7 +125,7 @@ def test_any_order_any_company(name: str, data: st.DataObject) -> None:
                 assert isinstance(outcome, Refusal)
                 continue
             assert isinstance(outcome, Entry), outcome
-            for id, details in chosen.items():  # what is raised anew counts as the latest
+            for id, details in chosen.items():  # what is raised again counts as the latest
                 present.pop(id, None)
                 present[id] = details
         assert found(resource) == expected(name, present)

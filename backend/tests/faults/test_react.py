@@ -447,12 +447,12 @@ NO_TURN = "task Alarming (every 5s) did not run in the 50 scans: a longer window
 def test_a_task_that_had_no_turn_is_told(make: MakeObserved) -> None:
     source = TASKS.format(body="lamp := battery;", when="INTERVAL := T#5s")
     missed = f"not reached in the 50 scans: main.st:{line('lamp := battery', source)} (Alarm)"
-    note = f"{missed}: a longer window or another state would tell; {NO_TURN}"
+    note = f"{missed}: a longer window or a different state would tell; {NO_TURN}"
     assert reaction(source, "battery-error", make) == Reaction("not_reached", 50, note=note)
     assert reaction(source, "battery-error", make, 500).note == ""
 
 
-def test_a_task_without_a_turn_is_no_news_where_another_reacted(make: MakeObserved) -> None:
+def test_a_task_without_a_turn_is_not_reported_where_a_second_one_reacted(make: MakeObserved) -> None:
     source = TASKS.format(body="lamp := battery;", when="INTERVAL := T#5s")
     source = source.replace("n := n + 1;", "n := n + 1; IF warn THEN n := 0; END_IF;")
     source = source.replace(
@@ -645,7 +645,7 @@ def test_a_reaction_counts_to_the_output_that_a_counter_ends_in(make: MakeObserv
     assert (found.verdict, found.first_effect, found.note) == ("reacted", 501, "")
 
 
-def test_the_same_state_of_another_instance_decides_nothing(make: MakeObserved) -> None:
+def test_the_same_state_of_a_different_instance_decides_nothing(make: MakeObserved) -> None:
     source = """
 FUNCTION_BLOCK Latch
 VAR_INPUT set : BOOL; END_VAR
@@ -670,7 +670,7 @@ def test_a_read_now_and_then_is_not_never(make: MakeObserved) -> None:
     source = handling("n : INT;", body)
     found = reaction(source, "battery-error", make)
     place = f"main.st:{line('lamp := battery', source)} (Main)"
-    note = f"not reached in the 50 scans: {place}: a longer window or another state would tell"
+    note = f"not reached in the 50 scans: {place}: a longer window or a different state would tell"
     assert found == Reaction("not_reached", 50, note=note)
     assert reaction(source, "battery-error", make, 600).verdict == "reacted"
     assert reaction(source, "basic-io-error", make).verdict == "never_read"

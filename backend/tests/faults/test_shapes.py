@@ -11,11 +11,11 @@ BATTERY = (ErrorRef("battery-error"),)
 
 
 def scans(shape: Shape, steps: int) -> list[int]:
-    """In front of which scans its steps come, counted from its begin."""
+    """The scans before which its steps come, counted from its beginning."""
     return [0, *accumulate(lasts(shape, step) for step in range(steps - 1))]
 
 
-def test_each_step_comes_so_many_scans_behind_the_last() -> None:
+def test_each_step_comes_so_many_scans_after_the_last() -> None:
     assert scans(Shape("for", 5), 2) == [0, 5]
     assert scans(Shape("unacknowledged", 7), 2) == [0, 7]
     assert scans(Shape("chatter"), 6) == [0, 1, 2, 3, 4, 5]

@@ -170,7 +170,7 @@ def test_junit_fails_where_an_error_is_unhandled() -> None:
     assert (suite.get("tests"), suite.get("failures"), suite.get("skipped")) == ("4", "2", "0")
 
 
-def test_the_page_stands_alone() -> None:
+def test_the_page_needs_no_other_files() -> None:
     page = sweep_page(result(), "2026-01-01")
     assert "line &amp; co" in page
     assert "main.st:16" in page

@@ -88,7 +88,7 @@ COMMANDS: tuple[Command, ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """What was so once: behind `entries` entries, in the seam before `scan`."""
+    """An earlier moment of the run: after `entries` entries, in the seam before `scan`."""
 
     entries: int
     scan: int

@@ -70,7 +70,7 @@ def test_a_reference_is_no_number(command: type[Write | Force], path: str) -> No
     done(resource, command("Ada", f"Main.{path}", "NULL"))
 
 
-def test_an_in_out_is_the_variable_behind_it() -> None:
+def test_an_in_out_is_the_variable_that_was_passed() -> None:
     resource = plc(REFERENCES)
     assert "not called yet" in refused(resource, Write("Ada", "Main.user.level", "7")).message
     resource.run(1)

@@ -19,7 +19,7 @@ def driven(path: Path) -> bytes:
         return recording.driven
 
 
-def test_it_is_there_again_behind_whatever_was_written_later(tmp_path: Path) -> None:
+def test_it_is_there_again_after_whatever_was_written_later(tmp_path: Path) -> None:
     path = tmp_path / "run"
     timeline = begun(path)
     advance(timeline, 5)
@@ -71,7 +71,7 @@ def test_a_copy_is_driven_as_whoever_opens_it_wants(tmp_path: Path) -> None:
     timeline.close()
 
 
-def test_a_smaller_file_never_ends_in_front_of_its_last_entry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_smaller_file_never_ends_before_its_last_entry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Killed when it has just taken the place of the old one, it must be one that can be read."""
     monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
     path = tmp_path / "run"

@@ -144,7 +144,7 @@ def test_the_last_execution_counts_also_when_it_is_long_ago(plc: Resource) -> No
     assert value(plc, "Main.a") == 44
 
 
-def test_another_call_can_be_picked(plc: Resource) -> None:
+def test_a_different_call_can_be_picked(plc: Resource) -> None:
     plc.run(1)
     entry = done(plc, Write("Ada", "Main.both.level", "7", site=FIRST_CALL))
     assert (value(plc, "Main.a"), value(plc, "Main.b")) == (7, 0)
@@ -252,7 +252,7 @@ def test_the_same_bytes_are_not_forced_under_two_names(plc: Resource) -> None:
     done(plc, Force("Bob", "Main.word.8", "TRUE"))
 
 
-def test_a_release_by_another_name(plc: Resource) -> None:
+def test_a_release_by_a_different_name(plc: Resource) -> None:
     """Of the very same bits it is one; of others it is told who holds them, and nothing changes."""
     plc.run(1)
     done(plc, Force("Ada", "Main.here.level", "1"))

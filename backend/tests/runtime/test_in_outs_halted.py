@@ -37,8 +37,8 @@ VAR pump : Pump; tank : ARRAY[1..2] OF INT; word : WORD; END_VAR
 pump(l := tank[2], on := word.%X3);
 END_PROGRAM
 """
-BEHIND_FIRST = 5
-"""In front of `second := level`."""
+AFTER_FIRST = 5
+"""The count of the statement `second := level`, before which it halts."""
 
 
 def halted(engine: EngineFactory, convention: str) -> Resource:
@@ -46,7 +46,7 @@ def halted(engine: EngineFactory, convention: str) -> Resource:
     assert checked.program is not None, checked.problems
     resource = Resource(Loaded.make(checked.program, engine))
     resource.run(1)
-    resource.listening.attach(HaltAt(BEHIND_FIRST), Listen(count=BEHIND_FIRST))
+    resource.listening.attach(HaltAt(AFTER_FIRST), Listen(count=AFTER_FIRST))
     assert resource.run(1).reason is Reason.HALTED
     assert value(resource, "Main.pump.valve.first") == 21
     return resource
@@ -64,7 +64,7 @@ def test_the_next_statement_sees_it(engine: EngineFactory, convention: str, path
     resource = halted(engine, convention)
     entry = resource.submit(Write("Ada", path, "500"))
     assert isinstance(entry, Entry), entry
-    assert entry.step == BEHIND_FIRST
+    assert entry.step == AFTER_FIRST
     assert value(resource, "Main.tank[2]") == 500
     assert value(resource, "Main.pump.valve.second") == 10
     went_on(resource)
@@ -80,7 +80,7 @@ def test_bits_and_forces(convention: str) -> None:
     assert value(resource, "Main.word") == 8
     forced = resource.submit(Force("Ada", "Main.pump.valve.level", "70"))
     assert isinstance(forced, Entry)
-    assert forced.step == BEHIND_FIRST
+    assert forced.step == AFTER_FIRST
     went_on(resource)
     assert value(resource, "Main.word.3") is True
     assert value(resource, "Main.tank[2]") == 70  # held at the end of the scan
@@ -107,7 +107,7 @@ END_PROGRAM
 
 
 def looking(engine: EngineFactory, convention: str) -> Resource:
-    """Halted in front of the statements of Look that copy what they see."""
+    """Halted before the statements of Look that copy what they see."""
     checked = check_sources({"main.st": OVERLAPS}, replace(model(), in_out=convention))  # type: ignore[arg-type]
     assert checked.program is not None, checked.problems
     resource = Resource(Loaded.make(checked.program, engine))

@@ -24,7 +24,7 @@ from tests.runtime.bench import ENGINES, value
 
 
 def halt(timeline: Timeline, count: int) -> None:
-    """In front of the statement of this count of the scan that is next."""
+    """Halts before the statement with this count in the next scan."""
     resource = timeline.resource
     resource.listening.attach(HaltAt(count), Listen(count=count))
     while (stop := timeline.run(1)).reason is Reason.INTERRUPTED:
@@ -63,14 +63,14 @@ def written(path: Path, engine: EngineFactory = ReferenceEngine) -> tuple[Timeli
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_any_scan_behind_it_is_shown_again(engine: EngineFactory, tmp_path: Path) -> None:
+def test_any_scan_after_it_is_shown_again(engine: EngineFactory, tmp_path: Path) -> None:
     timeline, states = written(tmp_path / "a.run", engine)
     assert value(timeline.resource, "Main.n") == 58
     for scan in (6, 14, 9, 7, 8, 13, 10):
         assert timeline.goto(scan) is None
         assert timeline.resource.state == states[scan]
     assert timeline.goto(5) is None
-    assert value(timeline.resource, "Main.n") == 5, "the seam in front of it knows nothing of it"
+    assert value(timeline.resource, "Main.n") == 5, "it has no effect in the seam before it"
     assert not timeline.resource.journal.derived(FORCED)
     timeline.return_live()
     timeline.close()
@@ -103,7 +103,7 @@ def test_a_copy_goes_on_as_a_branch(scan: int, tmp_path: Path) -> None:
     branch.close()
 
 
-def test_a_copy_of_a_halted_scan_ends_in_front_of_it(tmp_path: Path) -> None:
+def test_a_copy_of_a_halted_scan_ends_before_it(tmp_path: Path) -> None:
     timeline = begun(tmp_path / "a.run")
     advance(timeline, 3)
     state = timeline.resource.state
@@ -161,7 +161,7 @@ def test_a_run_that_was_ended_while_halted_runs_that_scan_as_the_journal_says(tm
     state = resource.state
     halt(timeline, 2)
     enter(timeline, Write("Ada", "Main.n", "50"))
-    timeline.recording.close()  # as behind a kill: nothing is noted
+    timeline.recording.close()  # as after a kill: nothing is noted
     again = resumed(path, 5)
     assert (again.live_scan, again.resource.state, again.resource.begun) == (5, state, True)
     assert again.goto(3) is None
@@ -175,7 +175,7 @@ def test_a_run_that_was_ended_while_halted_runs_that_scan_as_the_journal_says(tm
     assert found.hash == hashlib.sha256(after).hexdigest()
 
 
-def test_a_scan_that_traps_behind_what_was_entered_in_it(tmp_path: Path) -> None:
+def test_a_scan_that_traps_after_what_was_entered_in_it(tmp_path: Path) -> None:
     path = tmp_path / "a.run"
     timeline = begun(path)
     resource = advance(timeline, 5)

@@ -135,7 +135,7 @@ def test_a_trapped_program_is_replaced_in_every_mode_and_keeps_what_is_forced() 
     assert value(resource, "Main.n") == 3
 
 
-def test_a_force_without_a_place_behind_a_trap_is_released() -> None:
+def test_a_force_without_a_place_after_a_trap_is_released() -> None:
     resource = plc("PROGRAM Main\nVAR n : INT; q : INT; d : INT; END_VAR\n  n := n + 1; q := 1 / d;\nEND_PROGRAM\n")
     resource.submit(Force("Ada", "Main.q", "3"))
     resource.submit(Force("Ada", "Main.n", "3"))

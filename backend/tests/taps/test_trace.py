@@ -113,7 +113,7 @@ def test_a_trigger_between_samples_is_still_exact(engine: EngineFactory) -> None
 
 
 @engines
-def test_all_before_and_all_behind(engine: EngineFactory) -> None:
+def test_all_before_and_all_after(engine: EngineFactory) -> None:
     for before, expected in ((0, range(299, 399)), (100, range(200, 300)), (50, range(249, 349))):
         bench = Bench(triggered("Main.n", "equals", "300", before=before), engine)
         bench.start()
@@ -161,7 +161,7 @@ def test_the_program_is_changed_and_what_is_known_goes_on() -> None:
     assert bench.trace.buffer.read(60, 1000).valid.tolist() == [7] * 5
 
 
-def test_a_signal_of_another_type_begins_anew_and_says_so() -> None:
+def test_a_signal_of_a_different_type_begins_again_and_says_so() -> None:
     bench = Bench(PLAIN)
     bench.start()
     bench.run(30)
@@ -175,7 +175,7 @@ def test_a_signal_of_another_type_begins_anew_and_says_so() -> None:
     assert bench.scans() == list(range(30, 40))
 
 
-def test_samplings_of_another_program_never_run() -> None:
+def test_samplings_of_a_different_program_never_run() -> None:
     bench = Bench(PLAIN)
     bench.start()
     change(bench.plc, program(SOURCE.replace("VAR n", "VAR first : ARRAY [0..99] OF LINT; n")))

@@ -79,7 +79,7 @@ class Disturbed:
     until: int | None = None
     """Before this scan it lets go; None: when it is taken back."""
     holding: bool = False
-    """What it holds is in the force table: a restart or another program takes it out."""
+    """What it holds is in the force table, from which a restart or a program change removes it."""
     missed: str = ""
     """Why it never came about, though its time is over: it is known until somebody takes it back."""
 
@@ -165,7 +165,7 @@ def _step(all: Disturbeds, entry: Entry) -> Disturbeds:
         case Calm(ids=ids) if all:
             return {key: each for key, each in all.items() if ids is not None and each.number not in ids}
         case Firing(id=id) if str(id) in all:
-            changed = _behind(all[str(id)], command, entry.scan)
+            changed = _after(all[str(id)], command, entry.scan)
             if changed.over:
                 return {key: each for key, each in all.items() if key != str(id)}
             return {**all, str(id): changed}
@@ -179,7 +179,7 @@ def _begun(command: Disturb, entry: Entry) -> Disturbed:
     return Disturbed(number, command.wanted, command.author, next_firing(command.wanted, number, 0, first))
 
 
-def _behind(each: Disturbed, command: Firing, scan: int) -> Disturbed:
+def _after(each: Disturbed, command: Firing, scan: int) -> Disturbed:
     """After what it did before this scan, or inside of it."""
     tried = replace(each, time=command.time, fired=command.fired)
     match command:

@@ -118,7 +118,7 @@ def _temporary(program: Program, offset: int) -> tuple[str, Type] | None:
 
 
 def _part(type: Type, offset: int) -> Type | None:
-    """What is so far behind the beginning of a value."""
+    """The type of the part at a byte offset from the beginning of a value."""
     if isinstance(type, ArrayType):
         return _part(type.element, offset % type.element.size)
     if not isinstance(type, Record):

@@ -88,7 +88,7 @@ class DisturbanceSchedule:
 
 
 def _held_on(each: Disturbed, scan: int) -> Command | None:
-    """The end of what is held; or held again, as a restart or another program took it out."""
+    """The end of what is held; or its hold again, if a restart or a program change removed it."""
     if each.until is not None and each.until <= scan:
         return Unhold(each.by, each.number, each.time, each.fired)
     if each.holding:

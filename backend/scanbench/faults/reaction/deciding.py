@@ -56,7 +56,7 @@ class Instances:
         for member in owner.members.values() if owner is not None else ():
             if member.storage:
                 self._below(member.type, member.offset, member.name, -1)
-        # in the order of their places; who holds another comes first
+        # in the order of their places; one that contains others comes before these
         order = sorted(range(len(self.all)), key=lambda each: (self.all[each].begin, -self.all[each].end, each))
         at = {old: new for new, old in enumerate(order)}
         self.all = [self.all[old]._replace(parent=at.get(self.all[old].parent, -1)) for old in order]

@@ -36,7 +36,7 @@ class Variables:
         ]
 
     def is_output(self, leaf: Leaf) -> bool:
-        """Whether it stands where outputs are."""
+        """Whether the variable is in an output area."""
         end = leaf.offset + leaf.type.size
         return any(base + 2 * first < end and leaf.offset < base + 2 * last for base, first, last in self._outputs)
 

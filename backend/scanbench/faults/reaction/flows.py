@@ -1,8 +1,8 @@
 """What flows where in a program: for each statement the places that its value and its being reached depend on, and those it writes.
 
-Places count from what they count from in the code (`Ref.base`); `deciding.py` follows them through instances. A block of the
-library is one place, all of it. What is behind an in-out is the in-out's slot, and what is behind any reference is one place,
-`Ref.ANYWHERE`: so more may flow than does, and never less.
+Places have the same base as in the code (`Ref.base`); `deciding.py` follows them through instances. A block of the library is
+one place as a whole. The target of an in-out is represented by the in-out's slot, and the targets of all references are one place,
+`Ref.ANYWHERE`: so the result may have flows that never happen, and misses none.
 """
 
 from collections.abc import Iterable, Iterator
@@ -46,7 +46,7 @@ class Ref(NamedTuple):
     """Bytes that count from a base; of one byte perhaps only some bits."""
 
     base: Base | None
-    """None: anywhere, behind a reference."""
+    """None: anywhere, through a reference."""
     begin: int
     end: int
     mask: int = 0xFF
@@ -73,7 +73,7 @@ class Flow:
     writes: tuple[Ref, ...] = ()
     call: Call | None = None
     source: Ref | None = None
-    """Where the value stands that it stores as it is: it is a copy."""
+    """The place of the value that it stores unchanged, if it is a copy."""
     constant: bool = False
     acts: bool = False
     """It stops the program."""
@@ -209,7 +209,7 @@ class Flows:
         return self._reads((place.indices, place.reference))
 
     def _of_function(self, pou: Pou) -> tuple[frozenset[Ref], frozenset[Ref]]:
-        """What a function reads and writes of the image, and behind references, itself and through others."""
+        """What a function reads and writes of the image and through references, itself and in functions that it calls."""
         known = self._image.get(pou)
         if known is None:
             self._image[pou] = frozenset(), frozenset()

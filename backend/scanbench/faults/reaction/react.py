@@ -209,8 +209,8 @@ class _Run:
         return self._reaction(scan, observer.sites.statements)
 
     def _kinds_shown(self) -> frozenset[What]:
-        """What of the error can be read in this scan: once it was recovered only its record in the log; its code unless another
-        is more serious."""
+        """What of the error can be read in this scan: its code, unless a more serious error is present; once it was recovered,
+        only its record in the log."""
         if self._chosen.error.id not in self._resource.journal.derived(ACTIVE):
             return frozenset(("log",))
         code = sum(
@@ -304,7 +304,7 @@ class _Run:
         if under_way:
             yield f"no output differed in the window; {_some(under_way)} did, and may decide one later"
         if missed:
-            yield f"not reached in the {scans} scans: {_some(missed)}: a longer window or another state would tell"
+            yield f"not reached in the {scans} scans: {_some(missed)}: a longer window or a different state would tell"
         if nothing:
             yield from self._turns.notes(scans)
 

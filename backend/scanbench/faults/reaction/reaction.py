@@ -30,7 +30,7 @@ class Reader(Public):
 
 @dataclass(frozen=True, slots=True)
 class Difference(Public):
-    """A variable or address that was another value than without the error, outside of error memory."""
+    """A variable or address, outside of error memory, whose value differed from that without the error."""
 
     path: str
     without: str

@@ -1,6 +1,6 @@
-"""Which statements read error memory, by what stands in the program: for those that a run did not come to.
+"""Which statements of a program can read error memory: used for those that a run did not reach.
 
-What a block or function reads through an in-out is found; what somebody reads behind a reference is not.
+Reads of a block or function through an in-out are found; reads through a reference are not.
 """
 
 from collections.abc import Iterable
@@ -43,8 +43,8 @@ class Readings:
         self._paths: dict[Pou, tuple[str, ...]] = {}
         self._direct: list[tuple[int, Pou | None, Place]] = []
         """In an area of the model."""
-        self._behind: dict[tuple[Pou, Place], list[int]] = {}
-        """After the in-outs of POUs."""
+        self._through: dict[tuple[Pou, Place], list[int]] = {}
+        """Sites that read through an in-out of a POU."""
         self._given: list[tuple[Pou | None, Pou, Place, Place]] = []
         """Caller, callee, its in-out, and what it is given."""
         for pou in program.tasked:
@@ -68,7 +68,7 @@ class Readings:
                     slots.add((callee, slot))
             grown = len(slots) > before
         for each in slots:
-            for site in self._behind.get(each, ()):
+            for site in self._through.get(each, ()):
                 found[site] = each[0]
         return [self._reading(site, pou) for site, pou in sorted(found.items(), key=lambda each: each[0])]
 
@@ -99,7 +99,7 @@ class Readings:
     def _read(self, number: int, pou: Pou | None, place: Place) -> None:
         if place.slot is not None:
             if pou is not None:
-                self._behind.setdefault((pou, _plain(place.slot)), []).append(number)
+                self._through.setdefault((pou, _plain(place.slot)), []).append(number)
         elif place.reference is None and place.base is Base.IMAGE:
             self._direct.append((number, pou, place))
 

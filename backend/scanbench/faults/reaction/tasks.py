@@ -29,7 +29,7 @@ class Turns:
 
 
 def triggers(program: Program, watched: Watched) -> Iterator[tuple[str, Span, What]]:
-    """Tasks whose SINGLE is a bit of the error: name, where that stands, and what the bit is."""
+    """Tasks whose SINGLE is a bit of the error: name, the span of SINGLE, and what the bit is."""
     for task in program.tasks:
         bits = _looked_at(task)
         if bits is not None and task.single_span is not None:
