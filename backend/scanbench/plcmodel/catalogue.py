@@ -21,7 +21,7 @@ def show_code(code: int, form: CodeForm) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Wording:
-    """Name and description in another language than English; empty where the model file has none."""
+    """Name and description in a language other than English; empty where the model file has none."""
 
     language: str
     name: str

@@ -1,4 +1,4 @@
-"""A model file as text and tree: read without any of XML's dangers, and able to say where an element stands."""
+"""A model file as text and tree: read without any of XML's dangers, with the position of each element."""
 
 import re
 import threading
@@ -39,7 +39,7 @@ class Document:
         self._lines = [0, *(match.end() for match in re.finditer("\n", text))]
 
     def span(self, node: etree._Element, attribute: str = "") -> Span:
-        """Where the element, or the value of its attribute, stands in the file."""
+        """The position in the file of the element, or of the value of its attribute."""
         tag = self._tags[node]
         start, end = tag.span(1)
         for each in _ATTRIBUTE.finditer(self._text, end, tag.end()) if attribute else ():
@@ -173,7 +173,7 @@ def _violations_by_line(file: str, text: str, schema: etree.XMLSchema) -> Iterat
 
 
 def _doctype(text: str) -> int | None:
-    """Where a DOCTYPE stands; only comments, processing instructions and space can come before it."""
+    """The position of a DOCTYPE, None if there is none. Only comments, processing instructions and space can come before it."""
     at = 0
     while True:
         while at < len(text) and text[at].isspace():

@@ -1,4 +1,4 @@
-"""The files of a directory of models, and the models they make: a model may be based on another one."""
+"""The files of a directory of models, and the models they make: a model may be based on a different one."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches

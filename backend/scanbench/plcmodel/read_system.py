@@ -107,7 +107,7 @@ def error_reset(layers: Sequence[Reader]) -> ErrorReset | None:
 
 
 def error_time(layers: Sequence[Reader]) -> ErrorTime | None:
-    """Where the time of the latest error stands."""
+    """The words that hold the time of the latest error."""
     for reader in reversed(layers):
         node = reader.root.find("System/ErrorTime")
         if node is None:

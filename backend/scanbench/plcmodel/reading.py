@@ -20,7 +20,7 @@ LANGUAGE = "{http://www.w3.org/XML/1998/namespace}lang"
 class Reader:
     """Reads elements of one document; what is wrong goes to `problems`, and reading goes on.
 
-    A document may be read as the base of another one, its `heir`: what does not fit then is told at the heir's Base.
+    A document may be read as the base of a second one, its `heir`: what does not fit is then reported at the heir's Base.
     """
 
     def __init__(self, document: Document, heir: Document | None = None) -> None:

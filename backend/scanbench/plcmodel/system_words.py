@@ -65,7 +65,7 @@ def _of_an_error(error: ErrorEntry) -> Iterator[Taken]:
 
 
 def addresses_of(error: ErrorEntry) -> Iterator[ErrorAddress]:
-    """Every address of an error but its flag, in the order of a file: `Also` stands first."""
+    """Every address of an error but its flag, in the order of a file: `Also` comes first."""
     yield from error.also
     for detail in error.details:
         yield from detail.addresses

@@ -1,7 +1,7 @@
 """A project's own errors: `errors.xml`, in the format of a model's catalogue, on the model of the project.
 
-They stand in the model like the device's own, under one group, marked `user`. They change neither the memory nor how programs
-are laid out in it: a program on the extended model is the same program.
+The model has them like the device's own, in one group, marked `user`. They change neither the memory nor the layout of programs
+in it: a program on the extended model is the same program.
 """
 
 import posixpath

@@ -1,7 +1,7 @@
-"""Drafts -> the text of `errors.xml`, one element a line, and from a place in that text back to what stands there.
+"""Drafts -> the text of `errors.xml`, one element a line, and from a place in that text back to the field at this place.
 
-The text is stable: the same drafts give the same text, and what is read from it are the same drafts. Errors of a group stand
-together where the first of them stood.
+The text is stable: the same drafts give the same text, and reading it gives the same drafts. Errors of a group are written
+together, at the position of the first one.
 """
 
 import re
@@ -12,7 +12,7 @@ from scanbench.plcmodel.document import xml_text
 from scanbench.plcmodel.drafts import ADDRESS, ALSO, DETAIL, ERROR, DraftDetail, DraftError, Drafts, Texts
 
 _CONTROLS = 16
-"""So many stand in one ErrorDetailPattern."""
+"""The number of controls in one ErrorDetailPattern."""
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 _ATTRIBUTE = re.compile(r'(?<= )([\w:]+)="[^"]*"')
 _ESCAPED = re.compile('[&<>"\t\n\r]')
@@ -24,7 +24,7 @@ class Written:
 
     text: str = ""
     places: dict[int, tuple[str, Mapping[str, str]]] = field(default_factory=dict)
-    """Of a line: what stands there (`errors.2.details.0`), and the attributes' names -> the fields'."""
+    """For each line: the draft that it contains (`errors.2.details.0`), and the attributes' names -> the fields'."""
     _attributes: dict[int, list[tuple[int, int, str]]] = field(default_factory=dict, compare=False, repr=False)
     """Of a line that was asked for: where its attributes are, and their names."""
     _lines: list[str] = field(default_factory=list, compare=False, repr=False)

@@ -20,7 +20,7 @@ HEAD: Words = {
         "written": "作成日時", "by": "作成者", "tool": "作成ソフトウェア", "note": "備考",
     },
 }  # fmt: skip
-"""Words that stand on all of them."""
+"""Words that all pages use."""
 
 
 class Page:
@@ -39,7 +39,7 @@ class Page:
         return escape(self.plain(word, **values))
 
     def document(self, about: str, parts: Iterable[str], look: Literal["paper", "screen"] = "paper") -> str:
-        """The whole file: `about` stands in its title, after what it is; `parts` are HTML."""
+        """The whole file: its title is the kind of page, then `about`; `parts` are HTML."""
         style = files("scanbench.reports").joinpath("page.css").read_text("utf-8")
         mark = "" if look == "paper" else f' class="{look}"'
         return (
@@ -50,7 +50,7 @@ class Page:
         )
 
     def head(self, pairs: Iterable[tuple[str, str]], more: str = "") -> str:
-        """The title, and what the page is about: words, and HTML beside each. `more`: another row."""
+        """The title, and what the page is about: words, each with HTML next to it. `more`: one more row."""
         rows = self.pairs(pairs)
         return f'<h1>{self.word("title")}</h1>\n<dl class="head">{rows}<dt></dt><dd></dd>{more}</dl>\n'
 

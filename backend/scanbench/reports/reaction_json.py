@@ -14,5 +14,5 @@ def to_json(reaction: Reaction) -> dict[str, object]:
 
 
 def from_json(told: Mapping[str, object]) -> Reaction:
-    """The reaction that `to_json` wrote; `BadValue` says which field is missing or of another kind."""
+    """The reaction that `to_json` wrote; `BadValue` says which field is missing or of the wrong kind."""
     return make(Reaction, told)

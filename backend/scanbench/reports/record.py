@@ -154,7 +154,7 @@ class TestRecord:
     """The newest first."""
     log: tuple[RecordLine, ...] = ()
     _swept: dict[str, dict[str, RecordCell]] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """The newest cell with a verdict, by error and state: a sweep of one state does not hide what is open in another."""
+    """The newest cell with a verdict, by error and state: a sweep of one state does not hide what is open in others."""
 
     def __post_init__(self) -> None:
         for sweep in reversed(self.sweeps):

@@ -100,7 +100,7 @@ class Collected:
     outputs: dict[str, None] = field(default_factory=dict)
     _rows: list[Row] = field(default_factory=list)
     _before: deque[Row] = field(default_factory=lambda: deque(maxlen=CONTEXT))
-    _behind: int = 0
+    _rows_left: int = 0
 
     def add(self, verified: ScanVerified) -> None:
         """One more scan."""
@@ -126,11 +126,11 @@ class Collected:
             if len(self._rows) + len(self._before) < MAX_ROWS:
                 self._rows += self._before
             self._before.clear()
-            self._behind = CONTEXT + 1
-        if not self._behind or len(self._rows) >= MAX_ROWS:
+            self._rows_left = CONTEXT + 1
+        if not self._rows_left or len(self._rows) >= MAX_ROWS:
             self._before.append(row)
             return
-        self._behind -= 1
+        self._rows_left -= 1
         self._rows.append(row)
 
     def rows(self) -> tuple[Row, ...]:

@@ -7,7 +7,7 @@ from scanbench.reports.value_text import column_of, differing_bits, value_text
 from scanbench.verify.contract import Column, Mismatch, Place, Row
 
 FORMAT = 1
-"""Another number when what is there means something else; more keys may come at any time."""
+"""Raised when the meaning of a key changes; new keys may come at any time."""
 
 Json = bool | int | str | None | list["Json"] | dict[str, "Json"]
 
@@ -18,7 +18,7 @@ def to_json(report: Report) -> str:
 
 
 def report_object(report: Report) -> dict[str, Json]:
-    """The same as an object, to stand in another one."""
+    """The same as an object, to be part of a larger one."""
     columns = {each.name: each for each in report.columns}
     return {
         "format": FORMAT,

@@ -1,4 +1,4 @@
-"""`python -m scanbench.store [URL]`: brings a database up to date and says where it stands. For the compose file."""
+"""`python -m scanbench.store [URL]`: brings a database up to date and prints the number of its projects. For the compose file."""
 
 import sys
 from pathlib import Path

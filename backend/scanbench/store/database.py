@@ -69,13 +69,13 @@ def writing(engine: Engine) -> Iterator[Connection]:
 def _prepare_sqlite(engine: Engine) -> None:
     @event.listens_for(engine, "connect")
     def on_connect(connection: SqliteConnection, _entry: ConnectionPoolEntry) -> None:
-        connection.isolation_level = None  # transactions begin below, not behind our back
+        connection.isolation_level = None  # transactions begin below, and never implicitly
         for setting in ("busy_timeout = 30000", "journal_mode = WAL", "synchronous = NORMAL", "foreign_keys = ON"):
             connection.execute(f"PRAGMA {setting}")
 
     @event.listens_for(engine, "begin")
     def on_begin(connection: Connection) -> None:
-        # A transaction that starts by reading and then writes fails at once when another one writes; IMMEDIATE waits.
+        # A transaction that reads first and then writes fails at once while a second one writes; IMMEDIATE waits.
         immediate = connection.get_execution_options().get("scanbench_writing", False)
         connection.exec_driver_sql("BEGIN IMMEDIATE" if immediate else "BEGIN")
 

@@ -91,7 +91,7 @@ class Sweeps(Repository):
             return rows.sweep(made, {})
 
     def change(self, sweep: int, *, status: SweepStatus, message: str, seconds: float) -> SweepRow:
-        """How a sweep stands; `seconds` spent in all."""
+        """Sets the state of a sweep; `seconds` spent in all."""
         with self._database.writing() as session:
             row = _sweep(session, sweep)
             row.status, row.message, row.seconds = status, message, seconds
@@ -151,7 +151,7 @@ class Findings(Repository):
             return [rows.accepted(each) for each in session.scalars(ordered)]
 
     def accept(self, project: int, *, error: str, state: str, reason: str, by: str) -> AcceptedRow:
-        """Accepts a finding, or gives it another reason."""
+        """Accepts a finding, or changes the reason."""
         check("the reason", reason, 500)
         check("the state", state, NAME)
         with self._database.writing() as session:

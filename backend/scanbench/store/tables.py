@@ -138,7 +138,7 @@ class ErrorHistory(Base):
 
 
 class ProgramState(Base):
-    """A point in a run that was kept to begin sweeps from; the run file stands beside the database."""
+    """A point in a run that was kept to begin sweeps from; the run file is kept next to the database."""
 
     __tablename__ = "program_state"
     __table_args__ = (UniqueConstraint("project_id", "name"),)
@@ -176,7 +176,7 @@ class Sweep(Base):
 
 
 class SweepCell(Base):
-    """One error from one state. What is listed stands in columns, so that a matrix is read without its reactions."""
+    """One error from one state. What lists show is in columns, so that a matrix is read without its reactions."""
 
     __tablename__ = "sweep_cell"
 
@@ -256,7 +256,7 @@ class Trace(Base):
 
 
 class TraceRecord(Base):
-    """A record of a trace that was kept; the samples stand beside the database."""
+    """A record of a trace that was kept; the samples are files next to the database."""
 
     __tablename__ = "trace_record"
     __table_args__ = (Index(None, "project_id"),)
@@ -271,7 +271,7 @@ class TraceRecord(Base):
 
 
 class VerificationRecord(Base):
-    """A verification that was kept; its rows stand beside the database."""
+    """A verification that was kept; its rows are files next to the database."""
 
     __tablename__ = "verification_record"
     __table_args__ = (Index(None, "project_id"),)

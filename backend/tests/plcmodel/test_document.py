@@ -1,4 +1,4 @@
-"""A model file as text and tree: where things stand in it, and files that are wrong throughout."""
+"""A model file as text and tree: the positions of elements, and files that are wrong throughout."""
 
 import threading
 
@@ -36,7 +36,7 @@ def escaped(value: str) -> str:
 
 
 @given(elements(), st.sampled_from(["", '<?xml version="1.0"?>\n', "<!-- <a> -->"]))
-def test_every_element_and_attribute_is_found_where_it_stands(element: str, before: str) -> None:
+def test_every_element_and_attribute_is_found_at_its_position(element: str, before: str) -> None:
     text = before + element
     root = etree.fromstring(text.encode(), etree.XMLParser(remove_comments=True))
     document = Document("f.xml", text, root)
@@ -49,9 +49,9 @@ def test_every_element_and_attribute_is_found_where_it_stands(element: str, befo
         last = span.line, span.column
         for name, value in node.attrib.items():
             found = document.span(node, str(name))
-            stands = "\n".join(lines[found.line - 1 : found.end_line])
-            behind = len(lines[found.end_line - 1]) - found.end_column + 1
-            assert stands[found.column - 1 : len(stands) - behind].replace("\n", " ") == escaped(str(value))
+            written = "\n".join(lines[found.line - 1 : found.end_line])
+            rest = len(lines[found.end_line - 1]) - found.end_column + 1
+            assert written[found.column - 1 : len(written) - rest].replace("\n", " ") == escaped(str(value))
         assert document.span(node, "None") == span
 
 
@@ -103,9 +103,7 @@ def test_wide_and_narrow_files_follow_the_same_schema(count: int, old: str, new:
     assert (found[0].code, found[0].span.line) == ("M002", line or count + 2)
 
 
-def test_who_knows_a_catalogue_does_not_wait_for_who_reads_another(
-    cj1m: Model, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_known_catalogue_does_not_wait_for_one_that_is_read(cj1m: Model, monkeypatch: pytest.MonkeyPatch) -> None:
     known = errors(1)
     first = with_user_errors(cj1m, known)
     reads, go_on = threading.Event(), threading.Event()

@@ -149,7 +149,7 @@ def test_a_file_that_is_too_large(load: Load) -> None:
     assert "4 MiB" in problems[0].message
 
 
-def test_another_encoding_hides_nothing(directory: Path) -> None:
+def test_a_different_encoding_hides_nothing(directory: Path) -> None:
     text = SMALL.replace("<Model", "<!DOCTYPE Model><Model", 1)
     (directory / "maker" / "A.xml").write_bytes(text.replace("UTF-8", "UTF-16").encode("utf-16"))
     (directory / "maker" / "B.xml").write_bytes(text.replace("UTF-8", "UTF-7").encode("utf-8"))

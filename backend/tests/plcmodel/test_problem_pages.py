@@ -11,7 +11,7 @@ from .test_load import SMALL
 
 @pytest.mark.parametrize("code", sorted(code for code in TABLE if code.startswith("M")))
 def test_the_failing_example_fails(code: str, load: Load) -> None:
-    """They are parts of a small model that is right as it stands."""
+    """They are parts of a small model that has no problems."""
     failing, mended = examples(code)
     assert SMALL.count(mended) == 1, mended
     problems = load(SMALL.replace(mended, failing))[1]

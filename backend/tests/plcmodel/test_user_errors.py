@@ -30,7 +30,7 @@ BROKEN = Path(__file__).parent / "broken_user_errors"
 GOOD = (BROKEN / "GOOD.xml").read_text("utf-8")
 
 
-def test_they_stand_in_the_model_like_its_own(cj1m: Model) -> None:
+def test_the_model_has_them_like_its_own(cj1m: Model) -> None:
     model, problems = with_user_errors(cj1m, GOOD)
     assert problems == []
     assert model is not None
@@ -61,7 +61,7 @@ def test_among_the_files_of_a_project(cj1m: Model) -> None:
     assert [(each.code, each.span.file) for each in problems] == [("M004", "b/errors.xml")]
 
 
-def test_the_same_text_on_another_model_is_another_catalogue(cj1m: Model, models: dict[str, Model]) -> None:
+def test_the_same_text_on_a_different_model_is_a_different_catalogue(cj1m: Model, models: dict[str, Model]) -> None:
     assert with_user_errors(cj1m, GOOD)[0] is not None
     found, problems = with_user_errors(models["GENERIC-IEC"], GOOD)
     assert found is None
@@ -287,7 +287,7 @@ def test_names_of_groups_survive() -> None:
     assert drafts_of(write_catalogue(Drafts(errors, groups)).text) == Drafts(errors, groups)
 
 
-def test_more_details_than_stand_in_one_pattern() -> None:
+def test_more_details_than_fit_into_one_pattern() -> None:
     details = tuple(DraftDetail(f"d{n}", "List", "", (DraftAddress("a", "W1.00"),)) for n in range(40))
     errors = (DraftError("a", ("G",), "1", "W1.00", "fatal", "1", texts=(DraftText("en", "A"),), details=details),)
     assert drafts_of(write_catalogue(Drafts(errors)).text) == Drafts(errors)
@@ -376,7 +376,7 @@ def test_a_problem_is_at_its_field(cj1m: Model, error: DraftError, path: str, me
     assert message in found[1]
 
 
-def test_errors_stand_in_the_order_of_the_tree_inner_groups_first(cj1m: Model) -> None:
+def test_errors_are_in_the_order_of_the_tree_inner_groups_first(cj1m: Model) -> None:
     """As the browser shows them: sweeps, records and lists of one catalogue have one order."""
     error = (
         '<Error Id="{}" ErrorCode="{}" ErrorFlag="W10.00" Severity="nonfatal" Priority="9" Source="x" Verified="no">'

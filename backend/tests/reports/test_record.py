@@ -124,7 +124,7 @@ def test_a_finding_is_open_until_it_is_accepted_in_each_state() -> None:
         ("fal", "Stopped"): ("no_effect", False),
         ("fal", "Running"): ("never_read", True),
     }
-    assert record.missed[-1].state == "Running"  # what is open stands first
+    assert record.missed[-1].state == "Running"  # what is open comes first
     assert (record.summary.open, record.summary.accepted) == (2, 1)
     again = from_xml(to_xml(record))
     assert isinstance(again, TestRecord)

@@ -99,7 +99,7 @@ def test_a_silent_server_notices_that_its_claim_is_lost(postgres: Server, monkey
     first.close()
 
 
-def test_where_another_server_was_faster_nothing_is_written_any_more(
+def test_nothing_is_written_any_more_if_a_second_server_was_faster(
     postgres: Server, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setattr("scanbench.store.claim.LOOKED_S", 3600)
