@@ -38,7 +38,7 @@ def main() -> None:
 
 
 def _leave() -> NoReturn:
-    """At once: a thread that compiles would be waited for. No process is left behind."""
+    """Ends at once, without waiting for a thread that compiles. All child processes end too."""
     from scanbench.engines.lifeline import end_children
 
     end_children()

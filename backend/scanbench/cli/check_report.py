@@ -20,7 +20,7 @@ class FileReport:
     name: str
     pous: int
     clean: int
-    """POUs without an error of their own. One of them may still use another that has one."""
+    """POUs without an error of their own. Such a POU may still use one that has an error."""
     supported: Counter[str]
     refused: Counter[str]
     errors: int

@@ -11,7 +11,7 @@ _WIDTH = 30
 
 @contextmanager
 def progress(total: int, done: Callable[[], int], told: Callable[[], str]) -> Iterator[None]:
-    """A bar up to `total` and a text, on standard error; `done` and `told` are asked from another thread while the block runs."""
+    """A bar up to `total` and a text, on standard error; a second thread calls `done` and `told` while the block runs."""
     if not sys.stderr.isatty():
         yield
         return

@@ -27,7 +27,7 @@ def recorded(
     try:
         recording = Recording.begin(path, program, _VERSION, pack_body(sources), ENTRIES, "command line", LIMIT)
     except FileExistsError:
-        usage(f"{path} is there already: remove it, or choose another name")
+        usage(f"{path} is there already: remove it, or choose a different name")
     except OSError as error:
         usage(f"{path} cannot be written: {error.strerror}")
     try:

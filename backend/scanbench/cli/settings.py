@@ -43,7 +43,7 @@ def config_file(environment: Mapping[str, str]) -> Path:
 
 
 def default_data(environment: Mapping[str, str]) -> Path:
-    """The same folder wherever one stands, `$XDG_DATA_HOME/scanbench`, unless a server of this user has used `./data`."""
+    """`$XDG_DATA_HOME/scanbench` for every working directory, unless a server of this user has used `./data`."""
     if any((HERE / mark).exists() for mark in _MARKS) and _is_ours(HERE):
         return HERE
     return _base(environment, "XDG_DATA_HOME", ".local/share") / "scanbench"

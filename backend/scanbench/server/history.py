@@ -96,7 +96,7 @@ class RunHistory:
         return found.writer
 
     async def changes(self, session: Session, first: int, last: int, other: Session | None) -> Changes:
-        """What is another at the beginning of `last` than at that of `first`."""
+        """The values that differ between the beginnings of the scans `first` and `last`."""
         live = _until(session)
         live_other = 0 if other is None else _until(other)
         run, second = str(session.instance.run_file), "" if other is None else str(other.instance.run_file)
@@ -114,7 +114,7 @@ class RunHistory:
     def compare(self, a: Session, b: Session, author: str) -> Comparison:
         """Compares two runs, scan by scan."""
         if a is b:
-            raise Refused("a run is the same as itself: choose another instance")
+            raise Refused("a run is the same as itself: choose a different instance")
         self._refuse_more()
         mine = [id for id, each in self._comparisons.items() if each.session is a and each.over]
         for id in mine[: max(0, len(mine) - COMPARISONS + 1)]:
@@ -153,7 +153,7 @@ class RunHistory:
     # ---- what if --------------------------------------------------------------------------------------------------
 
     async def rerun(self, session: Session, change: RerunChange, name: str, author: str) -> Rerun:
-        """The run once more with one error another, as a new instance in the end."""
+        """Repeats the run with one error changed, and makes a new instance of it."""
         self._refuse_more()
         id = self._number()
         rerun = self._reruns[id] = _Rerun(session, Rerun(id, author, name), self._runs / f"rerun-{fresh_token()}")

@@ -14,7 +14,7 @@ class Hold:
     """Of one verification."""
 
     def __init__(self, session: Session, hand_over: Callable[[], bool]) -> None:
-        """`hand_over`: whether another verification has the same PLC wait, which takes it over."""
+        """`hand_over`: whether a different verification holds the same PLC too, and takes over."""
         self._session, self._hand_over = session, hand_over
         self.held = False
         """Whether the PLC ran when it was made to wait."""

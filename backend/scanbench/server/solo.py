@@ -19,7 +19,7 @@ from scanbench.store.records import InstanceRow
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.refused import Refused
 
-_STANDS = ("paused", "halted", "stopped", "trapped", "fatal")
+_NOT_RUNNING = ("paused", "halted", "stopped", "trapped", "fatal")
 
 
 class Solo:
@@ -31,7 +31,7 @@ class Solo:
 
     @staticmethod
     async def start(name: str, sources: Sources, model: Model, speed: float, cache: Path | None = None) -> "Solo":
-        """A PLC that stands before its first scan; `Refused` says why it cannot. What is built for it is kept in
+        """A PLC that waits before its first scan; `Refused` says why there can be none. What is built for it is kept in
         `cache`; without one it is gone with the PLC."""
         solo = await asyncio.to_thread(Solo._make, name, sources, model, speed, cache)
         try:
@@ -61,8 +61,8 @@ class Solo:
         return Solo(session, reactions, folder.cleanup)
 
     async def standing(self) -> None:
-        """Waits until the PLC is there and stands; `Refused` when it cannot be there."""
-        while self.session.state.state not in _STANDS:
+        """Waits until the PLC is there and does not run; `Refused` when it cannot be there."""
+        while self.session.state.state not in _NOT_RUNNING:
             if self.session.state.state in ("failed", "no_space"):
                 raise Refused(self.session.state.message)
             await asyncio.sleep(0.01)

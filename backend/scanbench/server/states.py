@@ -78,7 +78,7 @@ class States:
         return row
 
     async def take(self, session: Session, path: Path, scan: int | None, author: str) -> None:
-        """Writes a PLC's run as it was before `scan`, or is now; leaves nothing behind where it cannot."""
+        """Writes a PLC's run as it was before `scan`, or as it is now. If that fails, no file is left."""
         await asyncio.to_thread(discard, path)
         try:
             await session.copy(path, scan, author)
@@ -93,7 +93,7 @@ class States:
 
 
 def _share(path: Path, other: Path) -> None:
-    """The same file under another name: nobody writes into it any more. A copy where a disk knows no links."""
+    """Gives the file a second name, as nobody writes into it any more; makes a copy if the disk has no links."""
     discard(other)
     try:
         os.link(path, other)

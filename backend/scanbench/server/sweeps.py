@@ -70,7 +70,7 @@ class _Running:
     now: str = ""
     fresh: list[CellRow] = field(default_factory=list)
     told: int = 0
-    """When everybody was told last how it stands."""
+    """When its progress was last reported to everybody."""
 
     @property
     def seconds(self) -> float:
@@ -174,7 +174,7 @@ class Sweeps:
     async def begin(
         self, session: Session, errors: Sequence[str] | None, states: Sequence[int], window: int, author: str
     ) -> SweepRow:
-        """Begins a sweep of the program that runs; without states from where the PLC stands now."""
+        """Begins a sweep of the program that runs; without states from the present state of the PLC."""
         if session.instance.why_not:
             raise Refused(session.instance.why_not)
         project, sources, model = session.project_id, session.instance.sources, session.model

@@ -62,7 +62,7 @@ class _Flight:
     task: "asyncio.Task[None] | None" = None
 
     def tell(self, changed: FlightChanged) -> None:
-        """How it stands now."""
+        """Reports its present state."""
         self.changed = changed
         self.session.tell(changed)
 

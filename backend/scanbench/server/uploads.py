@@ -52,7 +52,7 @@ class Checked(Public):
     PUBLIC: ClassVar = "TraceMappingChecked"
 
     ok: bool
-    """Whether it can; warnings do not stand in the way."""
+    """Whether it can; warnings do not prevent it."""
     problems: tuple[TraceProblem, ...]
     """The first 200."""
     first: int | None

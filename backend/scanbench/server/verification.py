@@ -1,7 +1,7 @@
-"""One verification, from the parent: its process, where it stands, and what it is to do next.
+"""One verification, as the parent manages it: its process, its state, and what it does next.
 
-The process re-runs the run file beside the PLC, so a free pace costs the PLC nothing. With pace `scan` the PLC waits behind
-each scan, with pace `step` before each statement, until both sides were compared and somebody, or `auto`, goes on.
+The process re-runs the run file while the PLC runs, so a free pace costs the PLC nothing. With pace `scan` the PLC waits after
+each scan, with pace `step` before each statement, until both sides were compared and somebody, or `auto`, continues.
 """
 
 import asyncio
@@ -36,12 +36,12 @@ from scanbench.wire.verification import (
 log = logging.getLogger("scanbench")
 
 A = TypeVar("A")
-BEHIND = 256
-"""Scans that a verification of a PLC that runs may be behind; then it goes on with the newest ones."""
+MOST_LAG = 256
+"""Scans by which a verification of a PLC that runs may lag; beyond that it continues with the newest ones."""
 CAUGHT_UP = 64
 """So many of the newest it goes on with then."""
 AT_ONCE = 200
-"""Scans that are asked for at once: so soon it can be stopped, or take another pace."""
+"""Scans in one request. After each request it can be stopped, or its pace changed."""
 _TRAPPED = "the PLC is stopped by a run-time error: restart it to go on"
 
 
@@ -65,13 +65,13 @@ class _Cut:
 
 
 class Verification:
-    """Everything in the event loop. `on_change` is called whenever the status is another."""
+    """Everything in the event loop. `on_change` is called whenever the status changes."""
 
     def __init__(
         self, id: int, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str, cache: Path,
         on_change: Callable[["Verification"], None], hand_over: Callable[["Verification"], bool],
     ) -> None:  # fmt: skip
-        """`hand_over`: whether another verification has the same PLC wait, which takes it over."""
+        """`hand_over`: whether a different verification holds the same PLC too, and takes over."""
         self.session, self.rows = session, Rows()
         source: Literal["live", "past", "trace"] = "live" if wanted.first is None else "past"
         self.status = VerificationStatus(
@@ -154,17 +154,17 @@ class Verification:
     async def release(self) -> None:
         """Ends the process of one that is over; its rows stay, and can be looked at and kept."""
         self._gone = True
-        await self._job.end("its process was ended as others began: begin another verification")
+        await self._job.end("its process was ended as others began: begin a new verification")
 
     # ---- what users want ------------------------------------------------------------------------------------------
 
     async def drive(
         self, pace: VerifyPace | None, auto: bool | None, memory: Memory | None, action: str | None, author: str
     ) -> None:
-        """Another pace or memory, one further, stopped, resumed."""
+        """Changes pace or memory; goes one further; stops or resumes."""
         status = self.status
         if status.state == "failed" and (pace, action) != (None, None):
-            raise Refused(f"it has failed: {status.message}. Begin another verification")
+            raise Refused(f"it has failed: {status.message}. Begin a new verification")
         if memory is not None and memory != status.memory:
             self._change(memory=memory, generation=status.generation + 1)
         if auto is not None:
@@ -183,7 +183,7 @@ class Verification:
         if self.status.state == "stopped" or self.status.state == "done":
             if action == "go_on":
                 raise Refused(
-                    "it is over: begin another verification"
+                    "it is over: begin a new verification"
                     if self.status.state == "done"
                     else "it is stopped: resume it"
                 )
@@ -218,7 +218,7 @@ class Verification:
 
     @property
     def _live_end(self) -> int:
-        """Scans before this one are over. One that a run-time error ended is, though time stands."""
+        """Scans before this one are over. A scan that a run-time error ended is over too, though the time did not advance."""
         state = self.session.state
         trapped = state.trap is not None and not state.past_by and state.trap.scan == state.scan
         return self._live_scan + (trapped or (self._cut is not None and self._cut.scan == self._live_scan))
@@ -233,14 +233,14 @@ class Verification:
         """Asks for what is to be verified now, unless something is."""
         status, live = self.status, self._live_scan
         if self._cut is not None and self._cut.scan < live and not self._busy:
-            if live - self._cut.scan <= BEHIND:  # the program was restarted in it
+            if live - self._cut.scan <= MOST_LAG:  # the program was restarted in it
                 self._next = min(self._next, self._cut.scan)
             else:
                 self._cut = None
         if status.state in ("starting", "stopped", "done", "failed"):
             return
         if status.source != "trace" and self.session.instance.runs != self._run:
-            self._fail("a new run began: begin another verification")
+            self._fail("a new run began: begin a new verification")
         elif self._busy:
             return
         elif status.source != "live":
@@ -248,7 +248,7 @@ class Verification:
         elif status.pace == "step":
             self._poke_halt(live)
         elif self._next < self._live_end:
-            if status.pace == "free" and live - self._next > BEHIND:
+            if status.pace == "free" and live - self._next > MOST_LAG:
                 self._skip(live - CAUGHT_UP)
             self._scans(self._next, self._live_end - 1, live)
 
@@ -280,7 +280,7 @@ class Verification:
         if halt is None or halt.past or halt.number == self._halt:
             return
         if self._next < halt.scan:  # those that are over by now are compared as a whole
-            if halt.scan - self._next > BEHIND:
+            if halt.scan - self._next > MOST_LAG:
                 self._skip(halt.scan - CAUGHT_UP)
             self._scans(self._next, halt.scan - 1, live)
             return
@@ -341,7 +341,7 @@ class Verification:
 
     async def _ask(self, make: Callable[[int], object], answer: type[A]) -> A:
         if self._gone:
-            raise Refused("its process has ended: begin another verification")
+            raise Refused("its process has ended: begin a new verification")
         return await self._job.ask(make, answer)
 
     def _verify(self, make: Callable[[int], object]) -> None:
@@ -369,7 +369,7 @@ class Verification:
 
     def _verified(self, came: ScansVerified) -> None:
         status = self.status
-        if status.state == "failed":  # what comes after it may be of another run
+        if status.state == "failed":  # what comes after it may be of a new run
             return
         done, failed = isinstance(came, ScansDone), came.failed if isinstance(came, ScansDone) else ""
         came = self._without_known(came)
@@ -403,7 +403,7 @@ class Verification:
             old = [row for row in came.rows if row.scan == cut.scan][: cut.rows]
             self._cut = None
             came = replace(came, rows=tuple(row for row in came.rows if row not in old), compared=came.compared - 1)
-        if came.scan == self._until:  # it was asked for though time stands there: a run-time error ended it
+        if came.scan == self._until:  # it was asked for although a run-time error ended it and the time did not advance
             self._cut = _Cut(came.scan, sum(row.scan == came.scan for row in came.rows))
         return came
 

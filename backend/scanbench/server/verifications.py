@@ -140,7 +140,7 @@ class Verifications:
     async def drive(
         self, id: int, pace: VerifyPace | None, auto: bool | None, memory: Memory | None, action: str | None, author: str
     ) -> VerificationStatus:  # fmt: skip
-        """Another pace or memory; one further; stopped, or resumed."""
+        """Changes pace or memory; goes one further; stops or resumes."""
         verification = self._one(id)
         await verification.drive(pace, auto, memory, action, author)
         return verification.status
@@ -289,7 +289,7 @@ class Verifications:
 
 
 def _phase(status: VerificationStatus) -> tuple[object, ...]:
-    """What is told at once when it is another; a live verification waits and goes on many times a second."""
+    """The part of the status whose changes are reported at once; a live verification waits and goes on many times a second."""
     going = status.state in ("verifying", "waiting") and (status.pace == "free" or status.auto)
     return "going" if going else status.state, status.pace, status.auto, status.memory, status.generation
 

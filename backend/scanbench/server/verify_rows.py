@@ -100,7 +100,7 @@ class Rows:
         return map(row_of, (*self.old.values(), *self.kept))
 
     def as_now(self) -> "Rows":
-        """For another thread: it unpacks, while rows come in here."""
+        """A copy for a different thread, which unpacks it while rows come in here."""
         return replace(
             self, columns=[*self.columns], inputs={**self.inputs}, outputs={**self.outputs}, kept=[*self.kept],
             differing=[*self.differing], old={**self.old},

@@ -114,7 +114,7 @@ class Debugging:
     # ---- from the host --------------------------------------------------------------------------------------------
 
     async def resend(self) -> None:
-        """Another host is there: it has to know."""
+        """Tells a new host process what the last one knew."""
         groups: dict[str, list[Breakpoint]] = {}
         for each in self.verdicts:
             groups.setdefault(each.breakpoint.group, []).append(each.breakpoint)

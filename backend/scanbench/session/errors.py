@@ -86,7 +86,7 @@ class Errors:
     # ---- from the host --------------------------------------------------------------------------------------------
 
     def on_state(self, state: PlcState) -> None:
-        """The PLC is in another state."""
+        """The state of the PLC changed."""
         if state.pid is not None and not state.past_by and state.state in LIVING:
             self._see_version(state.version, state.scan)
         if not state.past_by:
@@ -121,7 +121,7 @@ class Errors:
         self._reacting.forget()
 
     def on_program(self, model: Model, version: int) -> None:
-        """This program is there, with the errors that its model knows; of another version the rows are others."""
+        """Takes over a program with the errors that its model knows; each version has rows of its own."""
         self._history.take_model(model)
         if version != self._history.version:
             self._history.begin(version)
@@ -158,7 +158,7 @@ class Errors:
             self._publish_rows(self._history.turn_to(version, wall_time(), scan), fresh=True)
 
     def _publish_rows(self, rows: Sequence[ErrorRow], fresh: bool = False) -> None:
-        """Keeps and tells what changed; `fresh`: another version runs, whose rows are all others."""
+        """Keeps and tells what changed; `fresh`: a different version runs, so that all rows change."""
         self._keep(rows)
         now = self._history.rows if fresh else [row for row in rows if row.program_version == self._history.version]
         if now and not self._past_rows:

@@ -10,7 +10,7 @@ from scanbench.jobs.client import SharedJob
 from scanbench.wire.jobs import FindReaction, Reacted
 from scanbench.wire.refused import Refused
 
-_STANDS = ("fatal", "trapped", "stopped", "off", "failed")
+_NOT_RUNNING = ("fatal", "trapped", "stopped", "off", "failed")
 """States in which no scan comes until somebody does something: what a program did until now is all it will do."""
 
 
@@ -38,7 +38,7 @@ class Reacting:
         self._waiting[raised.error] = raised
 
     def ended(self, scan: int) -> None:
-        """Before this scan the program began again, or became another one: all windows end here."""
+        """Ends all windows, as the program was restarted or changed before this scan."""
         waiting, self._waiting = self._waiting, {}
         for raised in waiting.values():
             self._ask(raised, scan)
@@ -52,7 +52,7 @@ class Reacting:
     def reached(self, scan: int, state: str) -> None:
         """The PLC is in this state, and runs this scan next."""
         for raised in list(self._waiting.values()):
-            if scan >= raised.scan + WINDOW or (state in _STANDS and scan >= raised.scan):
+            if scan >= raised.scan + WINDOW or (state in _NOT_RUNNING and scan >= raised.scan):
                 del self._waiting[raised.error]
                 self._ask(raised, scan)
 

@@ -60,7 +60,7 @@ class Tracing:
         )
 
     async def define(self, number: int | None, definition: TraceDefinition, author: str, start: bool) -> TraceStatus:
-        """A new trace, or another definition for one; `Refused` says why it cannot be."""
+        """A new trace, or a new definition for one; `Refused` says why it cannot be."""
         id = max(self._next, max(self._wanted, default=0) + 1) if number is None else self.trace(number).id
         before = self._wanted.get(id)
         self._wanted[id] = _Wanted(definition, author, start or (before is not None and before.on))
@@ -99,7 +99,7 @@ class Tracing:
 
     async def pages(self, number: int, first: int, last: int | None) -> AsyncIterator[tuple[TraceStatus, Samples]]:
         """All samples of these scans, the newest first, as the oldest are forgotten first while they are read; one page at
-        least, with what it is of. `Refused` where a page is of another record than the one before."""
+        least, with what it is of. `Refused` if the trace was recorded again since the page before."""
         generation: int | None = None
         while True:
             answer = await self._read(number, lambda ref, end=last: ReadTrace(ref, number, first, end, None, page=True))  # type: ignore[misc]

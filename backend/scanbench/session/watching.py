@@ -57,7 +57,7 @@ class Watching:
         self._lost = True
 
     def on_ready(self) -> None:
-        """Another process is there: it has to know."""
+        """Tells a new host process what the last one knew."""
         if self._lost:
             self._lost = False
             self._tell(protocol.WatchPaths(_EVERYBODY, self._watches.all()))

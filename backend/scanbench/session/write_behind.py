@@ -1,4 +1,4 @@
-"""Writes history and log behind the back of the live path: a command never waits for the database.
+"""Writes history and log in the background: a command never waits for the database.
 
 A PLC can do more in a second than a database writes in one. So what waits is state, not jobs: of an error's row only the
 newest counts, and of lines only so many are kept anyway. While the database cannot be used (its disk is full, say) it waits,
@@ -215,7 +215,7 @@ def _kept(row: ErrorRow) -> HistoryRow:
 
 
 def row_of(model: Model, kept: HistoryRow) -> ErrorRow:
-    """A row as the store has it. An error of another version's catalogue keeps its id for a name."""
+    """A row as the store has it. An error that only the catalogue of a different version has is shown by its id."""
     error = model.error(kept.error)
     name = kept.error if error is None else error.name
     return ErrorRow(
@@ -244,7 +244,7 @@ def line_of(kept: LogRow) -> LogEntry:
 
 
 def breakpoint_of(kept: Mapping[str, object]) -> Breakpoint | None:
-    """A breakpoint as the store has it; None where another version of the program kept what this one does not know."""
+    """A breakpoint as the store has it; None if a different version of Scanbench stored something that this one does not know."""
     try:
         return make(Breakpoint, kept)
     except BadValue:

@@ -80,7 +80,7 @@ def create_app(config: Config) -> ASGIApp:
 
 
 def bare_app() -> FastAPI:
-    """Routes without anything behind them: enough to describe the API."""
+    """An app with the routes only, without a workbench: enough to describe the API."""
     app = Api(
         title="Scanbench", description=_ABOUT, license_info={"name": "Apache-2.0", "identifier": "Apache-2.0"},
         generate_unique_id_function=operation_id, version=__version__, docs_url=None, redoc_url=None, openapi_url="/api/openapi.json",

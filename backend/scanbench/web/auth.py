@@ -41,7 +41,7 @@ class Gate:
     next_guest: Callable[[], str]
     """A name for somebody who gave none; never the same twice."""
     public: PublicUrl | None = None
-    """Where people reach the server, when that is another address than its own."""
+    """The address at which people reach the server, if it differs from its own."""
 
     @property
     def cookie(self) -> str:
@@ -102,9 +102,9 @@ class Guard:
         origin = headers.get("origin")
         must_match = scope["type"] == "websocket" or scope["method"] not in _SAFE
         if origin is not None and must_match and not self._is_our_page(origin, host):
-            return f"Origin {origin!r} is another page than this server's"
+            return f"Origin {origin!r} is not a page of this server"
         if must_match and headers.get("sec-fetch-site", "same-origin") not in ("same-origin", "none"):
-            return "the request comes from another site"
+            return "the request comes from a different site"
         return None
 
     def _is_our_page(self, origin: str, host: str) -> bool:
@@ -171,7 +171,7 @@ def _address(text: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
 
 
 def is_page(path: str) -> bool:
-    """Whether the page stands there: at the root, and at the address of each instance and scan."""
+    """Whether the page is served at this path: at the root, and at the address of each instance and scan."""
     return path == "/" or path.startswith("/i/")
 
 

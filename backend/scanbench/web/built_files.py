@@ -9,7 +9,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 _BY_CONTENT = "assets/"
-"""Names here carry a hash of what is in the file: another content has another name."""
+"""Names here contain a hash of the file's content: a file that changes gets a new name."""
 
 
 class BuiltFiles(StaticFiles):

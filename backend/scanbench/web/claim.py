@@ -19,5 +19,5 @@ def claimed(data_dir: Path) -> Iterator[None]:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
-            raise InUse(f"{data_dir} is used by another server: stop that one, or give another --data") from error
+            raise InUse(f"{data_dir} is used by another server: stop that one, or give a different --data") from error
         yield

@@ -25,7 +25,7 @@ class Dap(Wire):
 class HaltInfo(Wire):
     """The PLC is halted by the debugger; part of the instance's state, so that everybody sees it at once."""
 
-    number: int = Field(description="another number is another halt")
+    number: int = Field(description="each halt has a number of its own")
     reason: Literal[
         "breakpoint", "data breakpoint", "step", "pause", "entry", "goto", "error", "violation", "trap", "scan"
     ]
@@ -49,7 +49,7 @@ class BreakpointInfo(Wire):
     id: int
     kind: Literal["line", "data", "error", "violation", "trap", "scan"]
     author: str
-    group: str = Field(description="empty: the list that all browsers share; else a session of another tool")
+    group: str = Field(description="empty: the list that all browsers share; else a session of a DAP client")
     enabled: bool
     file: str
     line: int = Field(description="as asked for")

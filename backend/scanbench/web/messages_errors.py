@@ -14,7 +14,7 @@ Verdict = Literal["reacted", "stored_only", "no_effect", "not_reached", "never_r
 
 
 class Wording(Wire):
-    """Name and description in another language than English; empty where the model has none."""
+    """Name and description in a language other than English; empty where the model has none."""
 
     language: str = Field(description="as in xml:lang, e.g. ja")
     name: str
@@ -226,7 +226,7 @@ class SweepSummary(Wire):
 
 
 class Accepted(Wire):
-    """Somebody accepted a finding: it stands in the record with this reason."""
+    """Somebody accepted a finding: the record shows it with this reason."""
 
     reason: str
     by: str

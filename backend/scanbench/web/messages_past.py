@@ -10,7 +10,7 @@ class NewComparison(Wire):
 
 
 class NewRerun(Wire):
-    """The run of this instance once more, with one error another; see `verify.findings.RerunChange`."""
+    """Repeats the run of this instance with one error changed; see `history.contract.RerunChange`."""
 
     name: str = Field(min_length=1, max_length=100, description="of the new instance")
     scan: Scan = Field(description="before which the error was raised")

@@ -51,7 +51,7 @@ class NewTraceVerification(Wire):
 
 
 class VerificationInfo(Wire):
-    """How a verification stands. Everybody at the PLC sees the same."""
+    """The state of a verification. Everybody at the PLC sees the same."""
 
     id: int
     by: str
@@ -80,7 +80,7 @@ class VerificationInfo(Wire):
     rows: int
     forgotten: int = Field(description="rows at the front that found no room any more")
     used: int = Field(description="the most uses of a row")
-    generation: int = Field(description="another one when rows that were told are others now")
+    generation: int = Field(description="raised when rows that were already sent have changed")
 
 
 class Verifications(Wire):

@@ -51,7 +51,7 @@ def serve(
 
 
 def _name(data_dir: Path) -> str:
-    """What another server says of this one; PostgreSQL keeps 63 bytes of it."""
+    """The name by which other servers report this one; PostgreSQL keeps 63 bytes of it."""
     return f"{socket.gethostname()}, process {os.getpid()}, --data {data_dir.resolve()}"
 
 
@@ -100,7 +100,7 @@ def shown_address(host: str, gate: Gate) -> str:
 
 
 class _Server(uvicorn.Server):
-    """Says when it is ready, and leaves no process behind."""
+    """Says when it is ready, and ends all its processes."""
 
     def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
         super().__init__(config)
@@ -123,12 +123,12 @@ def _bind(host: str, port: int | None, announce: Callable[[str], None]) -> socke
         return _listening(host, DEFAULT_PORT if port is None else port)
     except OSError as error:
         if port is not None:
-            raise CannotServe(f"{host}:{port} cannot be used ({error.strerror}): choose another --port") from error
+            raise CannotServe(f"{host}:{port} cannot be used ({error.strerror}): choose a different --port") from error
         announce(f"port {DEFAULT_PORT} is taken: using a free one")
     try:
         return _listening(host, 0)
     except OSError as error:
-        raise CannotServe(f"{host} cannot be used ({error.strerror}): choose another --host") from error
+        raise CannotServe(f"{host} cannot be used ({error.strerror}): choose a different --host") from error
 
 
 def _listening(host: str, port: int) -> socket.socket:

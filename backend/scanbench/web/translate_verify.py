@@ -22,7 +22,7 @@ def wanted(of: wire.NewVerification) -> VerifyWish:
 
 
 def info(of: VerificationStatus) -> wire.VerificationInfo:
-    """How a verification stands."""
+    """The state of a verification."""
     stretch = of.wanted.range
     return wire.VerificationInfo.model_validate(
         {

@@ -237,7 +237,7 @@ def test_values_are_keyed_by_the_path_as_it_was_asked_for(count: str) -> None:
     assert json.loads(result.stdout)["values"] == {"main.N": 2, "main.a[ 2 ]": 2}
 
 
-def test_refusals_stand_in_the_json(count: str) -> None:
+def test_refusals_are_in_the_json(count: str) -> None:
     result = scanbench("run", count, "--scans", "1", "--model", "CJ1M-CPU63", "--set", "A402.12=TRUE", "--json")
     assert json.loads(result.stdout)["refused"][0]["scan"] == 0
 

@@ -1,4 +1,4 @@
-"""Ctrl-C as the terminal sends it: the command ends at once, without a traceback, and leaves no process behind."""
+"""Ctrl-C as the terminal sends it: the command ends at once, without a traceback, and no process is left."""
 
 import os
 import signal

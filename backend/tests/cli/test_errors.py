@@ -151,7 +151,7 @@ def test_what_could_not_be_raised_is_said(project: Path) -> None:
 
 
 def test_the_program_of_a_run_that_does_not_compile_any_more(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The first error is named, not a warning that stands above it."""
+    """The first error is named, not a warning that comes before it."""
     run = project.parent / "on.scanrun"
     assert scanbench("run", str(project), "--scans", "50", "--record", str(run)).returncode == 0
     kept = Sources("CJ1M-CPU63", {"main.st": SOURCE.replace("n : DINT;", "n : DINT; m : INT;").replace("inner THEN", "inned THEN")}, 10_000_000, 1)  # fmt: skip

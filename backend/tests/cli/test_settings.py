@@ -12,7 +12,7 @@ from scanbench.cli.settings import Settings, config_file, default_data, settings
 
 @pytest.fixture(autouse=True)
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty home, in which one stands."""
+    """An empty home, which is the working directory."""
     for name in ("SCANBENCH_HOST", "SCANBENCH_PORT", "SCANBENCH_DATA", "XDG_CONFIG_HOME", "XDG_DATA_HOME"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("HOME", str(tmp_path))

@@ -14,7 +14,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
 
 @pytest.fixture(autouse=True)
 def _switched_off(request: pytest.FixtureRequest) -> Iterator[None]:
-    """What a test let run does not weigh on those behind it."""
+    """Switches off what a test let run, so that it does not slow down later tests."""
     yield
     if "server" in request.fixturenames:
         server = request.getfixturevalue("server")

@@ -38,8 +38,8 @@ def test_every_kind_is_found_and_replayed(server: Server, tmp_path: Path) -> Non
         scans(browser, 6)
         assert server.http.get(path).json() == []
         begun = begin(server, instance, first=scan)
-        stands = ended(browser, server, instance, begun["id"])
-        assert stands["compared"] == 12
+        status = ended(browser, server, instance, begun["id"])
+        assert status["compared"] == 12
         found: dict[int, Message] = {
             row["scan"] - scan: row for row in rows(server, begun["id"], differing=True)["rows"]
         }

@@ -33,7 +33,7 @@ async def _served(most: int, ask: Callable[[int], Coroutine[None, None, httpx.Re
     async def on_bug() -> None:
         raise AssertionError
 
-    app.router.routes.insert(0, app.router.routes.pop())  # in front of the page
+    app.router.routes.insert(0, app.router.routes.pop())  # before the route of the page
     with socket.create_server(("127.0.0.1", 0)) as listening:
         server = _Announced(http_config(NoStore(app), "127.0.0.1", 0, most))
         serving = asyncio.create_task(server.serve([listening]))

@@ -54,7 +54,7 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
         drive = f"/api/instances/{paused}/run"
         server.http.post(drive, json={"action": "pause", "speed": 0})
         scan = server.http.post(drive, json={"action": "scan"}).json()["scan"]
-        until(lambda: kept(tmp_path, instance) == ["generated"])  # history is written behind the live path
+        until(lambda: kept(tmp_path, instance) == ["generated"])  # history is written in the background
         pids = [each["state"]["pid"] for each in server.http.get("/api/instances").json()]
         assert len(pids) == 4  # the samples and these
         assert all(map(alive, pids))

@@ -101,7 +101,7 @@ def test_every_message_is_in_the_openapi_document(tmp_path: Path) -> None:
 
 
 def test_a_data_directory_belongs_to_one_server(tmp_path: Path) -> None:
-    with claimed(tmp_path), pytest.raises(InUse, match="another --data"), claimed(tmp_path):
+    with claimed(tmp_path), pytest.raises(InUse, match="a different --data"), claimed(tmp_path):
         pass
     with claimed(tmp_path):
         pass
@@ -137,7 +137,7 @@ def test_a_request_that_finds_no_room_is_told_so(number: int, status: int) -> No
     async def on_write() -> None:
         raise OSError(number, os.strerror(number))
 
-    app.router.routes.insert(0, app.router.routes.pop())  # in front of the page
+    app.router.routes.insert(0, app.router.routes.pop())  # before the route of the page
 
     async def asked() -> httpx.Response:
         transport = httpx.ASGITransport(app, raise_app_exceptions=False)

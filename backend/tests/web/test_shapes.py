@@ -56,7 +56,7 @@ def test_a_plc_that_dies_goes_on_with_the_same_steps(server: Server) -> None:
     assert found[1:] == sorted(steps)
 
 
-def test_a_line_that_is_reached_also_behind_an_edit_that_was_only_looked_at(server: Server) -> None:
+def test_a_line_is_reached_also_after_an_edit_that_was_only_checked(server: Server) -> None:
     instance = server.instance("armed lines", "CJ1M-CPU63", main=SOURCE)
     with server.browser(instance) as browser:
         browser.watch("Main.n", "Main.step", "Main.seen")

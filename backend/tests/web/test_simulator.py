@@ -167,7 +167,7 @@ def test_how_the_program_reacts_is_found_out_by_itself(server: Server) -> None:
         assert reaction_of(browser, "io-bus-error")["verdict"] == "stopped"
 
 
-def test_a_reaction_that_was_being_recorded_is_found_out_behind_a_restart_of_the_server(
+def test_a_reaction_that_was_being_recorded_is_found_after_a_restart_of_the_server(
     tmp_path_factory: pytest.TempPathFactory,
 ) -> None:
     data = tmp_path_factory.mktemp("again")

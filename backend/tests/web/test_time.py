@@ -25,7 +25,7 @@ END_PROGRAM
 
 
 def still(browser: Browser) -> int:
-    """Pauses; the scan at which the PLC stands."""
+    """Pauses the PLC; gives its next scan."""
     browser.messages.clear()
     done = browser.ask(type="run", action="pause")
     assert done["ok"], done

@@ -43,12 +43,12 @@ def run(server: Server, instance: int, scans: int) -> int:
     with server.browser(instance) as browser:
         end = int(browser.ask(type="run", action="continue", speed=0, scans=scans)["scan"]) + scans
         browser.wait(
-            lambda: any(each["type"] == "state" and _stands(each["state"], end) for each in browser.messages), 30
+            lambda: any(each["type"] == "state" and _paused_at(each["state"], end) for each in browser.messages), 30
         )
     return end
 
 
-def _stands(state: Message, scan: int) -> bool:
+def _paused_at(state: Message, scan: int) -> bool:
     return bool(state["state"] == "paused" and state["scan"] >= scan)
 
 

@@ -89,8 +89,8 @@ def test_live_and_nothing_differs(server: Server) -> None:
         assert (begun["title"], begun["source"]) == ("Ramp", "live")
         browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 50)
         paused(browser)
-        stands = info(server, instance, begun["id"])
-        assert (stands["differing"], stands["skipped"]) == (0, 0)
+        status = info(server, instance, begun["id"])
+        assert (status["differing"], status["skipped"]) == (0, 0)
         assert any(message["type"] == "verifications" for message in browser.messages)
         page = rows(server, begun["id"])
         first = page["rows"][0]["scan"]
@@ -113,9 +113,9 @@ def test_a_flipped_bit_is_found_and_set_data_says_that_it_was_the_input(server: 
         assert server.http.get(f"/api/instances/{instance}/disturbances").json()[0]["next_scan"] == scan + 3
         scans(browser, 6)
         begun = begin(server, instance, range={"file": "main.st", "first": 6, "last": 6}, first=scan)
-        stands = ended(browser, server, instance, begun["id"])
-        assert (stands["compared"], stands["differing"], stands["first_scan"]) == (6, 1, scan + 3)
-        found = stands["first_difference"]
+        status = ended(browser, server, instance, begun["id"])
+        assert (status["compared"], status["differing"], status["first_scan"]) == (6, 1, scan + 3)
+        found = status["first_difference"]
         assert (found["cause"], found["name"]) == ("input", "Main.level")
         assert (number(found["control"]), number(found["monitor"])) == (100 ^ 64, 100)
         (row,) = rows(server, begun["id"], differing=True)["rows"]
@@ -250,11 +250,11 @@ def test_a_trace_of_a_real_controller(server: Server) -> None:
             f"/api/instances/{instance}/trace-verifications", json={"file": trace["file"], "mapping": mapping}
         )
         assert begun.status_code == 201, begun.text
-        stands = ended(browser, server, instance, begun.json()["id"])
-        assert (stands["source"], stands["compared"], stands["differing"], stands["first_scan"]) == ("trace", 7, 1, 5)
-        assert (stands["skipped"], stands["stretches"]) == (1, [[1, 1]])  # it begins in the middle of a run
-        assert "taken over" in stands["message"]
-        assert number(stands["first_difference"]["control"]) == 191
+        status = ended(browser, server, instance, begun.json()["id"])
+        assert (status["source"], status["compared"], status["differing"], status["first_scan"]) == ("trace", 7, 1, 5)
+        assert (status["skipped"], status["stretches"]) == (1, [[1, 1]])  # it begins in the middle of a run
+        assert "taken over" in status["message"]
+        assert number(status["first_difference"]["control"]) == 191
     again = server.http.post(
         f"/api/projects/{project}/traces", params={"name": "real2.csv"}, content="\n".join(lines)
     ).json()
@@ -275,11 +275,11 @@ def test_what_a_fast_plc_has_skipped_is_counted(server: Server) -> None:
         browser.wait(lambda: info(server, instance, begun["id"])["skipped"] > 1000)
         last = paused(browser)
         browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1)
-        stands = info(server, instance, begun["id"])
-        assert stands["compared"] + stands["skipped"] == last - first
-        assert stands["differing"] == 0
+        status = info(server, instance, begun["id"])
+        assert status["compared"] + status["skipped"] == last - first
+        assert status["differing"] == 0
         verified = {row["scan"] for row in rows(server, begun["id"])["rows"]}
-        for low, high in stands["stretches"]:
+        for low, high in status["stretches"]:
             assert not verified & set(range(low, min(high, low + 10_000) + 1))
 
 
@@ -294,8 +294,8 @@ def test_it_ends_with_its_run_and_lets_the_plc_go(server: Server) -> None:
         begun = begin(server, instance)
         browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 5)
         assert browser.ask(type="new_run")["ok"]
-        stands = ended(browser, server, instance, begun["id"], "failed")
-        assert "new run" in stands["message"]
+        status = ended(browser, server, instance, begun["id"], "failed")
+        assert "new run" in status["message"]
         assert server.http.get(f"/api/verifications/{begun['id']}/rows").status_code == 200
         browser.wait(lambda: server.state(instance)["state"] == "running")
         begun = begin(server, instance, pace="scan")
@@ -333,8 +333,8 @@ def test_the_run_time_error_of_the_plc_is_the_difference(server: Server, pace: s
             assert server.http.patch(path, json={"auto": True, "action": "go_on"}).status_code == 200
         browser.wait_state("trapped")
         browser.wait(lambda: "run-time error" in info(server, instance, begun["id"])["message"])
-        stands = info(server, instance, begun["id"])
-        assert (stands["state"], stands["scan"], stands["first_scan"]) == ("waiting", scan + 1, scan + 1)
+        status = info(server, instance, begun["id"])
+        assert (status["state"], status["scan"], status["first_scan"]) == ("waiting", scan + 1, scan + 1)
         told = [each for row in rows(server, begun["id"], differing=True)["rows"] for each in row["differences"]]
         assert "trap" in {each["cause"] for each in told}
         assert not [each["name"] for each in told if "header" in each["name"]]
@@ -354,8 +354,8 @@ def test_the_run_time_error_of_the_plc_is_the_difference(server: Server, pace: s
         scans(browser, 2)
         last = paused(browser)
         browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1)
-        stands = info(server, instance, begun["id"])
-        assert stands["compared"] == before["compared"] + last - scan - 2
-        assert stands["differing"] == before["differing"]
+        status = info(server, instance, begun["id"])
+        assert status["compared"] == before["compared"] + last - scan - 2
+        assert status["differing"] == before["differing"]
         again = [row for row in rows(server, begun["id"])["rows"] if row["scan"] == scan + 1 and row["kind"] == "scan"]
         assert len(again) == 2

@@ -29,7 +29,7 @@ class Lender(Protocol):
     """One that is attached from the start, and to a client that sees its breakpoints: nothing has to be configured."""
 
     async def launch(self, args: shapes.Launch, say: Callable[[str, Body], None]) -> Debuggee:
-        """A PLC of its own, which stands before its first scan; `say` sends an event."""
+        """Starts a PLC of its own, which waits before its first scan; `say` sends an event."""
 
     async def attach(self, args: shapes.Attach) -> Debuggee:
         """One that is there."""

@@ -1,4 +1,4 @@
-"""Numbers that clients give back: frames and what has something below it. They hold while the PLC stands."""
+"""Numbers that clients send back: frames, and variables that have parts. They are valid while the PLC is halted."""
 
 from collections import OrderedDict
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class Handles:
         self._numbers: dict[Below, int] = {}
 
     def clear(self) -> None:
-        """The PLC stands elsewhere, or goes on: what was found without a frame is as good as before."""
+        """Forgets the frames, as the PLC halted at a new place or runs: numbers that belong to no frame stay valid."""
         self._frames.clear()
         for number, below in list(self._below.items()):
             if below.frame is not None:
@@ -63,7 +63,7 @@ class Handles:
         return number
 
     def below(self, reference: int) -> Below:
-        """What this number stands for."""
+        """What this number refers to."""
         found = self._below.get(reference)
         if found is None:
             raise Refused(f"variables {reference} are of an earlier halt, or there were none: ask for the scopes again")

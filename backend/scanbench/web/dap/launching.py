@@ -121,7 +121,7 @@ def _interval(text: str | None) -> int:
 
 
 async def _check(found: Found, say: Send) -> None:
-    """Tells all problems; `Refused` with the first one that stands in the way."""
+    """Reports all problems; `Refused` with the first one that prevents the program from running."""
     sources = found.sources
     checked = await asyncio.to_thread(check_sources, sources.files, found.model, sources.interval_ns)
     for problem in checked.problems:

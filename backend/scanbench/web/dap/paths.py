@@ -45,7 +45,7 @@ class ProjectPaths(Paths):
 
 
 class FolderPaths(Paths):
-    """Files below a folder of the client's machine, which may be another than this one."""
+    """Files below a folder of the client's machine, which need not be this one."""
 
     def __init__(self, files: Files, root: str, other: str = "") -> None:
         """`other` is a second name of the same folder."""

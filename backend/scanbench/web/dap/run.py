@@ -1,4 +1,4 @@
-"""Going on, standing still, stepping; and what enters the PLC through the one door."""
+"""Continue, pause, step; and what enters the PLC through the one door."""
 
 from pydantic_core import to_jsonable_python
 
@@ -82,7 +82,7 @@ async def _moved(plc: Debuggee, action: StepAction) -> Body:
 
 
 async def proceed(plc: Debuggee) -> None:
-    """A PLC that stands goes on, whoever had stopped it, and however."""
+    """Continues a PLC that is halted or paused, whoever did that."""
     state = plc.session.state
     if state.halt is None and state.state == "paused":
         plc.done(await plc.session.drive("continue", None, plc.author))

@@ -42,7 +42,7 @@ async def _serve(incoming: int, outgoing: int, author: str) -> None:
     threading.Thread(target=_read, args=(incoming, loop, chunks), daemon=True).start()
     over = asyncio.Event()
     writer = Writer(outgoing, over.set)
-    loop.add_signal_handler(signal.SIGTERM, over.set)  # as at the end of the stream: nothing is left behind
+    loop.add_signal_handler(signal.SIGTERM, over.set)  # as at the end of the stream: no process is left
     front = Front(writer.send, author, over.set)
     framing = Framing()
     ended = loop.create_task(over.wait())

@@ -9,8 +9,8 @@ PLC = 1
 
 
 class Threads:
-    """Numbers for tasks, by name, in the order in which they become known. A task keeps its number, also while another
-    program runs that has none of this name."""
+    """Numbers for tasks, by name, in the order in which they become known. A task keeps its number even while a program runs
+    that has no task of this name."""
 
     def __init__(self) -> None:
         self._tasks: list[str] = []

@@ -181,7 +181,7 @@ async def on_data_breakpoint_info(plc: Debuggee, args: shapes.DataBreakpointInfo
 
 
 async def on_completions(plc: Debuggee, args: shapes.Completions) -> Body:
-    """Members behind a point; else the frame's variables, and instance paths and addresses."""
+    """Members after a point; else the frame's variables, instance paths and addresses."""
     line = args.text.split("\n")[max(0, plc.line_in(args.line) - 1) if args.line is not None else 0]
     column = plc.column_in(args.column) - 1
     match = _WORD.search(line[:column])
@@ -215,7 +215,7 @@ async def _quietly(plc: Debuggee, below: Below) -> list[VariableInfo]:
 
 
 async def on_exception_info(plc: Debuggee, _args: shapes.ExceptionInfo) -> Body:
-    """Why the PLC stands."""
+    """Why the PLC is halted."""
     halt = plc.session.state.halt
     if halt is None:
         raise Refused("the PLC is not halted")

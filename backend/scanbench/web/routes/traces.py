@@ -39,8 +39,8 @@ async def on_new_trace(bench: Bench, request: Request, instance: Id, new: wire.D
 async def on_define_trace(
     bench: Bench, request: Request, instance: Id, trace: Id, changed: wire.DefineTrace
 ) -> TraceStatus:
-    """Changes the definition of a trace, and discards what it recorded. Without `start`, other signals leave what was recorded
-    of those that stay, and another name leaves everything."""
+    """Changes the definition of a trace, and discards what it recorded. Without `start`, a change of the signals keeps the
+    samples of signals that stay, and a change of the name keeps all samples."""
     tracing, author = bench.session(instance).tracing, user_of(request).name
     return await tracing.define(trace, translate_trace.wanted(changed), author, changed.start)
 

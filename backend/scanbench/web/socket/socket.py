@@ -40,7 +40,7 @@ _OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
 
 
 class Client:
-    """A subscriber behind a WebSocket."""
+    """A subscriber that is connected by a WebSocket."""
 
     def __init__(self, socket: WebSocket, session: Session, user: User) -> None:
         self.user = user
@@ -73,7 +73,7 @@ class Client:
         self._wake.set()
 
     def on_frame(self, frame: bytes) -> None:
-        """Queues it, unless the browser is behind."""
+        """Queues it, unless the browser lags behind."""
         if self._stale or not self._ids:
             return
         if len(self._frames) >= WAITING_FRAMES:

@@ -1,4 +1,4 @@
-"""A process that is killed while its PLC is halted: the PLC stands, whoever comes back to it."""
+"""A process that is killed while its PLC is halted: the PLC is halted again, for everybody who comes back to it."""
 
 import os
 import signal
@@ -10,7 +10,7 @@ MODEL = "CJ1M-CPU63"
 COUNT = "PROGRAM Main\nVAR n, k : DINT; END_VAR\nn := n + 1;\nk := k + n;\nEND_PROGRAM\n"
 
 
-def test_it_stands_in_front_of_the_scan_until_somebody_lets_it_go_on(server: Server) -> None:
+def test_it_stays_halted_before_the_scan_until_somebody_continues(server: Server) -> None:
     instance = server.instance("killed while halted", MODEL, main=COUNT)
     with server.browser(instance) as browser, SocketClient(server, instance) as tool:
         tool.ask("configurationDone")

@@ -104,7 +104,7 @@ def test_a_tool_attaches_halts_steps_and_goes(server: Server, instance: int) -> 
         tool.halt("stepBack", threadId=1)
         assert tool.stack()[0]["line"] == COUNTS
         tool.ask("setBreakpoints", source={"path": "Main.st"}, breakpoints=[])
-        live = tool.halt("continue", threadId=1)  # out of the past, up to where the PLC stands
+        live = tool.halt("continue", threadId=1)  # out of the past, up to the live position
         assert not live["scanbench"]["past"]
         assert tool.ask("continue", threadId=1) == {"allThreadsContinued": True}
         assert "not halted" in tool.refused("stackTrace", threadId=1)
@@ -294,7 +294,7 @@ def test_a_process_that_is_killed_comes_back_with_its_breakpoints(server: Server
         assert "died" in tool.event("output")["output"]
         again = tool.event("stopped")
         assert again["allThreadsStopped"]
-        if not again["hitBreakpointIds"]:  # it comes back in front of the scan
+        if not again["hitBreakpointIds"]:  # it comes back before the scan
             tool.halt("continue", threadId=1)
         assert tool.stack()[0]["line"] == CALL_A
 
@@ -326,7 +326,7 @@ def test_threads_are_the_tasks_and_known_before_they_ran(server: Server, tasks: 
         assert tool.ask("threads")["threads"] == [fast, slow]
 
 
-def test_threads_of_another_program(server: Server, tasks: int) -> None:
+def test_threads_of_a_different_program(server: Server, tasks: int) -> None:
     with SocketClient(server, tasks) as tool:
         before = {each["name"]: each["id"] for each in tool.ask("threads")["threads"]}
         project = server.http.get(f"/api/instances/{tasks}").json()["project"]["id"]
@@ -382,5 +382,5 @@ def test_back_to_the_last_write(server: Server, tasks: int) -> None:
         assert tool.halt("scanbench/reverseTo", path="s.n")["scanbench"]["scan"] > 0
         inner, outer = tool.stack()
         assert (inner["line"], outer["line"]) == (ADDS, CALL_N)
-        assert int(tool.value("s.n")) == n - 1  # in front of the statement that wrote it
+        assert int(tool.value("s.n")) == n - 1  # before the statement that wrote it
         assert "no" in tool.refused("scanbench/reverseTo", path="s.nothing")
