@@ -36,7 +36,7 @@ SAMPLES = 9
 
 STATEMENT = "integ := integ + err * 0.01;"
 BODIES = ("integ := integ + err * 0.0{};", "integ := integ + err * 0.0{};\n      state := 1;", "integ := integ + {};")
-"""What people make of the statement, in one block after the other: another number, a line more."""
+"""What people make of the statement, in one block after the other: a new number, a line more."""
 BROKEN = ("integ := integ + err * ;", "integ := integ + er{} * 0.01;", *BODIES)
 DECLARATION = "  b2 : BOOL;"
 DECLARATIONS = ("  b2 : BOOL; more{} : INT;", "  b2 : BOOL;\n  another{} : REAL;", "  b2 : BOO{};")
@@ -141,7 +141,7 @@ def _ms(start: int) -> float:
 
 
 def _edits(text: str, part: str, others: tuple[str, ...]) -> list[str]:
-    """The text after each of so many edits, one after the other, each in another block."""
+    """The text after each of so many edits, one after the other, each in a different block."""
     made = []
     pieces = text.split(part)
     between = [part] * (len(pieces) - 1)

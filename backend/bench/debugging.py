@@ -1,7 +1,7 @@
 """What debugging costs: a scan with one breakpoint that is never hit, and what swapping the code takes.
 
 `python -m bench.debugging [PROGRAM...] [--json]`. All figures of a program come from one run, samples taken in turn, and
-are ratios to its run flavour. The breakpoint stands where it hurts most, in the statement that runs most often, with a condition
+are ratios to its run flavour. The breakpoint is where it costs most, in the statement that runs most often, with a condition
 that is never true; and in a statement that never runs, as in an IF that is not taken.
 """
 
@@ -71,12 +71,12 @@ class Swaps:
     debug_build: float
     probed_pause: float
     probed_build: float
-    """The code of the run flavour is kept; the module of the probe is compiled anew."""
+    """The code of the run flavour is kept; the module of the probe is compiled again."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Places:
-    """Where breakpoints stand, each with what is never true there."""
+    """The places of the breakpoints, each with a condition that is never true there."""
 
     hot: int
     hot_condition: Local
@@ -114,7 +114,7 @@ def measure_costs(program: Program) -> Costs:
 
 
 def measure_swaps(program: Program) -> Swaps:
-    """What it takes to put another flavour in place."""
+    """What it takes to put a different flavour in place."""
     places = _places(program)
     probes = [Probe(places.hot, places.hot_condition.expr)]
     memory = bytearray(program.initial_image)
@@ -163,7 +163,7 @@ def _run(engine: Engine, scans: int) -> int:
     return spent
 
 
-# ---- where breakpoints stand ----------------------------------------------------------------------------------------
+# ---- the places of breakpoints --------------------------------------------------------------------------------------
 
 
 class _Hook:

@@ -118,7 +118,7 @@ async def measure(count: int, interval_ms: float, seconds: float) -> Figures:
         directory, sources = Path(name), _sources(interval_ms)
         async with _running(directory, count, sources) as (plcs, cold_ms, starts_ms):
             await asyncio.sleep(SETTLE_S)
-            await asyncio.gather(*(plc.run() for plc in plcs))  # measures anew
+            await asyncio.gather(*(plc.run() for plc in plcs))  # starts a new measurement
             loads, pids = Loads(), [plc.state.pid for plc in plcs if plc.state.pid is not None]
             await asyncio.to_thread(loads.look, pids)
             before = [plc.progress for plc in plcs]

@@ -142,7 +142,7 @@ def _interrupt_ns(engine: Engine) -> float:
 
 
 def _wake_us(engine: Engine) -> float:
-    """The median, with another thread that interrupts a loop that would sleep for long."""
+    """The median, with a second thread that interrupts a loop that would sleep for long."""
     taken = []
     for _ in range(WAKES):
         interrupted = [0]

@@ -1,7 +1,7 @@
 """Reverse debugging: how long it takes to find the last write of a variable, and to step back.
 
 `python -m bench.reverse [--scans N]`: a program runs a million scans as fast as possible; a variable was written in
-its first ones alone. Then somebody asks for its last write, and steps back over statements from where the PLC stands.
+its first ones alone. Then somebody asks for its last write, and steps back over statements from the present position.
 """
 
 import argparse

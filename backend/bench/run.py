@@ -38,7 +38,7 @@ Row = dict[str, float | None]
 
 
 class Result(TypedDict):
-    """By program: what a scan takes, what peers take as ratios to C, what its build takes; and what stands for all."""
+    """Of each program the time of a scan, the ratios of peers to C and the time of its build; and the speed of the interpreter."""
 
     programs: dict[str, Row]
     peers: dict[str, dict[str, float]]

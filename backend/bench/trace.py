@@ -109,7 +109,7 @@ def _paced(scans: int) -> tuple[int, float]:
 
 
 def _lost(trace: Trace, first: int, end: int) -> int:
-    """Scans `first` to in front of `end` that are missing or wrong; a part at a time, as all are too many to be read at once."""
+    """Scans from `first` to before `end` that are missing or wrong; a part at a time, as all are too many to be read at once."""
     good = set[int]()
     for part in trace.buffer.pieces(first, end - 1):
         pairs = zip(part.scans.tolist(), part.values[0].tolist(), strict=True)

@@ -1,5 +1,5 @@
 """10,000 watched values at 20 Hz: what share of a core the server and its host take, and how long a write of one browser
-takes until another one shows it.
+takes until a second one shows it.
 
 `python -m bench.watch [--values N] [--browsers N] [--seconds N] [--writes N]`. The browsers run in a process of
 their own and are not counted: in the field they are other machines.
@@ -48,7 +48,7 @@ class WatchFigures:
     web_share: float
     host_share: float
     seen_p50_ms: float
-    """From the moment at which one browser sends a write to the one at which another has the frame with its value."""
+    """From the moment at which one browser sends a write to the one at which a second browser has the frame with its value."""
     seen_p99_ms: float
 
     @property
@@ -132,7 +132,7 @@ def _cpu(pid: int) -> float:
 
 
 def _client(base: str, token: str, instance: int, values: int, browsers: int, seconds: float, writes: int) -> None:
-    """The browsers: watch everything, count what comes; then one writes and another waits to see it."""
+    """The browsers: watch everything, count what comes; then one writes and a second one waits to see it."""
     ready = threading.Barrier(browsers + 1)
     address = f"{base.replace('http', 'ws')}/api/instances/{instance}/socket?token={token}"
     with ThreadPoolExecutor(browsers) as pool:
