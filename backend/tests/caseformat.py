@@ -102,7 +102,7 @@ def _read_cases(path: Path) -> list[Case]:
 
 
 def _head(case: Case, part: str, rest: str) -> None:
-    """What stands in brackets, but `[case]`."""
+    """Reads a heading in brackets other than `[case]`."""
     match part:
         case "trap":
             kind, place = rest.split()

@@ -5,7 +5,7 @@ from collections import Counter
 from tests.features import PAGE, all_cases, page, read_reasons, read_tables, shown_by
 
 
-def test_features_stand_once() -> None:
+def test_features_are_listed_once() -> None:
     tables = read_tables()
     assert len({table.number for table in tables}) == len(tables)
     numbers = Counter(number for table in tables for number in table.features)

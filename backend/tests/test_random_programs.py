@@ -56,7 +56,7 @@ def test_a_seed_gives_the_same_program_again() -> None:
 
 
 def test_programs_have_everything() -> None:
-    """What the ingredients are there for stands in some program."""
+    """Each construct that the generator can make is in some program."""
     everything = "\n".join(generate(seed) for seed in range(200))
     for word in (
         "CONTINUE", "EXIT", "RETURN", "WHILE", "REPEAT", "Color#", "SUBRANGE_ERROR", "%X", "UNION", "ARRAY[*]", "WSTRING",

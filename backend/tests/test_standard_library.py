@@ -87,7 +87,7 @@ SAFE = [name for name in FUNCTIONS if name not in ("DIV", "DIV_TIME", "DIV_LTIME
 
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_every_function(count: int) -> None:
-    """With the types of its arguments all alike, and with numbers behind the first."""
+    """With arguments of one type, and with numbers after the first argument."""
     body: list[str] = []
     outputs = ""
     for name in SAFE:

@@ -75,7 +75,7 @@ def test_many_jumps_back_end_soon() -> None:
 
 
 def test_each_instruction_is_a_statement() -> None:
-    """A breakpoint can stand on every line that does something."""
+    """A breakpoint can be set on every line that does something."""
     body = "LD x\nADD 1\nST x\nGT 5\nJMPC done\nLD 7\nST y\ndone: CAL t(IN := b)\nRET\n"
     program = check_sources({"a.st": f"{HEAD}{body}END_PROGRAM\n"}, MODEL).program
     assert program is not None

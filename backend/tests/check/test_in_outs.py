@@ -57,7 +57,7 @@ def is_copied(program: Program, block: str, name: str) -> bool:
         ("{in_out 'reference'}", False), ("(* {in_out 'value'} *)", False), ("{attribute 'in_out'}", False),
     ],
 )  # fmt: skip
-def test_a_pragma_in_front_or_in_the_head(pragma: str, copied: bool) -> None:
+def test_a_pragma_before_or_in_the_head(pragma: str, copied: bool) -> None:
     model_says_otherwise = not copied
     for text in (
         BLOCK.replace("{here}", pragma),

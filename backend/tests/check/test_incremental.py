@@ -228,7 +228,7 @@ def test_files_that_come_go_and_change_places() -> None:
         agree(checks.check(files, MODEL, INTERVAL_NS), files)
 
 
-def test_another_model_or_interval_is_another_program() -> None:
+def test_a_different_model_or_interval_is_a_different_program() -> None:
     checks = Checks()
     first = checks.check(FILES, MODEL, INTERVAL_NS).program
     second = checks.check(FILES, MODEL, 2 * INTERVAL_NS).program

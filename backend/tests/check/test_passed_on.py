@@ -41,7 +41,7 @@ pumps[0](tank := tanks[1], flags := flags);
 pumps[1](tank := tanks[2], flags := flags);
 own(level := pos, on := turn);
 pos := pos + 50;
-tanks[0].level := n; tanks[1].level := n + 100; tanks[2].level := n + 200; // behind the calls: no copy has it
+tanks[0].level := n; tanks[1].level := n + 100; tanks[2].level := n + 200; // after the calls: no copy has it
 tanks[0].list[1] := n + 7; tanks[1].list[1] := n + 8; tanks[2].list[1] := n + 9;
 tanks[i].open := n MOD 2 = 0; flags.%X3 := n MOD 4 > 1; turn := n MOD 3 = 0;
 link := REF(pump);

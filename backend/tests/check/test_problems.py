@@ -152,7 +152,7 @@ def test_deep_nesting_is_refused_not_a_crash() -> None:
     assert check_sources({"a.st": MAIN.format(nested)}, MODELS["GENERIC-IEC"]).program is None
 
 
-def test_constants_of_a_block_stand_in_bounds_of_its_temporaries() -> None:
+def test_bounds_of_temporaries_use_constants_of_the_block() -> None:
     text = "PROGRAM Main\nVAR CONSTANT N : INT := 3; END_VAR\nVAR_TEMP a : ARRAY[1..N] OF INT; END_VAR\na[N] := 1;\nEND_PROGRAM"
     assert check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems == ()
 

@@ -75,7 +75,7 @@ def test_the_list_is_bounded_and_counters_saturate(make: type[Engine]) -> None:
     assert read_violations(program, memory).count == 0xFFFF_FFFF
 
 
-def test_constants_and_start_values_out_of_range_are_errors_where_they_stand() -> None:
+def test_constants_and_start_values_out_of_range_are_errors_at_their_place() -> None:
     text = "PROGRAM Main\nVAR x : INT (0..9) := 3;\ny : INT (0..9) :=\n10; END_VAR\nx :=\n -1;\nEND_PROGRAM\n"
     problems = check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems
     assert [(each.code, each.span.line) for each in problems] == [("S004", 4), ("S004", 6)]

@@ -1,4 +1,4 @@
-"""A project's own errors among its sources: problems like the compiler's, and the model behind the layout."""
+"""A project's own errors among its sources: problems like the compiler's, and the model that the layout refers to."""
 
 from pathlib import Path
 
@@ -33,13 +33,13 @@ def test_what_is_wrong_with_them_is_a_problem_like_others() -> None:
         assert [pou.name for pou in checked.pous] == ["Main"]
 
 
-def test_they_alone_stand_in_the_way_of_a_program() -> None:
+def test_only_they_prevent_a_program() -> None:
     checked = check_sources({"main.st": MAIN, "errors.xml": "<UserErrors>"}, MODEL)
     assert checked.program is None
     assert [each.code for each in checked.problems] == ["M001"]
 
 
-def test_another_catalogue_checks_no_body_again() -> None:
+def test_a_new_catalogue_checks_no_body_again() -> None:
     checks = Checks()
     first = checks.check({"main.st": MAIN, "errors.xml": GOOD}, MODEL, INTERVAL_NS).program
     second = checks.check({"main.st": MAIN, "errors.xml": GOOD.replace("pump-hot", "x")}, MODEL, INTERVAL_NS).program

@@ -158,7 +158,7 @@ def test_statements_count_as_they_begin(make: Make) -> None:
 
 
 @engines
-def test_it_halts_in_front_of_a_statement(make: Make) -> None:
+def test_it_halts_before_a_statement(make: Make) -> None:
     program = check(NESTED)
     memory = bytearray(program.initial_image)
     engine, told = started(make, program, memory, Listen(count=7))
@@ -221,7 +221,7 @@ END_PROGRAM"""
 
 
 @engines
-def test_connections_stand_in_a_frame_of_their_program(make: Make) -> None:
+def test_connections_run_in_a_frame_of_their_program(make: Make) -> None:
     text = """\
 PROGRAM Control VAR_INPUT on : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR
 q := on;
@@ -376,7 +376,7 @@ END_PROGRAM"""
 
 @engines
 def test_the_hook_may_write(make: Make) -> None:
-    """What is written in front of a statement is what the statement finds: loop variables, arguments."""
+    """A statement uses the values that were written before it: loop variables, arguments."""
     program = check(LOOP)
     memory = bytearray(program.initial_image)
     engine = make(program, memory)
@@ -429,7 +429,7 @@ def test_what_a_hook_raises_ends_the_scan(make: Make) -> None:
 
 
 @engines
-def test_to_halt_behind_an_access(make: Make) -> None:
+def test_to_halt_after_an_access(make: Make) -> None:
     """As the contract says: every statement from there on, and an interrupt for where none comes any more."""
     program = check(LOOP)
     memory = bytearray(program.initial_image)

@@ -499,7 +499,7 @@ COPY = "PROGRAM Main VAR a AT %MW0 : WORD; b AT %MW1 : WORD; x : WORD; END_VAR\n
 
 
 @engines
-def test_another_watch_takes_the_place_of_the_first(make: MakeObserved) -> None:
+def test_a_new_watch_replaces_the_first(make: MakeObserved) -> None:
     program = check(COPY)
     engine, observer = make(program, bytearray(program.initial_image))
     engine.run(1)

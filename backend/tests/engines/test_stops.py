@@ -36,7 +36,7 @@ def scan(memory: bytearray) -> int:
 
 
 def ask(memory: bytearray) -> None:
-    """Has the program ask for something in every scan: a force sets the count, behind where it is cleared."""
+    """Has the program ask for something in every scan: a force sets the count after the point at which it is cleared."""
     memory[Layout.FORCE_COUNT : Layout.FORCE_COUNT + 4] = (1).to_bytes(4, "little")
     memory[Layout.FORCES : Layout.FORCES + 8] = Layout.ASKED_COUNT.to_bytes(4, "little") + bytes([0xFF, 1, 0, 0])
 

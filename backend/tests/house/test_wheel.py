@@ -140,7 +140,7 @@ def test_it_serves_from_an_empty_folder(run: Callable[..., subprocess.CompletedP
     page, data = served.stdout.strip().split("|")
     assert page == "the page"
     assert data == f"data in {tmp_path}/.local/share/scanbench"
-    assert list((tmp_path / "empty").iterdir()) == [], "nothing is left where one stands"
+    assert list((tmp_path / "empty").iterdir()) == [], "nothing is left in the working directory"
 
 
 def test_it_puts_the_extension_into_vs_code(

@@ -48,6 +48,6 @@ def generate(seed: int, ingredients: Sequence[Ingredient] = INGREDIENTS) -> str:
             f"{COUNTERS}\nEND_VAR",
             *statements,
             "END_PROGRAM",
-            *parts.behind,
+            *parts.after,
         ]
     )

@@ -185,6 +185,6 @@ def _chosen(draw: Draw, sub: Sub, type: str) -> str:
 
 
 def divisor(draw: Draw, type: str) -> str:
-    """Hardly ever zero: what stands behind a trap is not compared."""
+    """Hardly ever zero: what follows a trap is not compared."""
     low, high = bounds(type)
     return f"{type}#{draw.one(2, 3, 7, high, max(low, -1) or 1, low or 1)}"

@@ -110,7 +110,7 @@ def tasks(parts: Parts) -> None:
     parts.main.add("BOOL", "go")
     parts.main.add("INT", "shared", "count")
     interval, priority = draw.one("", "INTERVAL := T#20ms, "), draw.randint(0, 3)
-    parts.behind.append(
+    parts.after.append(
         "CONFIGURATION Cell\nVAR_GLOBAL go : BOOL; shared, count : INT; END_VAR\nRESOURCE Cpu ON PLC\n"
         f"TASK slow(INTERVAL := T#{draw.one(10, 20, 30)}ms, PRIORITY := 2);\n"
         f"TASK event(SINGLE := go, {interval}PRIORITY := {priority});\n"

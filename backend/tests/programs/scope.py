@@ -81,8 +81,8 @@ class Parts:
     start: list[str] = field(default_factory=list)
     """Statements at the beginning of the program."""
     end: list[str] = field(default_factory=list)
-    behind: list[str] = field(default_factory=list)
-    """What stands after the program."""
+    after: list[str] = field(default_factory=list)
+    """Declarations after the program."""
 
 
 Ingredient = Callable[[Parts], None]

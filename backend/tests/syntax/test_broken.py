@@ -45,7 +45,7 @@ def test_any_words(text: str) -> None:
 @SETTINGS
 @given(st.sampled_from(("PROGRAM p", "FUNCTION_BLOCK b VAR", "PROGRAM p\nLD x", "CLASS c METHOD m", "TYPE t :", "CONFIGURATION c")),
        st.lists(st.sampled_from(WORDS), max_size=50).map(" ".join))  # fmt: skip
-def test_any_words_behind_a_beginning(beginning: str, text: str) -> None:
+def test_any_words_after_a_beginning(beginning: str, text: str) -> None:
     _answered(f"{beginning} {text}")
     _answered(f"{beginning}\n{text}\nEND_METHOD END_CLASS END_PROGRAM END_FUNCTION_BLOCK END_TYPE END_CONFIGURATION")
 

@@ -1,4 +1,4 @@
-"""Statements of Structured Text, and how parsing goes on behind a bad one."""
+"""Statements of Structured Text, and how parsing continues after a bad one."""
 
 import pytest
 

@@ -154,7 +154,7 @@ def test_a_file_that_is_too_large_is_not_read() -> None:
     ]
 
 
-def test_a_file_pasted_under_another_name_is_read_all_the_same() -> None:
+def test_a_file_pasted_under_a_different_name_is_read_all_the_same() -> None:
     pasted = check_sources(
         {"pasted.st": MOTOR, "main.st": "PROGRAM Main\nVAR m : FB_Motor; END_VAR\nEND_PROGRAM"}, MODELS["GENERIC-IEC"]
     )

@@ -83,7 +83,7 @@ def trap(kind: TrapKind) -> int:
 
 
 def through(type: Type, value: Expr, offset: int = 0) -> Place:
-    """The place behind a reference."""
+    """The place to which a reference leads."""
     return Place(type, Base.IMAGE, offset, reference=value, null_trap=trap(TrapKind.NULL))
 
 

@@ -67,7 +67,7 @@ def test_the_second_build_is_read_from_the_disk(tmp_path: Path) -> None:
     assert result(made, first) == result(made, second)
 
 
-def test_another_level_and_another_machine_are_other_code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_different_level_or_machine_is_different_code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = program()
     Compiler(BlobCache(tmp_path)).build(made)
     assert compiled(Compiler(BlobCache(tmp_path)).build(made, QUICK))
@@ -88,7 +88,7 @@ def test_only_what_changed_is_compiled() -> None:
     same = [part for part in after.parts if part in before.parts]
     assert (
         len(same) == 2
-    )  # the system's words, Counter; Main has a copy of the function, the scan and the numbers are made anew
+    )  # the system's words, Counter; Main has a copy of the function, the scan and the numbers are made again
     assert sum(part.text not in {each.text for each in before.parts} for part in after.parts) == 2
     assert result(second, after) == result(second, Compiler().build(check(other)))
 
@@ -125,7 +125,7 @@ def test_a_broken_file_is_built_again(tmp_path: Path) -> None:
     assert not compiled(Compiler(BlobCache(tmp_path)).build(made))
 
 
-def test_quick_code_first_and_optimised_code_behind(tmp_path: Path) -> None:
+def test_quick_code_first_and_optimised_code_later(tmp_path: Path) -> None:
     made = large()
     compiler = Compiler(BlobCache(tmp_path))
     compiler.prepare(program())

@@ -34,7 +34,7 @@ def test_a_reference_reads_and_writes_what_it_refers_to() -> None:
 
 
 @pytest.mark.parametrize("opt_level", [0, 2])
-def test_a_write_behind_a_reference_is_seen_between_two_reads(opt_level: int) -> None:
+def test_a_write_through_a_reference_is_seen_between_two_reads(opt_level: int) -> None:
     hand = made()
     there = through(DINT, hand.get("r"))
     total = Binary("add", DINT, Binary("mul", DINT, hand.get("a"), const(DINT, 100)), hand.get("b"))
@@ -113,7 +113,7 @@ def test_references_to_references_and_to_bits() -> None:
     assert hand.number("r") == (hand.offset("w") + 1) | 3 << 32
 
 
-def test_a_bit_of_an_integer_behind_a_reference() -> None:
+def test_a_bit_of_an_integer_through_a_reference() -> None:
     hand = made()
     bit = Place(BOOL, Base.IMAGE, 1, bit=7, reference=hand.get("r"), null_trap=trap(TrapKind.NULL))
     hand.run(refer(hand, hand.at("w")), Assign(bit, const(BOOL, 1), SPAN), Assign(hand.at("f"), Load(bit), SPAN))
@@ -147,7 +147,7 @@ def test_a_string_whose_length_was_overwritten_has_its_capacity() -> None:
     assert hand.memory[start : start + 7] == b"\x05\x00abcde"
 
 
-def test_an_instance_behind_a_reference_runs_and_must_lie_in_the_image() -> None:
+def test_an_instance_runs_through_a_reference_and_must_be_in_the_image() -> None:
     counter = "FUNCTION_BLOCK Counter VAR n : INT; END_VAR n := n + 1; END_FUNCTION_BLOCK"
     hand = hand_made("r : ULINT; c : Counter;", counter, "c();")
     callee = next(pou for pou in hand.program.pous if pou.name == "Counter")

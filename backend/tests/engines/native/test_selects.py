@@ -23,7 +23,7 @@ def test_a_swap_has_no_jumps() -> None:
     assert main_branches(source) == 0
 
 
-def test_what_may_trap_stays_behind_the_condition() -> None:
+def test_what_may_trap_stays_under_the_condition() -> None:
     source = """PROGRAM Main VAR i, n, z : INT; a : ARRAY[0..3] OF INT; END_VAR
 i := 9; IF i < 4 THEN a[i] := 1; END_IF; IF z <> 0 THEN n := 10 / z; END_IF; n := n + 1; END_PROGRAM"""
     assert ran(source).value("Main.n") == 1

@@ -1,4 +1,4 @@
-"""Strings: overlapping source and target, cutting, what stays behind the end; against Python's own."""
+"""Strings: overlapping source and target, cutting, what stays after the end; against Python's own."""
 
 import itertools
 import re
