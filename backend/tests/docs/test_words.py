@@ -1,7 +1,9 @@
 """One word for one thing: what the glossary does not want is written nowhere that people read."""
 
 import ast
+import io
 import re
+import tokenize
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -25,7 +27,22 @@ ROOMS = sorted(
 TEXTS = sorted((ROOT / "frontend" / "src" / "text" / "en").glob("*.ts"))
 CALQUES = ("in front of", "anew", "mended", "some times slower")
 """Of other languages; each has a plain English word."""
-FENCE = re.compile(r"```.*?```|`[^`\n]*`|^    .*$", re.DOTALL | re.MULTILINE)
+HERE = ROOT / "backend"
+SOURCES = sorted(path for folder in ("scanbench", "tests", "bench") for path in (HERE / folder).rglob("*.py"))
+NOTES = sorted(
+    path
+    for pattern in ("*.md", "scanbench/**/*.md", "decisions/*.md", "scanbench/check/standard/*.st", "tests/**/*.case")
+    for path in HERE.glob(pattern)
+)
+CALQUE = re.compile(
+    r"\b(?:behind|in\s+front\s+of|stands?|standing|anew|another\s+than|(?:is|are|was|were)\s+another(?=[.,:;]|\s+one))\b(?!-)",
+    re.IGNORECASE,
+)
+"""Calques of prepositions and verbs: *after*, *before*, *is*, *again*, *different* are meant."""
+MEANT = re.compile(r"\blags?\s+behind\b|\bbehind\s+a\s+proxy\b|\bstands?\s+for\b", re.IGNORECASE)
+"""Where these words are right."""
+CODE = re.compile(r"`[^`\n]*`")
+FENCE = re.compile(r"```.*?```|`[^`\n]*`|^    [^\n]*$", re.DOTALL | re.MULTILINE)
 
 
 def unwanted() -> dict[str, str]:
@@ -102,3 +119,46 @@ def test_texts_of_the_page(path: Path) -> None:
 
 def test_the_texts_of_the_page_are_where_they_are_looked_for() -> None:
     assert TEXTS
+
+
+def calques(text: str) -> list[str]:
+    """The calques in a text, outside of `code`."""
+    return [found.group() for found in CALQUE.finditer(MEANT.sub("", CODE.sub("", text)))]
+
+
+def comments(text: str) -> Iterator[str]:
+    """Docstrings and comments of a module; comments on successive lines are one text."""
+    parts: list[str] = []
+    before = 0
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.STRING and token.string.startswith('"""'):
+            yield token.string
+        elif token.type == tokenize.COMMENT:
+            if token.start[0] != before + 1:
+                yield " ".join(parts)
+                parts = []
+            parts.append(token.string.lstrip("# "))
+            before = token.start[0]
+    yield " ".join(parts)
+
+
+def test_docstrings_and_comments() -> None:
+    """Few files have such a word at all, so only these are read token by token."""
+    texts = ((path, path.read_text("utf-8")) for path in SOURCES)
+    found = {
+        str(path.relative_to(HERE)): words
+        for path, text in texts
+        if CALQUE.search(text) and (words := [word for each in comments(text) for word in calques(each)])
+    }
+    assert found == {}
+
+
+def test_notes_and_cases() -> None:
+    found = {str(path.relative_to(HERE)): words for path in NOTES if (words := calques(path.read_text("utf-8")))}
+    assert found == {}
+
+
+def test_a_calque_is_found_where_it_is_written() -> None:
+    module = '"""The value behind it."""\nbehind = 1  # it stands\n# in front\n# of all\nx = "anew"\n'
+    assert [word for each in comments(module) for word in calques(each)] == ["behind", "stands", "in front of"]
+    assert calques("a browser lags behind; `standing` stands for it, behind a proxy; a stand-alone file") == []
