@@ -980,8 +980,8 @@ export interface paths {
         get?: never;
         /**
          * Changes the definition of a trace, and discards what it recorded
-         * @description Changes the definition of a trace, and discards what it recorded. Without `start`, other signals leave what was recorded
-         *     of those that stay, and another name leaves everything.
+         * @description Changes the definition of a trace, and discards what it recorded. Without `start`, a change of the signals keeps the
+         *     samples of signals that stay, and a change of the name keeps all samples.
          */
         put: operations["save_instance_trace"];
         post?: never;
@@ -2142,7 +2142,7 @@ export interface components {
     schemas: {
         /**
          * Accepted
-         * @description Somebody accepted a finding: it stands in the record with this reason.
+         * @description Somebody accepted a finding: the record shows it with this reason.
          */
         Accepted: {
             /** At */
@@ -2479,7 +2479,7 @@ export interface components {
             file: string;
             /**
              * Group
-             * @description empty: the list that all browsers share; else a session of another tool
+             * @description empty: the list that all browsers share; else a session of a DAP client
              */
             group: string;
             /** Hits */
@@ -2945,7 +2945,7 @@ export interface components {
         };
         /**
          * Difference
-         * @description A variable or address that was another value than without the error, outside of error memory.
+         * @description A variable or address, outside of error memory, whose value differed from that without the error.
          */
         Difference: {
             /**
@@ -3692,7 +3692,7 @@ export interface components {
             line: number;
             /**
              * Number
-             * @description another number is another halt
+             * @description each halt has a number of its own
              */
             number: number;
             /** Past */
@@ -3974,7 +3974,7 @@ export interface components {
             count: number;
             /**
              * Path
-             * @description The variable that is meant, behind in-outs.
+             * @description The variable itself, after in-outs have been followed.
              */
             path: string;
             place: components["schemas"]["VerifyPlace"] | null;
@@ -3995,7 +3995,7 @@ export interface components {
             text: string;
             /**
              * Value
-             * @description What stands there after the write.
+             * @description The value after the write.
              */
             value: string;
         };
@@ -4231,7 +4231,7 @@ export interface components {
         };
         /**
          * NewRerun
-         * @description The run of this instance once more, with one error another; see `verify.findings.RerunChange`.
+         * @description Repeats the run of this instance with one error changed; see `history.contract.RerunChange`.
          */
         NewRerun: {
             /**
@@ -4472,7 +4472,7 @@ export interface components {
         };
         /**
          * PreviewedWrite
-         * @description A bit or a word, before and behind.
+         * @description A bit or a word, with its values before and after.
          */
         PreviewedWrite: {
             /**
@@ -5082,12 +5082,11 @@ export interface components {
         RunDivergence: {
             /**
              * Cause
-             * @description command: something was entered in one of them only, or something else. program: another program runs. start: they are
-             *     different where they begin.
+             * @description command: what was entered differs. program: the programs differ. start: the runs differ from their beginning.
              * @enum {string}
              */
             cause: "" | "command" | "program" | "start";
-            /** @description All variables that are another after that scan. */
+            /** @description All variables that differ after that scan. */
             changes: components["schemas"]["RunChanges"] | null;
             /**
              * Compared
@@ -5096,7 +5095,7 @@ export interface components {
             compared: number;
             /**
              * Entries
-             * @description Commands that only one of them has, up to there and a few behind.
+             * @description Commands that only one of them has, up to that scan and shortly after it.
              */
             entries: components["schemas"]["BetweenEntry"][];
             /** First */
@@ -5114,11 +5113,11 @@ export interface components {
                 number,
                 number
             ][];
-            /** @description The statement that wrote the first variable which is another, where that is known. */
+            /** @description The statement that wrote the first variable that differs, if it is known. */
             place: components["schemas"]["VerifyPlace"] | null;
             /**
              * Scan
-             * @description The first scan after which anything is another; None: the same, as far as both go.
+             * @description The first scan after which anything differs; None: the two are the same as far as both go.
              */
             scan: number | null;
             /**
@@ -5653,7 +5652,7 @@ export interface components {
         };
         /**
          * TraceInfo
-         * @description A trace of a PLC, which everybody shares, and how it stands.
+         * @description A trace of a PLC, which everybody shares, and its state.
          */
         TraceInfo: {
             /** By */
@@ -5673,7 +5672,7 @@ export interface components {
             first: number;
             /**
              * Generation
-             * @description Other samples than those of another generation.
+             * @description Changes whenever the trace is recorded again.
              */
             generation: number;
             /**
@@ -5748,7 +5747,7 @@ export interface components {
             missing: number;
             /**
              * Ok
-             * @description Whether it can; warnings do not stand in the way.
+             * @description Whether it can; warnings do not prevent it.
              */
             ok: boolean;
             /**
@@ -6278,7 +6277,7 @@ export interface components {
         };
         /**
          * VariableChange
-         * @description A variable, or an address without one, that is another.
+         * @description A variable, or an address without one, whose value differs.
          */
         VariableChange: {
             /** After */
@@ -6305,7 +6304,7 @@ export interface components {
         };
         /**
          * VerificationInfo
-         * @description How a verification stands. Everybody at the PLC sees the same.
+         * @description The state of a verification. Everybody at the PLC sees the same.
          */
         VerificationInfo: {
             /**
@@ -6343,7 +6342,7 @@ export interface components {
             forgotten: number;
             /**
              * Generation
-             * @description another one when rows that were told are others now
+             * @description raised when rows that were already sent have changed
              */
             generation: number;
             /** Id */
@@ -6449,8 +6448,8 @@ export interface components {
         };
         /**
          * VerifyColumn
-         * @description A variable that the range reads or writes. Of a function block or method the name is that inside of it (`speed`,
-         *     `zone.parts` behind an in-out), so rows of several instances share the column; else it is a path or an address.
+         * @description A variable that the range reads or writes. In a function block or method the name is the local one (`speed`, or
+         *     `zone.parts` through an in-out), so rows of several instances share the column; else it is a path or an address.
          */
         VerifyColumn: {
             /**
@@ -6904,7 +6903,7 @@ export interface components {
         };
         /**
          * Wording
-         * @description Name and description in another language than English; empty where the model has none.
+         * @description Name and description in a language other than English; empty where the model has none.
          */
         Wording: {
             /** Description */
