@@ -8,7 +8,7 @@ import { defineConfig, type Plugin } from "vite";
 // `npm run dev` serves the page with hot reload and passes /api on to a running `scanbench serve`.
 const backend = process.env.SCANBENCH_URL ?? "http://127.0.0.1:8765";
 
-/** Beside each file its compressed half: the server sends that one, and compresses nothing itself. */
+/** Writes a compressed copy beside each file: the server sends that one, and compresses nothing itself. */
 const compressed: Plugin = {
   name: "compressed",
   apply: "build",
@@ -21,18 +21,18 @@ const compressed: Plugin = {
 
 export default defineConfig({
   plugins: [react(), compressed],
-  // The page also stands at `/i/3/scan/4711`: what it needs is at the root.
+  // The page is also served at `/i/3/scan/4711`, so its files are addressed from the root.
   base: "/",
   build: {
     // The licences of what is bundled go into the wheel (`.vite/license.md`).
     license: true,
-    // Monaco is one chunk of 4 MB by nature; it is loaded after the shell has painted, and stays the same when the page changes.
+    // Monaco is one chunk of 4 MB by nature; it is loaded after the shell was painted, and does not change when the page does.
     chunkSizeWarningLimit: 5000,
     rolldownOptions: {
       output: {
         codeSplitting: {
           groups: [
-            // What the build itself adds is needed by all, and must not draw Monaco into what comes first.
+            // Helpers of the build are needed by all chunks, and must not make the first chunk import Monaco.
             { name: "runtime", test: /\0/, priority: 1 },
             { name: "monaco", test: /node_modules[\\/]monaco-editor[\\/]/ },
           ],

@@ -5,7 +5,7 @@ import { expect, it } from "vitest";
 
 const root = dirname(fileURLToPath(import.meta.url));
 
-/** Generated, and more is offered in it than is used today. */
+/** Generated: offers more than is used today. */
 const LEFT_OUT = ["wire/messages.gen.ts", "wire/types.ts"];
 
 const DECLARED = /^export (?:declare )?(?:async )?(?:function\*?|const|let|class|interface|type|enum) (\w+)/gm;
@@ -25,7 +25,7 @@ const names = (list: string) =>
     .map((part) => part.trim().replace(/^type /, ""))
     .filter(Boolean);
 
-/** The file of the page that another one names. */
+/** The file of the page that an import names. */
 function target(path: string, name: string): string {
   const at = join(root, dirname(path), name);
   const found = [`${at}.ts`, `${at}.tsx`, join(at, "index.ts")].find((file) =>
@@ -34,12 +34,12 @@ function target(path: string, name: string): string {
   return relative(root, found ?? at);
 }
 
-it("what a file exports, another one imports", () => {
+it("every export of a file is imported by a different file", () => {
   const used = new Set<string>();
   for (const [path, text] of texts) {
     for (const [, list = "", name = ""] of text.matchAll(FROM))
       for (const each of names(list)) used.add(`${target(path, name)} ${each.split(" as ")[0]}`);
-    // What is loaded when it is used may use any of it.
+    // A module that is imported dynamically may use any of its exports.
     for (const [, name = ""] of text.matchAll(LATER)) used.add(`${target(path, name)} *`);
   }
   const unused = [...texts].flatMap(([path, text]) => {

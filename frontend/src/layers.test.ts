@@ -31,7 +31,7 @@ function imports(path: string): string[] {
   );
 }
 
-/** What a file needs before it runs: types and what is imported later, when it is used, are not among it. */
+/** The files that a file needs before it runs: neither types nor dynamic imports. */
 function needs(path: string): string[] {
   const text = readFileSync(path, "utf8");
   return namesIn(text, /^(?:import|export)\s+(?!type\b)(?:[^"';]*?\sfrom\s+)?"([^"]+)"/gm).flatMap((name) =>
@@ -63,10 +63,10 @@ function folderOf(path: string): string {
   return parts[0] === "panels" ? parts.join("/") : (parts[0] ?? "");
 }
 
-/** What the panels of a feature share lies beside them. */
+/** The panels of a feature may import what they share, which is beside them. */
 const groupOf = (path: string) => (path.split("/").length > 3 ? path.split("/").slice(0, 2).join("/") : folderOf(path));
 
-/** What a feature of `logic` and `store` may build on, besides itself: nothing else knows another feature. */
+/** What a feature of `logic` and `store` may import besides itself; no feature knows any other. */
 const COMMON = ["format", "page", "plc", "project"];
 const FEATURES: Record<string, readonly string[]> = {
   format: [],
@@ -78,10 +78,10 @@ const FEATURES: Record<string, readonly string[]> = {
   verify: COMMON,
   watch: COMMON,
   past: [...COMMON, "verify"], // the timeline marks the differences that verifications found
-  debug: [...COMMON, "verify"], // a step is one of the verification that waits for it
+  debug: [...COMMON, "verify"], // a step may belong to a verification, which waits for it
 };
 
-/** The shortest way from a file back to itself, empty when there is none. */
+/** The shortest import circle through a file; empty when there is none. */
 function circle(start: string, graph: ReadonlyMap<string, readonly string[]>): string[] {
   const from = new Map<string, string>();
   const queue = [start];
@@ -118,7 +118,7 @@ describe("layers", () => {
   }
 
   for (const layer of ["logic", "store"]) {
-    it(`a feature of ${layer} knows no other`, () => {
+    it(`a feature of ${layer} imports no other feature`, () => {
       const wrong: string[] = [];
       for (const path of sources(join(root, layer))) {
         const from = relative(root, path);
@@ -132,14 +132,14 @@ describe("layers", () => {
     });
   }
 
-  it("no file needs itself", () => {
+  it("no file imports itself, directly or through others", () => {
     const graph = new Map(sources(root).map((path) => [relative(root, path), named(path)]));
     expect([...graph.keys()].map((path) => circle(path, graph)).filter((way) => way.length > 0)).toEqual([]);
     const round = { a: ["b"], b: ["c"], c: ["a"] };
     expect(circle("a", new Map(Object.entries(round)))).toEqual(["a", "b", "c", "a"]);
   });
 
-  it("the page needs no Monaco to stand", () => {
+  it("the page starts without Monaco", () => {
     const seen = new Set([join(root, "main.tsx")]);
     for (const path of seen) if (path.startsWith(root)) for (const next of needs(path)) seen.add(next);
     expect([...seen].filter((path) => path.startsWith("monaco-editor"))).toEqual([]);
@@ -147,7 +147,7 @@ describe("layers", () => {
     expect(needs(join(root, "panels/project/editor/monaco.ts"))).toContain("monaco-editor/editor");
   });
 
-  it("finds the imports it is to judge", () => {
+  it("finds the imports that the other tests judge", () => {
     expect(imports(join(root, "main.tsx"))).toContain("app/App");
   });
 });

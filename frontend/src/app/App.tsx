@@ -26,7 +26,7 @@ import { Splitter } from "./Splitter";
 /** The window: rail, bars, explorer and the dock. */
 export function App() {
   const phase = useBench((bench) => bench.phase);
-  // Another language: every text is drawn again.
+  // A different language: every text is drawn again.
   const language = usePrefs((prefs) => prefs.language);
   if (phase === "locked" || phase === "failed") return <Shut key={language} locked={phase === "locked"} />;
   return <Window key={language} />;
@@ -44,7 +44,7 @@ function Window() {
   const active = useDocuments((documents) => documents.active);
 
   useEffect(() => installKeys(), []);
-  // In a narrow window the left side lies over the editor; once a file is open it has done its work.
+  // In a narrow window the left side covers the editor, so it closes once a file is open.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the change of the file is the reason
   useEffect(() => setLeft(null), [active]);
   useEffect(() => {
@@ -92,7 +92,7 @@ function Window() {
   );
 }
 
-/** Nothing can be shown: why, and what to do. */
+/** The page cannot show anything: why, and what to do about it. */
 function Shut({ locked }: { locked: boolean }) {
   const problem = useBench((bench) => bench.problem);
   return (
@@ -110,7 +110,7 @@ function Shut({ locked }: { locked: boolean }) {
   );
 }
 
-/** The address that is shown once more, with the key: the server moves the key into a cookie and leads back. */
+/** The current address with the token added: the server stores the token in a cookie and redirects back. */
 function KeyForm() {
   const kept = [...new URLSearchParams(location.search)].filter(([name]) => name !== "token");
   return (

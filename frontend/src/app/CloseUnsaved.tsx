@@ -10,14 +10,14 @@ import { fileOf } from "./layout";
 
 interface Held {
   name: string;
-  /** Kept in this browser, so that closing the tab loses nothing. */
+  /** The text is also kept in this browser, so closing the tab loses nothing. */
   kept: boolean;
-  /** Why it is still not saved; null when it is. */
+  /** Why saving failed; null when it did not. */
   save: () => Promise<string | null>;
   discard: () => Promise<void> | void;
 }
 
-/** Asks what becomes of the unsaved text of a tab that somebody closes. */
+/** Asks what to do with the unsaved text when somebody closes its tab. */
 export function CloseUnsaved({ onClosed }: { onClosed: (panel: string) => void }) {
   const panel = useClosing((closing) => closing.panel);
   if (panel === null) return null;

@@ -24,7 +24,7 @@ export interface DockHandle {
   reset: () => void;
 }
 
-/** Counted up when the usual arrangement changes: what was kept of the one before would hide the change. */
+/** Increase this when the default layout changes: a layout kept from an older version would hide the change. */
 const LAYOUT = "layout.4";
 const THEME = { name: "scanbench", className: "dockview-theme-scanbench" };
 
@@ -54,7 +54,7 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
     widePages(dock);
     dock.onDidRemovePanel((panel) => {
       const path = fileOf(panel.id);
-      // Moving a panel removes and adds it; only what is really gone is closed.
+      // Moving a panel removes it and adds it again, so a file is closed only if its panel is still missing afterwards.
       if (path) queueMicrotask(() => dock.getPanel(panel.id) ?? closeDocument(path));
     });
     onNavigate({
@@ -66,8 +66,8 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
 
   useFilesOfProject(api, project);
 
-  // A tab cannot hold a close button for the keyboard; Delete closes the file or page instead. Before the dock itself
-  // takes the key: it knows neither the start page nor the room that a page took.
+  // A tab cannot contain a close button that the keyboard reaches; Delete closes the file or page instead. The key is handled here,
+  // before the dock handles it: the dock knows neither the start page nor that a page may have the whole dock.
   function onKeyDown(event: KeyboardEvent): void {
     const tab = event.target instanceof HTMLElement ? event.target.closest(".dv-tab") : null;
     const panel = tab?.querySelector<HTMLElement>("[data-closes]")?.dataset.closes;
@@ -94,7 +94,7 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
   );
 }
 
-/** Another project: its own files are opened, those of the one before are closed. A deleted file is closed too. */
+/** On a change of project: closes the files of the old project and opens those of the new one. Deleted files are closed, too. */
 function useFilesOfProject(api: { current: DockviewApi | null }, project: number | null): void {
   useEffect(() => {
     const dock = api.current;
@@ -126,7 +126,7 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
   }, [api, project]);
 }
 
-/** On first sight of a project its first program is what one wants to read. */
+/** When a project is opened for the first time, its first program is opened. */
 function openFirst(dock: DockviewApi): void {
   const { pous, files } = useDocuments.getState();
   const first = pous.find((pou) => pou.kind === "program")?.file ?? (pous.length > 0 ? files[0]?.path : undefined);

@@ -5,7 +5,7 @@ import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
 
-/** At the end of the tabs that a page is among: the whole dock for them, or the other panels back. */
+/** The button at the end of a page's tab strip: gives the page the whole dock, or brings the other panels back. */
 export function PageEnd({ containerApi, panels, group }: IDockviewHeaderActionsProps) {
   const [wide, setWide] = useState(() => group.api.isMaximized());
   useEffect(() => {

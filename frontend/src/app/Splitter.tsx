@@ -6,7 +6,7 @@ const LEAST = 160;
 const MOST = 480;
 const USUAL = 232;
 
-/** The border between explorer and dock: drag it, or move it with the arrow keys; a double click puts it back. */
+/** The border between explorer and dock: drag it, or move it with the arrow keys; a double click restores the default width. */
 export function Splitter() {
   const [width, setWidth] = useState(() => recall("left", USUAL));
   useEffect(() => {

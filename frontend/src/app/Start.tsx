@@ -1,7 +1,7 @@
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 
-/** Stands where the editors will stand, as long as no file is open. */
+/** Shown in the place of the editors while no file is open. */
 export function Start() {
   return (
     <section className="pane startpage" aria-label={t("start.label")}>

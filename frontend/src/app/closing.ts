@@ -1,4 +1,4 @@
-/** Closing a tab by hand: what is not saved is asked about first. */
+/** Closing a tab by hand: asks first if its text is not saved. */
 import type { DockviewApi } from "dockview-react";
 import { create } from "zustand";
 import { isEdited, useUserErrors } from "../store/errors/userErrors";
@@ -6,7 +6,7 @@ import { isDirty, useDocuments } from "../store/project/documents";
 import { closeTab, fileOf } from "./layout";
 
 interface Closing {
-  /** The panel that shall be closed, as long as the question is open. */
+  /** The panel that is about to be closed, while the question is open. */
   panel: string | null;
 }
 

@@ -1,4 +1,4 @@
-/** Every message of the server to the store that it concerns. The switch is exhaustive: a new message is a compile error. */
+/** Passes every message of the server to the store that it concerns. The switch is exhaustive: a new message is a compile error. */
 
 import { onCoverage } from "../store/debug/coverage";
 import { joinDebugger, onBreakpoints } from "../store/debug/debug";

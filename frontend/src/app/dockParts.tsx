@@ -43,7 +43,7 @@ export const components = {
   ...pageComponents,
 };
 
-/** The tab of a panel: icon and name, what is not saved, how many problems. */
+/** The tab of a panel: icon and name, a mark for unsaved text, the number of problems. */
 export function PanelTab({ api, containerApi }: IDockviewPanelHeaderProps) {
   const path = fileOf(api.id);
   const page = pageOf(api.id);
@@ -54,7 +54,7 @@ export function PanelTab({ api, containerApi }: IDockviewPanelHeaderProps) {
 
 type PanelApi = IDockviewPanelHeaderProps["api"];
 
-/** Dockview names the tab for screen readers by the panel's title. */
+/** Dockview takes the tab's accessible name from the panel's title. */
 function useTitle(api: PanelApi, title: string): void {
   useEffect(() => {
     if (api.title !== title) api.setTitle(title);
@@ -128,7 +128,7 @@ function ClosableTab({ panel, name, onClose, children }: ClosableProps) {
   return (
     <span className="tab" title={name} data-closes={panel} onAuxClick={(event) => event.button === 1 && close(event)}>
       {children}
-      {/* Not a button: a tab must not contain one. By keyboard a tab is closed with Delete. */}
+      {/* Not a button, because a tab must not contain one. The keyboard closes a tab with Delete. */}
       <span
         className="x"
         title={t("close")}
@@ -142,7 +142,7 @@ function ClosableTab({ panel, name, onClose, children }: ClosableProps) {
   );
 }
 
-/** At the end of the tabs: what belongs to the error simulator as a whole, or the room that a page takes. */
+/** The end of a tab strip: actions of the whole error simulator, or the button that gives a page the whole dock. */
 export function HeaderEnd(props: IDockviewHeaderActionsProps) {
   return props.activePanel?.id === "errors" ? <PanelEnd /> : <PageEnd {...props} />;
 }

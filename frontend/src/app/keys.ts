@@ -1,4 +1,4 @@
-/** Keys of the whole window. Captured before Monaco, which keeps F8 and others to itself. */
+/** Keys of the whole window. Captured before Monaco, which would keep F8 and others to itself. */
 
 import { toggleBreakpointHere } from "../store/debug/debugKeys";
 import { restartByKey, singleScan, toggleRun } from "../store/debug/run";
@@ -53,7 +53,7 @@ export function installKeys(): () => void {
 const FOCUSABLE =
   "textarea.inputarea, [role=treegrid], [role=treeitem][tabindex='0'], [tabindex='0'], input, button:not([disabled])";
 
-/** The next pane that is in sight gets the focus, at the part of it that one works with. */
+/** Moves the focus to the next visible pane, to the control that people use most there. */
 function cyclePanes(by: 1 | -1): void {
   const panes = [...document.querySelectorAll<HTMLElement>("[data-pane]")].filter((pane) => pane.offsetParent !== null);
   const now = panes.findIndex((pane) => pane.contains(document.activeElement));

@@ -1,4 +1,4 @@
-/** The arrangement of panels: the usual one, and what this browser kept. */
+/** The arrangement of panels: the default one, and the one kept in this browser. */
 import type { AddPanelPositionOptions, DockviewApi, SerializedDockview } from "dockview-react";
 import { type PageName, pageOf } from "../store/page/navigate";
 
@@ -46,20 +46,20 @@ const FIXED = [
   "console",
 ];
 
-/** What was kept, when it still fits this version of the page; else the usual arrangement. */
+/** Restores the kept layout if it fits this version of the page; else builds the default layout. */
 export function restoreLayout(dock: DockviewApi, kept: unknown): void {
   if (kept !== null) {
     try {
       dock.fromJSON(kept as SerializedDockview);
       if (FIXED.every((id) => dock.getPanel(id))) return;
     } catch {
-      // Kept by another version: the usual arrangement is better than none.
+      // Kept by a different version of the page: use the default layout.
     }
   }
   standardLayout(dock);
 }
 
-/** Shows a file: its panel, or a new one where the other files are. */
+/** Shows a file: in its own panel if it has one, else in a new panel beside the other files. */
 export function openFilePanel(dock: DockviewApi, path: string): void {
   const known = dock.getPanel(FILE + path);
   if (known) {
@@ -71,7 +71,7 @@ export function openFilePanel(dock: DockviewApi, path: string): void {
   if (start) dock.removePanel(start);
 }
 
-/** Shows a page: its panel, or a new one where the files are, with the whole dock to itself until it is closed or put back. */
+/** Shows a page: in its own panel if it has one, else in a new panel among the files. The page gets the whole dock until it is closed or reduced. */
 export function openPagePanel(dock: DockviewApi, name: PageName): void {
   const panel = dock.getPanel(name) ?? dock.addPanel({ id: name, component: name, position: editorPlace(dock) });
   panel.api.setActive();
@@ -80,7 +80,7 @@ export function openPagePanel(dock: DockviewApi, name: PageName): void {
   if (!panel.api.isMaximized()) panel.api.maximize();
 }
 
-/** A page has the whole dock only while it is in front; whoever comes back to it finds it as wide as it was. */
+/** A page has the whole dock only while it is the active panel; when somebody returns to it, it is as wide as before. */
 export function widePages(dock: DockviewApi): void {
   const wide = new Set<string>();
   dock.onDidMaximizedGroupChange(() => {
@@ -96,14 +96,14 @@ export function widePages(dock: DockviewApi): void {
   });
 }
 
-/** Shows a fixed panel; one that is hidden behind a page with the whole dock comes back into sight. */
+/** Shows a fixed panel. If a page has the whole dock and hides the panel, the dock is divided again. */
 export function showFixedPanel(dock: DockviewApi, name: string): void {
   const panel = dock.getPanel(name);
   if (panel && dock.hasMaximizedGroup() && !panel.api.isMaximized()) dock.exitMaximizedGroup();
   panel?.api.setActive();
 }
 
-/** Stands among the files in the centre. */
+/** Whether the panel is in the centre, among the files. */
 const central = (id: string) => fileOf(id) !== undefined || pageOf(id) !== undefined;
 
 function editorPlace(dock: DockviewApi): AddPanelPositionOptions | undefined {
@@ -112,7 +112,7 @@ function editorPlace(dock: DockviewApi): AddPanelPositionOptions | undefined {
   return dock.getPanel("watch") ? { referencePanel: "watch", direction: "above" } : undefined;
 }
 
-/** Closes files; when none is left, the start page keeps their place. */
+/** Closes files; when none is left, the start page takes their place. */
 export function closeFiles(dock: DockviewApi, which: (path: string) => boolean): void {
   for (const panel of [...dock.panels]) {
     const path = fileOf(panel.id);

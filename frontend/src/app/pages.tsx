@@ -1,4 +1,4 @@
-/** Pages: what stands among the files in the centre without being one. */
+/** Pages: panels in the centre, among the files, that show no file. */
 import type { ReactNode } from "react";
 import { RecordPage } from "../panels/errors/history/RecordPage";
 import { SweepPage } from "../panels/errors/sweep/SweepPage";
@@ -14,7 +14,7 @@ import type { IconName } from "../ui/Icon";
 interface Page {
   component: () => ReactNode;
   icon: IconName;
-  /** A hook: the title may follow what the page shows. */
+  /** A hook: the title may depend on what the page shows. */
   useTitle: () => string;
 }
 

@@ -1,4 +1,4 @@
-/** Everything the page says, by key. A new text goes into both catalogues; a key that is missing is a compile error. */
+/** All texts of the page, by key. A new text goes into both catalogues; a missing key is a compile error. */
 import { english, type TextKey } from "./en";
 import { japanese } from "./ja";
 
@@ -18,7 +18,7 @@ export function setLanguage(language: Language): void {
 /** The language of the page. */
 export const language = (): Language => current;
 
-/** The text of a key, with `{name}` replaced by the values given. */
+/** The text of a key, with each `{name}` replaced by its value. */
 export function t(key: TextKey, values: object = {}): string {
   const text = catalogues[current][key];
   const known = values as Record<string, unknown>;

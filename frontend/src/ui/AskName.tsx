@@ -7,16 +7,16 @@ interface Props {
   title: string;
   about?: string;
   label: string;
-  /** What the button that does it says. */
+  /** The label of the submit button. */
   action: string;
-  /** What it is called unless somebody types; may change with what else is filled in. */
+  /** The default name until somebody types; may change with other fields. */
   initial?: string;
-  /** What is said when nothing was entered. */
+  /** The message for an empty name. */
   missing?: string;
-  /** Throws what was wrong; it is shown below the field. */
+  /** Throws the refusal, which is shown below the field. */
   onName: (name: string) => Promise<void>;
   onClose: () => void;
-  /** More to fill in, above the name. */
+  /** More fields, above the name. */
   children?: ReactNode;
 }
 

@@ -8,7 +8,7 @@ interface Props {
   disabled?: boolean;
 }
 
-/** A box that is on, off, or half: some of what it stands for. */
+/** A box that is on, off, or half: on for some of its items. */
 export function Checkbox({ label, check, onToggle, disabled }: Props) {
   const box = useRef<HTMLInputElement>(null);
   useEffect(() => {

@@ -20,7 +20,7 @@ interface Props<T extends Offer> {
   offering: Offering<T>;
   onType: (text: string, caret: number) => void;
   onTake: (offer: T, by: "Enter" | "Tab" | "click") => void;
-  /** What the keys mean beyond choosing; true when one did something. */
+  /** Keys with a meaning beyond choosing; true when a key was handled. */
   onKey?: (event: KeyboardEvent) => boolean;
   onPaste?: (event: ClipboardEvent) => void;
   onFocus?: () => void;
@@ -31,15 +31,15 @@ interface Props<T extends Offer> {
   bad?: boolean;
   disabled?: boolean;
   id?: string;
-  /** Id of the text that says why it is bad. */
+  /** Id of the text that says what is wrong. */
   about?: string;
-  /** Class of the list, which then stands where the field does; without one it floats above all. */
+  /** Class of the list, which is then placed by the style sheet; without a class it floats above the page. */
   list?: string;
-  /** The list's name. */
+  /** The accessible name of the list. */
   listed?: string;
 }
 
-/** A line of text with a list of what could be meant: arrows choose, Enter and Tab take, Escape closes. The focus stays in the line. */
+/** A text field with a list of suggestions: arrows choose, Enter and Tab take, Escape closes. The focus stays in the field. */
 export function ComboBox<T extends Offer>(props: Props<T>) {
   const { label, value, offering, bad = false, list, listed = t("watch.offers"), onTake } = props;
   const own = useRef<HTMLInputElement>(null);
@@ -120,7 +120,7 @@ interface FloatingProps {
   onGone: () => void;
 }
 
-/** Outside of whatever the field scrolls in, so that it is not cut off; gone when that scrolls. */
+/** Outside the element that scrolls, so that it is not cut off; closed when that element scrolls. */
 function Floating({ below, onGone, ...box }: FloatingProps) {
   const menu = useRef<HTMLDivElement>(null);
   const [place, setPlace] = useState({ left: 0, top: 0 });

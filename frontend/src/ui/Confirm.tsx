@@ -5,14 +5,14 @@ interface Props {
   title: string;
   about: string;
   hint: ReactNode;
-  /** What the button says that does it. */
+  /** The label of the submit button. */
   verb: string;
-  /** Rejects with the reason when it cannot be done. */
+  /** Rejects with the reason of a refusal. */
   onDo: () => Promise<unknown>;
   onClose: () => void;
 }
 
-/** Asks before something that cannot be undone; a refusal stays in the dialog. */
+/** Asks before an action that cannot be undone; a refusal is shown in the dialog. */
 export function Confirm({ title, about, hint, verb, onDo, onClose }: Props) {
   return (
     <FormDialog title={title} about={about} submit={verb} danger onSubmit={onDo} onClose={onClose}>

@@ -6,7 +6,7 @@ const SAID_FOR = 2000;
 
 interface Props {
   label: string;
-  /** What it says once it is copied. */
+  /** The label after copying. */
   done: string;
   title?: string;
   className?: string;
@@ -15,7 +15,7 @@ interface Props {
   disabled?: boolean;
 }
 
-/** A button that copies a text, and says that it did. */
+/** A button that copies a text, and then says so. */
 export function CopyButton({ label, done, title, className = "btn sm", icon = "link", text, disabled }: Props) {
   const [copied, setCopied] = useState(false);
   useEffect(() => {

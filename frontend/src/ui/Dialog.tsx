@@ -12,7 +12,7 @@ interface Props {
   onClose: () => void;
   /** Enter in a field, or the primary button. */
   onSubmit?: () => void;
-  /** Something in it was typed or chosen. */
+  /** Called when something was typed or chosen. */
   onEdit?: () => void;
 }
 
@@ -22,7 +22,7 @@ export function Dialog({ title, about, width = 460, children, footer, onClose, o
   const id = useId();
   useEffect(() => {
     dialog.current?.showModal();
-    // showModal focuses the first control, which is the cross
+    // showModal focuses the first control, which is the close button
     dialog.current?.querySelector<HTMLElement>(".page input, .page select, .page textarea")?.focus();
   }, []);
   const submit = (event: FormEvent) => {

@@ -5,11 +5,11 @@ interface EmptyProps {
   title: string;
   about: string;
   ways: readonly WayProps[];
-  /** What one can begin with, beside it. */
+  /** Actions to begin with, beside the text. */
   children?: ReactNode;
 }
 
-/** A page without anything on it yet: what belongs there, and the ways to it. */
+/** The content of an empty panel: what belongs there, and how to begin. */
 export function Empty({ title, about, ways, children }: EmptyProps) {
   return (
     <div className="empty">

@@ -4,13 +4,13 @@ interface Props {
   label: string;
   value: string;
   onChange: (value: string) => void;
-  /** Why the entry was not taken; it stays as typed. */
+  /** Why the entry was refused; it stays as typed. */
   refused?: string | null;
   mono?: boolean;
   placeholder?: string;
 }
 
-/** A line of text with its name above and, when refused, the reason below. */
+/** A text field with its name above and, after a refusal, the reason below. */
 export function Field({ label, value, onChange, refused = null, mono = false, placeholder }: Props) {
   return (
     <label className="field">

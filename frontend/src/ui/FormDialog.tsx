@@ -4,10 +4,10 @@ import { t } from "../text";
 import { Dialog } from "./Dialog";
 import { Icon } from "./Icon";
 
-/** What became of the last try. */
+/** The result of the last attempt. */
 interface Sent {
   refused: string | null;
-  /** What was refused is another now without having been typed: the reason goes, as with every edit. */
+  /** Removes the refusal, as any edit does: call this when a value was changed without typing. */
   forget: () => void;
 }
 
@@ -17,20 +17,20 @@ interface Props {
   title: string;
   about?: string;
   width?: number;
-  /** What the button says that does it. */
+  /** The label of the submit button. */
   submit: string;
-  /** What it does cannot be undone. */
+  /** The action cannot be undone. */
   danger?: boolean;
   disabled?: boolean;
-  /** Throws what was wrong, and the dialog stays with it; `false` leaves it open without a word. */
+  /** Throws the refusal, and the dialog stays open with it; `false` keeps it open without a message. */
   onSubmit: () => Promise<unknown>;
   onClose: () => void;
-  /** Left of the buttons. Without it a reason stands there, unless the content is a function, which then shows it where it belongs. */
+  /** Left of the buttons. Without it the reason of a refusal is shown there, unless the content is a function, which then shows the reason itself. */
   aside?: Part;
   children: Part;
 }
 
-/** A dialog that does one thing: it closes once that is done, and stays with the reason when it is refused. */
+/** A dialog for one action: it closes once the action is done, and stays open with the reason of a refusal. */
 export function FormDialog({ submit, danger = false, disabled = false, onSubmit, aside, children, ...frame }: Props) {
   const [refused, setRefused] = useState<string | null>(null);
   const [busy, setBusy] = useState(false);

@@ -9,7 +9,7 @@ const STEP = 16;
 const LEAST = 48;
 const MOST = 640;
 
-/** The left edge of a column's head: drag it, or move it with the arrow keys; a double click gives the usual width back. */
+/** The left edge of a column head: drag it, or move it with the arrow keys; a double click restores the default width. */
 export function Grip({ label, onWidth }: Props) {
   const clamp = (width: number) => Math.round(Math.min(MOST, Math.max(LEAST, width)));
   const widthOf = (grip: HTMLElement) => grip.parentElement?.getBoundingClientRect().width ?? LEAST;

@@ -8,7 +8,7 @@ interface Props {
   className?: string;
 }
 
-/** One icon in the colour of its text; never the only carrier of a meaning, so hidden from screen readers. */
+/** One icon in the colour of its text. Hidden from screen readers, because an icon is never the only sign of a meaning. */
 export function Icon({ name, small = false, className = "" }: Props) {
   return (
     <svg className={`i${small ? " s" : ""} ${className}`} viewBox="0 0 16 16" aria-hidden="true">

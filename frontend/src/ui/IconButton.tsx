@@ -11,7 +11,7 @@ interface Props {
   className?: string;
 }
 
-/** A button of one icon: always with a name for screen readers and a tooltip. */
+/** A button with only an icon: always with an accessible name and a tooltip. */
 export function IconButton({ icon, label, hint, onClick, disabled, small, className = "" }: Props) {
   return (
     <button

@@ -6,11 +6,11 @@ import { Icon, type IconName } from "./Icon";
 export interface MenuItem {
   label: string;
   icon?: IconName;
-  /** A key or a fact, faint at the right. */
+  /** A key or a short note, faint at the right. */
   hint?: string;
   checked?: boolean;
   disabled?: boolean;
-  /** A line above this item. */
+  /** A separator above this item. */
   separated?: boolean;
   onSelect: () => void;
 }
@@ -58,7 +58,7 @@ export function Menu({ label, items, at, onClose }: MenuProps) {
   }, [onClose]);
 
   function onKeyDown(event: KeyboardEvent): void {
-    // React lets events of a portal bubble to its owner, whose own keys are not meant.
+    // React lets events of a portal bubble to the owner, whose own keys must not react.
     event.stopPropagation();
     const all = menu.current ? enabled(menu.current) : [];
     const now = all.indexOf(document.activeElement as HTMLElement);
@@ -94,7 +94,7 @@ export function Menu({ label, items, at, onClose }: MenuProps) {
   );
 }
 
-/** The menu of a row or a place: what opens it, and the menu while it is open. */
+/** The menu of a row or a place: the handlers that open it, and the menu while it is open. */
 export function useMenu(label = t("menu.label")) {
   const [menu, setMenu] = useState<Pick<MenuProps, "items" | "at"> | null>(null);
   const open = useCallback((items: MenuProps["items"], at: MenuProps["at"]) => setMenu({ items, at }), []);
@@ -104,7 +104,7 @@ export function useMenu(label = t("menu.label")) {
   };
 }
 
-/** What is outside of a modal dialog cannot be clicked: the menu of one stands in it. */
+/** Elements outside a modal dialog cannot be clicked, so a menu of the dialog is put inside it. */
 export const layer = () => [...document.querySelectorAll("dialog:modal")].at(-1) ?? document.body;
 
 function MenuEntry({ item, onClose }: { item: MenuItem; onClose: () => void }) {
@@ -139,7 +139,7 @@ function enabled(menu: HTMLElement): HTMLElement[] {
 interface MenuButtonProps {
   /** The accessible name of the button and of its menu. */
   label: string;
-  /** The tooltip when it is not the name: why it cannot be used, say. */
+  /** The tooltip if it is not the name, for example why the button is disabled. */
   title?: string;
   className?: string;
   items: () => readonly MenuItem[];

@@ -3,7 +3,7 @@ import { ComboBox } from "./ComboBox";
 import { Icon } from "./Icon";
 import { type Offer, useOffers } from "./useOffers";
 
-/** What is in the line now; and why what was typed is not taken. */
+/** The text of the field, and why it is refused. */
 interface Taken {
   text: string;
   odd?: string;
@@ -13,15 +13,15 @@ interface Props<T extends Offer> {
   label: string;
   placeholder: string;
   className?: string;
-  /** What the program has that begins like this. */
+  /** The paths of the program that begin with the text. */
   complete: (text: string) => Promise<readonly T[]>;
   onType: (text: string) => Taken | Promise<Taken>;
   onTake: (symbol: T) => Taken | Promise<Taken>;
-  /** Takes what is pasted; false: it goes into the line as usual. */
+  /** Handles pasted text; false: it is inserted as usual. */
   onPaste?: (text: string) => boolean;
 }
 
-/** Typing a path, with what the running program has to offer: Tab takes into the line, Enter takes. */
+/** A field for a path, with completion: Tab completes, Enter takes the path. */
 export function PathBox<T extends Offer>(props: Props<T>) {
   const { className = "", complete, onType, onTake, onPaste, ...field } = props;
   const offering = useOffers(complete);
@@ -37,9 +37,9 @@ export function PathBox<T extends Offer>(props: Props<T>) {
   }
 
   async function settle(taken: Taken | Promise<Taken>): Promise<void> {
-    offering.close(); // offers that are on their way come too late
+    offering.close(); // suggestions that are still being fetched are dropped
     const now = await taken;
-    setText((typed) => (typed === text ? now.text : typed)); // somebody may have gone on typing
+    setText((typed) => (typed === text ? now.text : typed)); // the user may have continued typing
     setOdd(now.odd ?? "");
   }
 

@@ -5,19 +5,19 @@ interface Props {
   label: string;
   value: string;
   onChange: (value: string) => void;
-  /** What the program has that begins like this. */
+  /** The paths of the program that begin with the text. */
   complete: (text: string) => Promise<readonly Offer[]>;
   placeholder?: string;
   bad?: boolean;
   disabled?: boolean;
   id?: string;
-  /** Id of the text that says why it is bad. */
+  /** Id of the text that says what is wrong. */
   about?: string;
 }
 
 const MOST = 8;
 
-/** A path that is filled in, with what the running program has to offer below it. */
+/** A form field for a path, with completion below it. */
 export function PathField({ onChange, complete, ...field }: Props) {
   const offering = useOffers(complete, MOST);
   return (

@@ -5,11 +5,11 @@ import { VERDICT_ICONS } from "./statuses";
 
 interface Props {
   reaction: NonNullable<LeafRow["reaction"]>;
-  /** What there is to say of it: the server's message, where nothing else is given. */
+  /** A longer text: the server's message, unless given. */
   title?: string;
 }
 
-/** The reaction in short: what became of it, or that it is still being found out. */
+/** The verdict in short, or that the reaction is still being computed. */
 export function ReactionWord({ reaction: { state, verdict, message }, title = message }: Props) {
   if (state === "recording")
     return (

@@ -3,17 +3,17 @@ import { Icon, type IconName } from "./Icon";
 
 interface Props<T extends string> {
   label: string;
-  /** Null: none is chosen yet. */
+  /** Null: nothing is chosen yet. */
   value: T | null;
   options: readonly { value: T; word: string; title?: string; icon?: IconName }[];
-  /** Why none can be chosen now. */
+  /** Why nothing can be chosen now. */
   disabled?: string | null;
-  /** More classes, `sm` unless said. */
+  /** Additional classes; `sm` by default. */
   look?: string;
   onChoose: (value: T) => void;
 }
 
-/** One of a few words; the arrow keys lead along them. */
+/** A choice between a few words; the arrow keys move along them. */
 export function Segments<T extends string>(props: Props<T>) {
   const { label, value, options, disabled = null, look = "sm", onChoose } = props;
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {

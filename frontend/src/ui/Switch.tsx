@@ -6,7 +6,7 @@ interface Props {
   children: ReactNode;
 }
 
-/** Something that is on or off at once, with its words beside it. */
+/** A switch that takes effect at once, with its label beside it. */
 export function Switch({ on, onToggle, children }: Props) {
   return (
     <label className="switchrow">

@@ -8,14 +8,14 @@ export interface TreeRow {
   /** A class for the icon's colour. */
   tone?: string;
   label: ReactNode;
-  /** The accessible name when the label is more than text. */
+  /** The accessible name if the label is more than text. */
   name: string;
   meta?: ReactNode;
-  /** Undefined: nothing to unfold. */
+  /** Undefined: it cannot be unfolded. */
   open?: boolean;
   selected?: boolean;
   title?: string;
-  /** What is carried when the row is dragged. */
+  /** The drag data of the row. */
   drag?: string;
   onToggle?: () => void;
   onActivate?: () => void;

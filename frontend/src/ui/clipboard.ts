@@ -1,4 +1,4 @@
-/** Copies a text. Pages that came over plain HTTP from another machine have no clipboard of their own: there a selection is copied. */
+/** Copies a text. A page loaded over plain HTTP from a different machine has no clipboard API: there a selection is copied. */
 export async function copyText(text: string): Promise<boolean> {
   try {
     if (navigator.clipboard) {
@@ -6,7 +6,7 @@ export async function copyText(text: string): Promise<boolean> {
       return true;
     }
   } catch {
-    // Not allowed to this page: the other way may be.
+    // The page is not allowed to: try the other way.
   }
   return copySelection(text);
 }
@@ -17,7 +17,7 @@ function copySelection(text: string): boolean {
   field.style.position = "fixed";
   field.style.opacity = "0";
   const active = document.activeElement;
-  // What is outside of a modal dialog cannot be selected.
+  // Text outside a modal dialog cannot be selected.
   ([...document.querySelectorAll("dialog:modal")].at(-1) ?? document.body).append(field);
   field.select();
   const done = document.execCommand("copy");

@@ -1,6 +1,6 @@
 import "react";
 
-// The design's rows carry their level, and grids their columns, as custom properties.
+// Rows have their level, and grids their columns, as custom properties.
 declare module "react" {
   interface CSSProperties {
     "--lv"?: number;

@@ -1,4 +1,4 @@
-/** The drawings of the design's icon grammar: filled is true now, hollow is not now, dashed is never. */
+/** The drawings of the icons, by a simple grammar: filled is true now, hollow is not now, dashed is never. */
 export const drawings = {
   logo: (
     <>

@@ -2,23 +2,23 @@ import { type Range, useVirtualizer, type VirtualItem } from "@tanstack/react-vi
 import { type RefObject, useEffect, useRef } from "react";
 import { useKeptScroll } from "./useKeptScroll";
 
-/** Height of a row, in pixels; that of the head, too, unless said. */
+/** Height of a row, in pixels; also of the head, unless given. */
 export const ROW = 24;
 
 interface Wanted {
   count: number;
-  /** What the rows scroll in, where that is needed before; who gives it also keeps its place. */
+  /** The scroll element, if it is needed earlier; its owner then also keeps its scroll position. */
   scroll?: RefObject<HTMLDivElement | null>;
-  /** What a row keeps while others come and go. */
+  /** The key of a row, which stays the same while other rows come and go. */
   keyOf?: (index: number) => string | number;
   heightOf?: (index: number) => number;
-  /** Height of what sticks to the top of the scroller. */
+  /** Height of the sticky head. */
   head?: number;
   overscan?: number;
   rangeOf?: (range: Range) => number[];
 }
 
-/** The rows of a grid or a table: only those in sight exist in the page, and a panel behind another one keeps its place. */
+/** The rows of a grid or a table: only the visible ones are in the page, and a hidden panel keeps its scroll position. */
 export function useGrid({ count, keyOf = byIndex, heightOf = rowHeight, head = ROW, overscan = 8, ...more }: Wanted) {
   const own = useRef<HTMLDivElement>(null);
   const { scroll = own, rangeOf } = more;
@@ -28,7 +28,7 @@ export function useGrid({ count, keyOf = byIndex, heightOf = rowHeight, head = R
     getScrollElement: () => scroll.current,
     estimateSize: heightOf,
     overscan,
-    // The head sticks to the top of the same scroller.
+    // The sticky head is in the same scroll element.
     scrollMargin: head,
     scrollPaddingStart: head,
     getItemKey: keyOf,
@@ -36,7 +36,7 @@ export function useGrid({ count, keyOf = byIndex, heightOf = rowHeight, head = R
   });
   const items = virtual.getVirtualItems();
 
-  /** Where a key leads from a row, -1 for none; it may lie outside of the rows. Undefined: the key leads nowhere. */
+  /** The row that a key moves to; it may be outside the range, -1 is before the first. Undefined: the key does not move. */
   function stepOf(key: string, now: number): number | undefined {
     const page = Math.max(1, Math.floor(((scroll.current?.clientHeight ?? 0) - head) / ROW) - 1);
     return {
@@ -55,7 +55,7 @@ export function useGrid({ count, keyOf = byIndex, heightOf = rowHeight, head = R
     items,
     from: items[0]?.index ?? 0,
     to: (items.at(-1)?.index ?? -1) + 1,
-    /** What holds the rows. */
+    /** The properties of the element that contains the rows. */
     body: { className: "virtual", role: "rowgroup", style: { height: virtual.getTotalSize() } },
     topOf: ({ start }: VirtualItem) => start - head,
     isDrawn: (index: number) => items.some((item) => item.index === index),
@@ -68,7 +68,7 @@ export function useGrid({ count, keyOf = byIndex, heightOf = rowHeight, head = R
 const byIndex = (index: number) => index;
 const rowHeight = () => ROW;
 
-/** The row that is selected comes into sight once, wherever it was selected; what goes on meanwhile moves nothing. */
+/** Scrolls to the selected row once, wherever it was selected; later changes do not scroll. */
 export function useReveal<T>(index: number, selected: T | null, reveal: (index: number) => void): void {
   const last = useRef<T | null>(null);
   useEffect(() => {
@@ -78,7 +78,7 @@ export function useReveal<T>(index: number, selected: T | null, reveal: (index: 
   }, [index, selected, reveal]);
 }
 
-/** Where the menu of the selected row opens by its key. */
+/** The position for the menu of the selected row, when a key opens it. */
 export function belowRow(grid: Element, row = ".gr.on", indent = 40): { x: number; y: number } {
   const { left, bottom } = (grid.querySelector(row) ?? grid).getBoundingClientRect();
   return { x: left + indent, y: bottom };

@@ -1,8 +1,8 @@
 import { type RefObject, useEffect } from "react";
 
 /**
- * A panel behind another tab loses its place: the browser sets a hidden scroller to 0, and tells nobody. Where it stood
- * is put back when it is shown again.
+ * A panel in a hidden tab loses its scroll position: the browser sets it to 0 without an event. This hook restores the position
+ * when the panel is shown again.
  */
 export function useKeptScroll(scroller: RefObject<HTMLElement | null>): void {
   useEffect(() => {
@@ -18,7 +18,7 @@ export function useKeptScroll(scroller: RefObject<HTMLElement | null>): void {
       hidden = element.clientHeight === 0;
       if (!was || hidden) return;
       element.scrollTop = top;
-      // The rows are placed by the scroller's last word, which was before.
+      // The rows are placed by the last scroll event, which told the position before.
       element.dispatchEvent(new Event("scroll"));
     });
     element.addEventListener("scroll", note, { passive: true });

@@ -1,6 +1,6 @@
 import { type KeyboardEvent, useEffect, useId, useState } from "react";
 
-/** A path, and what stands beside it. */
+/** A path, and the text beside it. */
 export interface Offer {
   path: string;
   type: string;
@@ -8,7 +8,7 @@ export interface Offer {
 
 const DELAY = 80;
 
-/** What can be taken instead of typing it to the end: asked for a moment after the last key, chosen by arrows. */
+/** Suggestions for the typed text: requested a moment after the last key, chosen by arrows. */
 export function useOffers<T extends Offer>(complete: (text: string) => Promise<readonly T[]>, most?: number) {
   const id = useId();
   const [query, ask] = useState("");
@@ -39,7 +39,7 @@ export function useOffers<T extends Offer>(complete: (text: string) => Promise<r
     setChosen(-1);
   }
 
-  /** False when the key means nothing here. */
+  /** False when the key has no meaning here. */
   function onKey({ key }: KeyboardEvent, take: (offer: T, by: "Enter" | "Tab") => void): boolean {
     const count = offers.length;
     const offer = offers[chosen];

@@ -20,7 +20,7 @@ const answer = (request_seq: number, success: boolean, rest: object = {}) => ({
 });
 
 describe("a DAP client", () => {
-  it("gives each request the body of its own response", async () => {
+  it("resolves each request with the body of its own response", async () => {
     const { client, sent } = connected();
     const first = client.request("evaluate", { expression: "a" });
     const second = client.request("evaluate", { expression: "b" });
@@ -30,7 +30,7 @@ describe("a DAP client", () => {
     expect(await second).toEqual({ result: "2" });
   });
 
-  it("says why a request was refused, with the values filled in", async () => {
+  it("says why a request was refused, with the variables filled in", async () => {
     const { client, sent } = connected();
     const asked = client.request("setVariable");
     const error = { id: 1, format: "{value} is outside of {range}", variables: { value: "9", range: "0..3" } };
@@ -38,7 +38,7 @@ describe("a DAP client", () => {
     await expect(asked).rejects.toThrow("9 is outside of 0..3");
   });
 
-  it("leaves nobody waiting when the connection is away or goes away", async () => {
+  it("rejects pending requests when the connection is lost", async () => {
     await expect(connected(false).client.request("threads")).rejects.toThrow();
     const { client } = connected();
     const asked = client.request("threads");
@@ -46,7 +46,7 @@ describe("a DAP client", () => {
     await expect(asked).rejects.toThrow();
   });
 
-  it("tells events to those who listen for them", () => {
+  it("passes events to their listeners", () => {
     const { client } = connected();
     const heard: unknown[] = [];
     client.on("stopped", (body) => heard.push(body));

@@ -1,10 +1,10 @@
-/** A client of the Debug Adapter Protocol, whose messages travel in an envelope on the page's own connection. */
+/** A client of the Debug Adapter Protocol; its messages travel in an envelope on the page's own connection. */
 import type { DebugProtocol } from "@vscode/debugprotocol";
 import { link } from "./socket";
 
 export type { DebugProtocol } from "@vscode/debugprotocol";
 
-/** What the adapter answered instead of doing it, in its words. */
+/** The adapter's refusal, in its words. */
 class DapRefused extends Error {}
 
 interface Waiting {
@@ -53,7 +53,7 @@ export class DapClient {
     else request?.reject(new DapRefused(reasonOf(response)));
   }
 
-  /** The connection went away: whoever waits is told so. */
+  /** The connection was lost: rejects all pending requests. */
   abandon(): void {
     const pending = [...this.waiting.values()];
     this.waiting.clear();

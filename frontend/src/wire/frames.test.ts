@@ -54,7 +54,7 @@ describe("parseFrame", () => {
     expect(parsed.strings).toEqual([]);
   });
 
-  it("refuses what is not a value frame", () => {
+  it("refuses data that is not a value frame", () => {
     expect(() => parseFrame(new ArrayBuffer(4))).toThrow("too short");
     const wrong = frame([], [], []);
     new DataView(wrong).setUint8(0, 9);
@@ -64,7 +64,7 @@ describe("parseFrame", () => {
 });
 
 describe("textOf", () => {
-  it("reads a WSTRING two bytes a character", () => {
+  it("reads a WSTRING with two bytes for each character", () => {
     expect(textOf(new Uint8Array([0x42, 0x30, 0x41, 0x00]), true)).toBe("\u3042A");
   });
 });

@@ -1,10 +1,10 @@
-/** Binary value frames: what the watch tap of the PLC's process sends. The layout is the backend's `web/socket/frames.py`. */
+/** Binary value frames: the watch tap in the PLC's process sends them. The layout is the backend's `web/socket/frames.py`. */
 
 const VALUES = 1;
 const HEADER_BYTES = 24;
 
 export interface Frame {
-  /** A snapshot of every watched value; otherwise only what changed. */
+  /** A snapshot of every watched value; otherwise only the changed ones. */
   full: boolean;
   scan: number;
   /** PLC time in nanoseconds; exact up to 104 days, which is enough to show it. */
@@ -16,7 +16,7 @@ export interface Frame {
   strings: { id: number; bytes: Uint8Array }[];
 }
 
-/** Reads one frame without copying the values; throws on a frame that is not ours. */
+/** Reads a frame without copying the values; throws if it is not a value frame. */
 export function parseFrame(buffer: ArrayBuffer): Frame {
   const view = new DataView(buffer);
   if (buffer.byteLength < HEADER_BYTES) throw new Error(`value frame of ${buffer.byteLength} bytes is too short`);
@@ -49,7 +49,7 @@ function parseStrings(buffer: ArrayBuffer, view: DataView, start: number): Frame
   return strings;
 }
 
-/** The characters of a STRING, or with two bytes each of a WSTRING. */
+/** The characters of a STRING, or of a WSTRING with two bytes each. */
 export function textOf(bytes: Uint8Array, wide: boolean): string {
   let text = "";
   // Not TextDecoder: its "latin1" is windows-1252, which differs in 0x80 to 0x9F.

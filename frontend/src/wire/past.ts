@@ -1,9 +1,9 @@
-/** Questions about the past of a run: the routes of `web/routes/past.py`. */
+/** Queries about the past of a run: the routes of `web/routes/past.py`. */
 import { json, request } from "./rest";
 import type { Comparison, LastWriter, NewRerun, Rerun, RunChanges } from "./types";
 
 export const past = {
-  /** Before `scan` began; null is what is shown now. */
+  /** Before `scan` began; null is the shown state. */
   lastWriter: (instance: number, path: string, scan: number | null) => {
     const query = new URLSearchParams({ path });
     if (scan !== null) query.set("scan", String(scan));
@@ -15,7 +15,7 @@ export const past = {
   comparisons: (instance: number) => json<Comparison[]>("GET", `/instances/${instance}/comparisons`),
   compare: (instance: number, other: number) =>
     json<Comparison>("POST", `/instances/${instance}/comparisons`, { other }),
-  /** Cancels one that is under way, forgets one that is done. */
+  /** Cancels a running one, deletes a finished one. */
   forget: async (comparison: number): Promise<void> => {
     await request("DELETE", `/comparisons/${comparison}`);
   },

@@ -3,10 +3,10 @@ import { NoConnection, Refused, rest, sayNoConnection } from "./rest";
 
 const answers = (fetched: () => Promise<Response>) => vi.stubGlobal("fetch", fetched);
 
-describe("a request that nobody answers", () => {
+describe("a request without an answer", () => {
   afterEach(() => vi.unstubAllGlobals());
 
-  it("is told in plain words, and whether something may have been done", async () => {
+  it("is reported in plain words, with whether it may have had an effect", async () => {
     sayNoConnection((reading) => (reading ? "look later" : "not known"));
     answers(() => Promise.reject(new TypeError("Failed to fetch")));
     await expect(rest.models()).rejects.toThrow(new NoConnection(true));
@@ -14,14 +14,14 @@ describe("a request that nobody answers", () => {
     await expect(rest.deleteFile(1, "Main.st")).rejects.toThrow("not known");
   });
 
-  it("may break off in the middle of the answer", async () => {
+  it("may end in the middle of the answer", async () => {
     const broken = () => new ReadableStream({ start: (stream) => stream.error(new TypeError("network error")) });
     answers(() => Promise.resolve(new Response(broken())));
     await expect(rest.models()).rejects.toThrow(NoConnection);
     await expect(rest.exportUserErrors(1)).rejects.toThrow(NoConnection);
   });
 
-  it("is not one that was refused, or given up", async () => {
+  it("differs from a refusal and from a cancelled request", async () => {
     answers(() => Promise.resolve(Response.json({ message: "why", near: [] }, { status: 422 })));
     await expect(rest.models()).rejects.toThrow(Refused);
     answers(() => Promise.reject(new DOMException("given up", "AbortError")));

@@ -37,7 +37,7 @@ import type {
   WatchListInfo,
 } from "./types";
 
-/** A request that the server refused: what, and what to do next, in the server's words. */
+/** A request that the server refused: the reason, and what to do next, in the server's words. */
 export class Refused extends Error {
   constructor(
     readonly status: number,
@@ -47,9 +47,9 @@ export class Refused extends Error {
   }
 }
 
-/** A request that nobody answered: the server does not run, or cannot be reached. The browser's own words for it say nothing. */
+/** A request without an answer: the server does not run, or cannot be reached. The browser's own message for it says nothing useful. */
 export class NoConnection extends Error {
-  /** `reading`: nothing was to be changed by it. */
+  /** `reading`: the request could not have changed anything. */
   constructor(reading: boolean) {
     super(words(reading));
   }
@@ -57,12 +57,12 @@ export class NoConnection extends Error {
 
 let words = (_reading: boolean): string => "No connection to the server.";
 
-/** What it says, in the language of the page. */
+/** Sets the message, in the language of the page. */
 export function sayNoConnection(inWords: (reading: boolean) => string): void {
   words = inWords;
 }
 
-/** Waits for something of the network. What breaks off there is a TypeError in every browser. */
+/** Awaits a network operation. An interrupted one is a TypeError in every browser. */
 async function reached<T>(method: string, work: Promise<T>): Promise<T> {
   try {
     return await work;
@@ -106,7 +106,7 @@ async function readRefusal(response: Response): Promise<Refusal> {
   }
 }
 
-/** A file or samples; large enough that the connection may go away in the middle. */
+/** A file or samples; so large that the connection may be lost in the middle. */
 export async function blob(path: string): Promise<Blob> {
   return reached("GET", (await request("GET", path)).blob());
 }
@@ -154,7 +154,7 @@ export const rest = {
   },
   check: (project: number, files: Record<string, string>) =>
     json<CheckResult>("POST", `/projects/${project}/check`, { files }),
-  /** `instances`: which PLCs get the program; null is all of them. */
+  /** `instances`: the PLCs that get the program; null is all of them. */
   build: (project: number, agreed: boolean, instances: readonly number[] | null = null) =>
     json<BuildResult>("POST", `/projects/${project}/build`, { agreed, instances }),
 
@@ -170,14 +170,14 @@ export const rest = {
   models: () => json<ModelSummary[]>("GET", "/models"),
   model: (name: string) => json<ModelInfo>("GET", `/models/${encodeURIComponent(name)}`),
 
-  /** The model with the project's own errors, as the program that runs knows it. */
+  /** The model with the project's own errors, as the running program knows it. */
   instanceModel: (instance: number) => json<ModelInfo>("GET", `/instances/${instance}/model`),
   previewErrors: (instance: number, errors: readonly GenerateOne[], again: boolean) =>
     json<PreviewedErrors>("POST", `/instances/${instance}/errors/preview`, { errors, again }),
   reaction: (instance: number, error: string) =>
     json<Reaction>("GET", `/instances/${instance}/errors/${encodeURIComponent(error)}/reaction`),
 
-  /** The versions of the program with an error history, the newest first. */
+  /** The program versions with an error history, the newest first. */
   historyVersions: (instance: number) => json<HistoryVersion[]>("GET", `/instances/${instance}/history/versions`),
   historyOf: (instance: number, version: number) =>
     json<HistoryOfVersion>("GET", `/instances/${instance}/history?version=${version}`),
@@ -192,7 +192,7 @@ export const rest = {
   createInstance: (project: number, name: string) => json<Instance>("POST", "/instances", { project, name }),
   changeInstance: (instance: number, change: Partial<ChangeInstance>) =>
     json<Instance>("PATCH", `/instances/${instance}`, change),
-  /** A new instance that begins as this one was before a scan; null is now. */
+  /** A new instance that begins with the state of this one before a scan; null is now. */
   branch: (instance: number, name: string, scan: number | null) =>
     json<Instance>("POST", `/instances/${instance}/branch`, { name, scan }),
   deleteInstance: async (instance: number): Promise<void> => {
@@ -201,7 +201,7 @@ export const rest = {
   exportRun: (instance: number, signal: AbortSignal) =>
     request("GET", `/instances/${instance}/export`, undefined, [], signal),
   states: (project: number) => json<ProgramState[]>("GET", `/projects/${project}/states`),
-  /** Keeps the PLC as it was before a scan; null is as it is now. */
+  /** Keeps the state of the PLC before a scan; null is now. */
   keepState: (instance: number, name: string, scan: number | null) =>
     json<ProgramState>("POST", `/instances/${instance}/states`, { name, scan }),
   deleteState: async (state: number): Promise<void> => {
@@ -223,7 +223,7 @@ export const rest = {
   withdrawFinding: async (sweep: number, { error, state }: CellRef): Promise<void> => {
     await request("POST", `/sweeps/${sweep}/withdraw`, { error, state });
   },
-  /** A new PLC in this state with this error raised, paused. */
+  /** A new PLC with this state and this error raised, paused. */
   openCell: (sweep: number, { error, state }: CellRef, name: string) =>
     json<Instance>("POST", `/sweeps/${sweep}/open`, { error, state, name }),
   compareSweeps: (before: number, after: number) => json<SweepComparison>("GET", `/sweeps/${before}/compare/${after}`),
@@ -232,7 +232,7 @@ export const rest = {
   watchList: (list: number) => json<WatchList>("GET", `/watch-lists/${list}`),
   createWatchList: (project: number, list: ListOnServer) =>
     json<WatchList>("POST", `/projects/${project}/watch-lists`, list),
-  /** What was edited from `version` on; somebody else's when they were first. */
+  /** Saves a text that is based on `version`; answers with the text of somebody else who was first. */
   saveWatchList: async (
     id: number,
     list: ListOnServer,
@@ -253,13 +253,13 @@ export const rest = {
 
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
-  /** The same of a path that is being typed: one that is no variable (yet) has no members. */
+  /** The same for a path that is being typed: a path that is not a variable (yet) has no members. */
   offeredSymbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?offer=true&path=${encodeURIComponent(path)}`),
-  /** A version of the program as it ran in the instance. */
+  /** A program version as it ran in the instance. */
   programText: (instance: number, version: number) =>
     json<ProgramText>("GET", `/instances/${instance}/program?version=${version}`),
-  /** The instances of a POU in the program that runs. */
+  /** The instances of a POU in the running program. */
   instancesOf: (instance: number, pou: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/instances-of?pou=${encodeURIComponent(pou)}`),
   complete: (instance: number, text: string) =>

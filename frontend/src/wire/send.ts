@@ -1,11 +1,11 @@
-/** The way out for panels: one command, one answer. */
+/** Sends the commands of panels: one command, one answer. */
 import { link } from "./socket";
 import type { Command, Done } from "./types";
 
 const waiting = new Map<number, (done: Done) => void>();
 let nextRef = 1;
 
-/** A fresh reference for a message that is answered under it. */
+/** A new reference for a message; the answer has the same reference. */
 export function newRef(): number {
   nextRef += 1;
   return nextRef;
@@ -13,7 +13,7 @@ export function newRef(): number {
 
 export type Answer = Done & { sent: boolean };
 
-/** Sends a command and waits for its `Done`. Without a connection it is answered at once with `sent: false`. */
+/** Sends a command and waits for its `Done`. Without a connection it resolves at once with `sent: false`. */
 export function send(command: Command): Promise<Answer> {
   const ref = newRef();
   return new Promise((resolve) => {
@@ -25,14 +25,14 @@ export function send(command: Command): Promise<Answer> {
   });
 }
 
-/** Called with every `Done` that comes in. */
+/** Called with every `Done` that arrives. */
 export function settle(done: Done): void {
   const resolve = waiting.get(done.ref);
   waiting.delete(done.ref);
   resolve?.(done);
 }
 
-/** The connection went away: whoever waits is told so; whether the command was applied is not known. */
+/** The connection was lost: every waiting command resolves; whether it was applied is not known. */
 export function abandon(message: string): void {
   const pending = [...waiting.entries()];
   waiting.clear();

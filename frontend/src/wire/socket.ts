@@ -1,13 +1,13 @@
-/** The one connection to a virtual PLC: connects, reconnects by itself with back-off, and hands messages on. */
+/** The one connection to a virtual PLC: connects, reconnects by itself with back-off, and passes messages on. */
 import { type Frame, parseFrame } from "./frames";
 import type { ClientMessage, ServerMessage } from "./types";
 
 export interface LinkStatus {
   state: "none" | "connecting" | "open" | "lost";
-  /** Wall time (ms) of the loss, and how often a reconnection was tried since. */
+  /** Wall time (ms) of the loss, and the number of attempts to reconnect since. */
   lostAt: number | null;
   attempt: number;
-  /** Wall time (ms) of the next try. */
+  /** Wall time (ms) of the next attempt. */
   nextTryAt: number | null;
 }
 
@@ -19,9 +19,9 @@ interface LinkListener {
 
 const FIRST_DELAY = 500;
 const LONGEST_DELAY = 8000;
-/** A socket that opens but stays silent is given up after this. */
+/** A socket that opens but stays silent is closed after this time, in ms. */
 const HELLO_TIMEOUT = 5000;
-/** The server says something each 5 s at least: after this silence it is frozen or out of reach, though nothing was closed. */
+/** The server sends something at least every 5 s: after this silence it is frozen or out of reach, though nothing was closed. */
 const SILENCE_TIMEOUT = 12_000;
 
 class Link {
@@ -36,7 +36,7 @@ class Link {
     this.listener = listener;
   }
 
-  /** Opens the connection to an instance, closing the one before; null closes only. */
+  /** Opens the connection to an instance and closes the previous one; null only closes. */
   connect(instance: number | null): void {
     this.close();
     this.instance = instance;
@@ -48,7 +48,7 @@ class Link {
     this.open();
   }
 
-  /** Tries at once instead of waiting for the next turn. */
+  /** Connects at once instead of waiting for the next turn. */
   tryNow(): void {
     if (this.status.state !== "lost") return;
     clearTimeout(this.retry);
@@ -59,7 +59,7 @@ class Link {
     return this.status.state === "open";
   }
 
-  /** False when there is no connection; nothing is queued, because a write of a minute ago is not what was meant. */
+  /** False when there is no connection. Nothing is queued, because a write from a minute ago may no longer be wanted. */
   post(message: ClientMessage): boolean {
     if (!this.isOpen || this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(message));
@@ -81,7 +81,7 @@ class Link {
     };
   }
 
-  /** A frozen server does not answer a close either, so the socket is let go without waiting for its end. */
+  /** A frozen server does not answer a close either, so the socket is dropped without waiting for its end. */
   private expectWithin(ms: number): void {
     clearTimeout(this.patience);
     this.patience = setTimeout(() => {

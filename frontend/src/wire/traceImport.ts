@@ -1,4 +1,4 @@
-/** Traces of real controllers, and how their columns are meant: the routes of `web/routes/verify.py`. */
+/** Controller logs, and the mapping of their columns: the routes of `web/routes/verify.py`. */
 import { json, request } from "./rest";
 import type {
   CheckTraceMapping,

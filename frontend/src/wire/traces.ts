@@ -2,7 +2,7 @@
 import { blob, bytes, json, request } from "./rest";
 import type { DefineTrace, Flight, TraceInfo, TraceRecordInfo } from "./types";
 
-/** Where samples come from. */
+/** The source of samples. */
 export type Source = { kind: "trace" | "record"; id: number };
 
 const at = (instance: number, trace: number) => `/instances/${instance}/traces/${trace}`;
@@ -19,7 +19,7 @@ export const traces = {
   delete: async (instance: number, trace: number): Promise<void> => {
     await request("DELETE", at(instance, trace));
   },
-  /** Scans `first` to `last` (null: all there are); with more rows than `points` the least and greatest of stretches. */
+  /** Scans `first` to `last` (null: all); if they have more rows than `points`, the least and greatest value of stretches. */
   samples: async (instance: number, source: Source, first: number, last: number | null, points: number | null) => {
     const query = new URLSearchParams({ first: String(first) });
     if (last !== null) query.set("last", String(last));

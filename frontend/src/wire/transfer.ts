@@ -1,8 +1,8 @@
-/** Run files in and out: large, so that how far it got can be seen, and it can be given up. */
+/** Import and export of run files: they are large, so the progress is reported, and the transfer can be cancelled. */
 import { NoConnection, Refused } from "./rest";
 import type { ImportedInstance, Refusal } from "./types";
 
-/** Share that is done, 0 to 1; null while the size is not known. */
+/** The share that is done, 0 to 1; null while the size is not known. */
 type Progress = (share: number | null) => void;
 
 /** The body of an answer, read piece by piece. */
@@ -23,7 +23,7 @@ export async function readBody(response: Response, onProgress: Progress): Promis
   }
 }
 
-/** Sends a run file: a new instance goes on with it. Not fetch: only XMLHttpRequest tells how much has been sent. */
+/** Sends a run file: a new instance continues it. Not fetch: only XMLHttpRequest reports how much has been sent. */
 export function importRun(
   name: string,
   file: Blob,
@@ -51,7 +51,7 @@ function refusalIn(request: XMLHttpRequest): Refusal {
     const { message, near } = JSON.parse(request.responseText) as Partial<Refusal>;
     if (typeof message === "string") return { message, near: near ?? [] };
   } catch {
-    // Not ours: a proxy's page, say.
+    // Not our server's answer: for example the page of a proxy.
   }
   return { message: `${request.status} ${request.statusText}`, near: [] };
 }

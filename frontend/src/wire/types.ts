@@ -108,10 +108,10 @@ type WithoutRef<T> = T extends { ref: number } ? Omit<T, "ref"> : never;
 
 type Run = Extract<ClientMessage, { type: "run" }>;
 
-/** A run order says only what differs from the usual. */
+/** A run order contains only what differs from the default. */
 export type RunOrder = Pick<Run, "action"> & Partial<Pick<Run, "speed" | "scans" | "until">>;
 
-/** What a panel may send: answered by one `Done`, so the reference is added on the way out. */
+/** What a panel may send: answered by one `Done`; the reference is added when it is sent. */
 export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" }>>;
 
 export type UserText = Shapes["UserText"];

@@ -1,4 +1,4 @@
-/** Verifications of an instance, their rows, and what was kept of them: the routes of `web/routes/verify.py`. */
+/** Verifications of an instance, their rows, and kept ones: the routes of `web/routes/verify.py`. */
 import { blob, json, request } from "./rest";
 import type {
   DriveVerification,
@@ -10,7 +10,7 @@ import type {
   VerifyUse,
 } from "./types";
 
-/** Where rows come from. */
+/** The source of rows. */
 export type VerifySource = { kind: "verification" | "record"; id: number };
 export type ExportFormat = "csv" | "json" | "html";
 
@@ -26,7 +26,7 @@ export const verify = {
   delete: async (verification: number): Promise<void> => {
     await request("DELETE", `/verifications/${verification}`);
   },
-  /** Rows from index `first` on; `differing`: only those that differ count. */
+  /** Rows from index `first` on; `differing`: only rows that differ are counted. */
   rows: (of: VerifySource, first: number, count: number, differing: boolean) =>
     json<VerifyRows>("GET", `${base(of)}/rows?first=${first}&count=${count}&differing=${differing}`),
   setCells: (verification: number, cells: readonly SetCell[]) =>

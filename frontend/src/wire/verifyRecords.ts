@@ -1,4 +1,4 @@
-/** Verifications that were kept in a project: the routes of `web/routes/verify.py`. */
+/** Verifications that are kept in a project: the routes of `web/routes/verify.py`. */
 import { json, request } from "./rest";
 import type { VerificationRecord } from "./types";
 

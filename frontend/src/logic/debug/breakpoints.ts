@@ -1,13 +1,13 @@
-/** Breakpoints as people see them: shape, place and words. */
+/** Breakpoints as people see them: drawing, place and description. */
 
 import { t } from "../../text";
 import type { BreakpointInfo, Pou } from "../../wire/types";
 import { pouAt } from "../plc/sourceLines";
 
-/** A drawing of the gutter: filled holds, hollow is off, dashed is not in the program. */
+/** A drawing of the gutter: filled halts, hollow is disabled, dashed is not in the program. */
 type BreakpointShape = "bp" | "bp-cond" | "bp-log" | "bp-assign" | "bp-data" | "bp-off" | "bp-unbound";
 
-/** What a person decides of a breakpoint. */
+/** The properties of a breakpoint that a person chooses. */
 export type Wanted = Pick<
   BreakpointInfo,
   | "kind"
@@ -43,7 +43,7 @@ export const PLAIN: Wanted = {
   task: "",
 };
 
-/** The list that all browsers share; other groups belong to one tool each. */
+/** The list that all browsers share; each other group belongs to one tool. */
 export const isShared = (breakpoint: BreakpointInfo) => breakpoint.group === "";
 
 export function shapeOf(breakpoint: Wanted & { verified: boolean }): BreakpointShape {
@@ -57,10 +57,10 @@ export function shapeOf(breakpoint: Wanted & { verified: boolean }): BreakpointS
 
 const isPlain = ({ condition, hits, instance, task }: Wanted) => !condition && !hits && !instance && !task;
 
-/** Where it stands in the built text. */
+/** Its line in the built text. */
 export const lineOf = (breakpoint: BreakpointInfo) => breakpoint.at_line || breakpoint.line;
 
-/** What it is at: the POU around its line, a variable, an error, a scan. Without the declarations, the file is what is known. */
+/** Where the breakpoint halts: the POU around its line, a variable, an error, a scan. While the declarations are not known, the file. */
 export function placeOf(breakpoint: Wanted & { at_line?: number }, pous: readonly Pou[] = []): string {
   switch (breakpoint.kind) {
     case "line":
@@ -78,7 +78,7 @@ export function placeOf(breakpoint: Wanted & { at_line?: number }, pous: readonl
 
 const baseOf = (file: string) => file.replace(/^.*\//, "").replace(/\.[^.]*$/, "");
 
-/** What is special about it, in short: `if jam.Q`, `3rd time`, `off`. */
+/** What restricts the breakpoint, in short: `if jam.Q`, `3rd time`, `off`. */
 export function conditionsOf(breakpoint: Wanted): string {
   const said = [
     breakpoint.enabled ? "" : t("debug.bp.off"),
@@ -93,7 +93,7 @@ export function conditionsOf(breakpoint: Wanted): string {
   return said.filter(Boolean).join(" · ");
 }
 
-/** All there is to say, for a tooltip. */
+/** The whole description, for a tooltip. */
 export function sayBreakpoint(breakpoint: BreakpointInfo): string {
   const kind = t(`debug.kind.${shapeOf(breakpoint)}`);
   return [

@@ -13,7 +13,7 @@ const site = (line: number, reached: boolean, outcomes: [string, boolean][] = []
 });
 
 describe("coverage of lines", () => {
-  it("is full, in part or none", () => {
+  it("is full, partial or none", () => {
     const looks = linesOf([
       site(3, false),
       site(1, true),
@@ -32,7 +32,7 @@ describe("coverage of lines", () => {
     ]);
   });
 
-  it("says which way was not taken", () => {
+  it("names the branch that was not taken", () => {
     const [line] = linesOf([
       site(2, true, [
         ["IF", true],
@@ -43,7 +43,7 @@ describe("coverage of lines", () => {
     expect(line?.says).not.toContain("IF,");
   });
 
-  it("has a share of statements", () => {
+  it("gives the share of statements that were executed", () => {
     expect(shareOf([site(1, true), site(2, false)])).toBe(50);
     expect(shareOf([])).toBeNull();
   });

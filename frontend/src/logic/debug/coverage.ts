@@ -9,7 +9,7 @@ interface CoveredLine {
   says: string;
 }
 
-/** A line is covered in part when only some of its statements were reached, or some ways of one were not taken. */
+/** A line is partly covered when only some of its statements, or only some branches of a statement, were executed. */
 export function linesOf(sites: readonly CoveredSite[]): CoveredLine[] {
   const lines = new Map<number, CoveredSite[]>();
   for (const site of sites) lines.set(site.line, [...(lines.get(site.line) ?? []), site]);
@@ -29,7 +29,7 @@ function sayOf(sites: readonly CoveredSite[]): string {
   return t("coverage.missed", { ways: missed.map(({ name }) => name).join(", ") });
 }
 
-/** The share of statements that were reached; null where there are none. */
+/** The share of statements that were executed; null where there are none. */
 export function shareOf(sites: readonly CoveredSite[]): number | null {
   return sites.length === 0 ? null : (100 * sites.filter(({ reached }) => reached).length) / sites.length;
 }

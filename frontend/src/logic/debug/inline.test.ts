@@ -3,14 +3,14 @@ import { variablesIn } from "./inline";
 
 const names = (line: string) => variablesIn(line).variables.map(({ path }) => path);
 
-describe("the variables of a line", () => {
-  it("are named once, in order", () => {
+describe("the variables that a line names", () => {
+  it("are listed once each, in the order of the line", () => {
     expect(names("ioHold := ioError OR hold AND iohold;")).toEqual(["ioHold", "ioError", "OR", "hold", "AND"]);
   });
-  it("go down to members and fixed elements", () => {
+  it("include members and elements with a fixed index", () => {
     expect(names("zone.jams := belt[3].count + a[i].x;")).toEqual(["zone.jams", "belt[3].count", "a", "i"]);
   });
-  it("are neither calls nor parameters nor literals", () => {
+  it("do not include calls, parameters or literals", () => {
     expect(names("jam(IN := run AND NOT sensor, PT := T#1500ms, Q => done);")).toEqual([
       "run",
       "AND",
@@ -20,13 +20,13 @@ describe("the variables of a line", () => {
     ]);
     expect(names("alarm := E_Alarm#IoUnit; n := 16#FF + 1_000;")).toEqual(["alarm", "n"]);
   });
-  it("stand in no comment and no string", () => {
+  it("are not taken from comments or strings", () => {
     expect(names("a := 'b c $' d'; // e")).toEqual(["a"]);
     expect(names("a (* b *) := c;")).toEqual(["a", "c"]);
     expect(variablesIn("(* begins").comment).toBe(true);
     expect(variablesIn("still *) x := 1;", true).variables.map(({ path }) => path)).toEqual(["x"]);
   });
-  it("know where they begin", () => {
+  it("have the column at which they begin", () => {
     expect(variablesIn("  x := y;").variables).toEqual([
       { path: "x", column: 3 },
       { path: "y", column: 8 },

@@ -1,16 +1,16 @@
-/** The variables that a line of Structured Text names, for the values behind it. */
+/** The variables that a line of Structured Text names; their values are shown at the end of the line. */
 
 export interface NamedVariable {
-  /** As written, without what only the program knows at run time: `belt[3].speed`; of `a[i].x` it is `a`. */
+  /** The path as written, up to the first index that is known only at run time: `belt[3].speed`; of `a[i].x` it is `a`. */
   path: string;
-  /** Where it begins, from 1. */
+  /** The column at which it begins, from 1. */
   column: number;
 }
 
 const NAME = /[\p{L}_][\p{L}\d_]*/uy;
 const STEP = /(?:\.\s*[\p{L}_][\p{L}\d_]*)|\[\s*-?\d+(?:\s*,\s*-?\d+)*\s*\]|\^/uy;
 
-/** Each variable once, in the order of the line. `comment` is whether the line begins inside of a comment. */
+/** Each variable once, in the order of the line. `comment` says whether the line begins inside a comment. */
 export function variablesIn(line: string, comment = false): { variables: NamedVariable[]; comment: boolean } {
   const variables: NamedVariable[] = [];
   const seen = new Set<string>();
@@ -49,7 +49,7 @@ export function variablesIn(line: string, comment = false): { variables: NamedVa
   return { variables, comment: open };
 }
 
-/** The index behind a string, a line comment, a number or a typed literal; `comment` where a block comment begins. */
+/** The index after a string, a line comment, a number or a typed literal; `comment` where a block comment begins. */
 function skip(line: string, at: number): number | "comment" | null {
   const rest = line.slice(at);
   if (rest.startsWith("//")) return line.length;
@@ -74,7 +74,7 @@ function take(line: string, at: number): { path: string; column: number; end: nu
     end = STEP.lastIndex;
   }
   const behind = line.slice(end);
-  // A call, the name of what is passed to one, and a member of what no fixed path leads to are no variables of this place.
+  // Not variables of this place: the name of a call, the name of a parameter, and a member whose owner has no fixed path.
   const call = /^\s*\((?!\*)/.test(behind);
   const member = /\.\s*$/.test(line.slice(0, at));
   const parameter = /^\s*(:=|=>)/.test(behind) && /[(,]\s*(NOT\s+)?$/i.test(line.slice(0, at));

@@ -1,13 +1,13 @@
-/** Which steps mean something in which state of the PLC. */
+/** Which steps are possible in which state of the PLC. */
 import type { InstanceState } from "../../wire/types";
 
 type Command = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
 
 const STANDS = ["halted", "paused", "past"];
-/** The program cannot go on, but how it came to that can be looked at. */
+/** The program cannot continue, but people can step back and see how it got there. */
 const ENDED = ["trapped", "fatal", "stopped"];
 
-/** What is shown stands at a statement or in a seam. */
+/** The page shows the PLC at a statement or in a seam. */
 const stands = (state: InstanceState | null) => state !== null && STANDS.includes(state.state);
 
 export function permits(state: InstanceState | null, command: Command): boolean {

@@ -41,7 +41,7 @@ const history = (id: string, status: ErrorHistoryRow["status"], code = "009A") =
   new Map([[id, { id, status, code } as ErrorHistoryRow]]);
 
 describe("catalogueRows", () => {
-  it("takes the verdict of a sweep where the error was not raised here", () => {
+  it("takes the verdict of a sweep for an error that was not raised here", () => {
     const swept = { state: "done", verdict: "no_effect", scans: null, message: "" } as const;
     const reaction = { ...swept, verdict: "reacted", scans: 1 } as const;
     const told = new Map([
@@ -70,21 +70,21 @@ describe("catalogueRows", () => {
     ]);
   });
 
-  it("ticks a group half when some of its descendants are ticked", () => {
+  it("ticks the box of a group half when only some of its errors are ticked", () => {
     const rows = catalogueRows(groups, view({ checked: new Set(["unit-error"]) }));
     expect(rows.find((row) => row.key === "/Non-fatal")).toMatchObject({ check: "some" });
     expect(rows.find((row) => row.key === "/Non-fatal/Units")).toMatchObject({ check: "all" });
     expect(rows.find((row) => row.key === "/Fatal")).toMatchObject({ check: "none" });
   });
 
-  it("filters by name, code and flag and leaves empty groups out", () => {
+  it("filters by name, code and flag, and omits empty groups", () => {
     const keys = (filter: string) => catalogueRows(groups, view({ filter })).map((row) => row.key);
     expect(keys("80f1")).toEqual(["/Fatal", "memory-error"]);
     expect(keys("battery")).toEqual(["/Non-fatal", "battery-error"]);
     expect(keys("nothing of the kind")).toEqual([]);
   });
 
-  it("finds a name in the other language, too", () => {
+  it("also finds an error by its name in the other language", () => {
     const [plain] = groups;
     const wordings = [{ language: "ja", name: "メモリ異常", description: "" }];
     const found = (filter: string) =>
@@ -109,7 +109,7 @@ describe("catalogueRows", () => {
     expect(keys).toEqual(["/Fatal", "memory-error"]);
   });
 
-  it("counts as tested what a reaction is known of, and filters by it", () => {
+  it("counts an error as tested when its reaction is known, and filters by that", () => {
     const reacted = (id: string, verdict: string | null, state = "done") =>
       [id, { id, status: "generated", code: "", reaction: { state, verdict, scans: 1, message: "" } }] as const;
     const known = new Map([
@@ -130,7 +130,7 @@ describe("catalogueRows", () => {
     expect(keys("unknown")).toEqual(["memory-error", "io-error"]);
   });
 
-  it("jumps to the next row that begins with what is typed, by name, code or flag", () => {
+  it("jumps to the next row whose name, code or flag begins with the typed letters", () => {
     const rows = catalogueRows(groups, view());
     expect(rowFor(rows, "n", 0)?.key).toBe("/Non-fatal");
     expect(rowFor(rows, "ba", 0)?.key).toBe("battery-error");
@@ -139,7 +139,7 @@ describe("catalogueRows", () => {
     expect(rowFor(rows, "xyz", 0)).toBeUndefined();
   });
 
-  it("folds", () => {
+  it("omits the rows of folded groups", () => {
     expect(catalogueRows(groups, view({ closed: new Set(["/Non-fatal"]) })).length).toBe(3);
   });
 });
@@ -151,8 +151,8 @@ describe("toggleAll", () => {
   });
 });
 
-describe("details", () => {
-  it("are told in words where the catalogue has some", () => {
+describe("the details of an error", () => {
+  it("are described with the texts of the catalogue, where it has some", () => {
     const details = [
       { name: "part", description: "Part", choices: [{ id: "table", description: "I/O table", address: "" }] },
       { name: "rack", description: "Rack number" },
@@ -163,7 +163,7 @@ describe("details", () => {
     expect(detailsInWords(undefined, "")).toBe("");
   });
 
-  it("stand with names instead of ids in what the server says", () => {
+  it("are named instead of numbered in messages of the server", () => {
     const details = [{ name: "rack", description: "Rack number" }] as unknown as ErrorInfo["details"];
     const errors = [error("io-error", "009A", details), error("fal", "4100")];
     expect(inNames(errors, "generated io-error (rack=2), code 009A, fal, code 4100")).toBe(

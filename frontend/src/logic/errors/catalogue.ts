@@ -1,8 +1,8 @@
-/** The error catalogue as rows: filtered, folded, with tri-state boxes and what was tested. */
+/** The error catalogue as rows: filtered, folded, with three-state boxes and the known reactions. */
 import type { ErrorGroup, ErrorHistoryRow, ErrorInfo, ReactionState, Verdict } from "../../wire/types";
 
 export type ErrorStatus = ErrorHistoryRow["status"];
-/** By what is known of the reaction; a finding is what the program missed: nobody read it, or nothing came of it. */
+/** Filters by the known reaction; a finding is something that the program missed: nobody read the error, or reading it had no effect. */
 export type ReactionFilter = "all" | "findings" | "unknown" | Verdict;
 export type Check = "none" | "some" | "all";
 
@@ -26,9 +26,9 @@ export interface LeafRow {
   status: ErrorStatus;
   code: string;
   reaction: ReactionState | null;
-  /** The reaction is what a sweep found out. */
+  /** The reaction comes from a sweep. */
   swept: boolean;
-  /** A fault with it comes later, or comes back. */
+  /** A scheduled or recurring fault raises this error. */
   armed: boolean;
 }
 
@@ -45,7 +45,7 @@ export interface CatalogueView {
   armed: ReadonlySet<string>;
 }
 
-/** The details of a generated error (`location=io-table-checksum, slot=3`) in the words of the catalogue. */
+/** The details of a raised error (`location=io-table-checksum, slot=3`) with the texts of the catalogue. */
 export function detailsInWords(error: ErrorInfo | undefined, details: string): string {
   return details
     .split(", ")
@@ -61,7 +61,7 @@ export function detailsInWords(error: ErrorInfo | undefined, details: string): s
 
 const REFERENCE = /(?<![\w-])([a-z][a-z0-9-]*)(?![\w-])(?: \(([^()]*=[^()]*)\))?/g;
 
-/** What the server says of errors, with the catalogue's names for ids (`basic-io-error (rack=2)`), as a sentence. */
+/** A message of the server about errors as a sentence, with ids (`basic-io-error (rack=2)`) replaced by the names of the catalogue. */
 export function inNames(errors: readonly ErrorInfo[], message: string): string {
   const named = message.replace(REFERENCE, (whole, id: string, details: string | undefined) => {
     const error = errors.find((known) => known.id === id);
@@ -76,7 +76,7 @@ export function allErrors(groups: readonly ErrorGroup[]): ErrorInfo[] {
   return groups.flatMap((group) => [...allErrors(group.groups), ...group.errors]);
 }
 
-/** The rows to show; a group is left out when the filter leaves nothing of it. */
+/** The rows to show; a group that the filter leaves empty is omitted. */
 export function catalogueRows(groups: readonly ErrorGroup[], view: CatalogueView): CatalogueRow[] {
   return groups.flatMap((group) => groupRows(group, view, 0, ""));
 }
@@ -121,14 +121,14 @@ function leafRow(error: ErrorInfo, view: CatalogueView, level: number): LeafRow 
   };
 }
 
-/** Tested is an error when it is known what the program did about it. */
+/** An error is tested when the reaction of the program is known. */
 export function isTested(row: ErrorHistoryRow | undefined): boolean {
   return verdictOf(row) !== null;
 }
 
 type Told = Pick<ErrorHistoryRow, "reaction" | "swept"> | undefined;
 
-/** What is known of the reaction: of the last time that it was raised here, else what a sweep found out. */
+/** The known reaction: from the last time that the error was raised here, else from a sweep. */
 export const reactionOf = (row: Told): ReactionState | null => row?.reaction ?? row?.swept ?? null;
 
 export const isSwept = (row: Told): boolean => !row?.reaction && Boolean(row?.swept);
@@ -138,7 +138,7 @@ export function verdictOf(row: Told): Verdict | null {
   return reaction?.state === "done" ? reaction.verdict : null;
 }
 
-/** What the program missed: nobody read it, or nothing came of it. */
+/** A finding: nobody read the error, or reading it had no effect. */
 export const isFinding = (verdict: Verdict | null): boolean =>
   verdict !== null && verdict !== "reacted" && verdict !== "stopped";
 
@@ -167,7 +167,7 @@ function checkOf(ids: readonly string[], checked: ReadonlySet<string>): Check {
   return count === ids.length ? "all" : "some";
 }
 
-/** What a click on a group's box does: all on, unless all were on. */
+/** A click on the box of a group ticks all of its errors, or clears them if all were ticked. */
 export function toggleAll(ids: readonly string[], checked: ReadonlySet<string>): Set<string> {
   const next = new Set(checked);
   const on = checkOf(ids, checked) !== "all";
@@ -178,7 +178,7 @@ export function toggleAll(ids: readonly string[], checked: ReadonlySet<string>):
   return next;
 }
 
-/** The row to go to for typed letters: the next one behind `from` whose name, code or flag begins with them. */
+/** The row to select for typed letters: the next row after `from` whose name, code or flag begins with them. */
 export function rowFor(rows: readonly CatalogueRow[], typed: string, from: number): CatalogueRow | undefined {
   const wanted = typed.toLowerCase();
   const inTurn = [...rows.slice(from), ...rows.slice(0, from)];

@@ -1,4 +1,4 @@
-/** Details of an error as they are typed: read, judged, and brought into the form that the server takes. */
+/** Details of an error as they are typed: parsed, checked, and converted to the form that the server takes. */
 
 import type { TextKey } from "../../text";
 import { t } from "../../text";
@@ -6,7 +6,7 @@ import type { ErrorDetail, ErrorInfo } from "../../wire/types";
 
 export type Format = "hex" | "decimal" | "text";
 
-/** What stands in a control. The format says how an Edit is read; a List holds the id of its choice. */
+/** The content of a control. The format says how an Edit is read; a List holds the id of its choice. */
 export interface Entry {
   text: string;
   format: Format;
@@ -22,26 +22,26 @@ export interface Trouble {
 
 type Reading = { value: string; trouble: null } | { value: null; trouble: Trouble };
 
-/** Whether somebody has to be asked: a List with one choice is decided. */
+/** Whether the person has to enter something: a List with one choice needs no entry. */
 export function needsDetails(error: ErrorInfo): boolean {
   return error.details.some(isOpen);
 }
 
 const isOpen = (detail: ErrorDetail): boolean => detail.control !== "List" || (detail.choices ?? []).length > 1;
 
-/** A text of at most `maximum` characters, which is sent as it is; other entries are numbers, however they are written. */
+/** A text of at most `maximum` characters is sent as it is; all other entries are numbers, in any format. */
 export const isText = (detail: ErrorDetail): boolean => detail.base === 0;
 
 const formatOf = (detail: ErrorDetail): Format => (isText(detail) ? "text" : detail.base === 16 ? "hex" : "decimal");
 
-/** The entries as first shown: the default of each control, or its first choice, or its least number. */
+/** The initial entries: the default of each control, or its first choice, or its least number. */
 export function defaultEntries(error: ErrorInfo): Entries {
   return Object.fromEntries(
     error.details.map((detail) => [detail.name, { text: first(detail), format: formatOf(detail) }]),
   );
 }
 
-/** The entries of an error that is present, from what its history says: `rack=2, slot=3`. */
+/** The entries of a present error, from its history: `rack=2, slot=3`. */
 export function entriesIn(error: ErrorInfo, details: string): Entries {
   const said = new Map<string, string>();
   let last = "";
@@ -50,7 +50,7 @@ export function entriesIn(error: ErrorInfo, details: string): Entries {
     if (error.details.some((detail) => detail.name === name)) {
       said.set(name, part.slice(name.length + 1));
       last = name;
-    } else if (last) said.set(last, `${said.get(last)}, ${part}`); // a text with a comma in it
+    } else if (last) said.set(last, `${said.get(last)}, ${part}`); // a text that contains a comma
   }
   const found = [...said].flatMap(([name, text]) => {
     const detail = error.details.find((known) => known.name === name);
@@ -65,7 +65,7 @@ function first(detail: ErrorDetail): string {
   return isText(detail) ? "" : (detail.minimum ?? 0).toString(detail.base).toUpperCase();
 }
 
-/** What the server is told for an entry, or why it is refused. The server checks again. */
+/** What is sent to the server for an entry, or why the entry is refused. The server checks again. */
 export function readEntry(detail: ErrorDetail, entry: Entry): Reading {
   if (detail.control === "List") return { value: entry.text, trouble: null };
   if (isText(detail)) return readText(detail, entry.text);
@@ -88,7 +88,7 @@ function refused(key: TextKey, values: Record<string, string>): Reading {
   return { value: null, trouble: { key, values } };
 }
 
-/** The range in the format that is shown, and an example out of its middle; no highest where only the server knows it. */
+/** The range in the chosen format, and an example from its middle; without a maximum where only the server knows it. */
 export function limits(detail: ErrorDetail, format: Format): Record<"low" | "high" | "example", string> {
   const { minimum = null, maximum = null } = detail;
   const low = minimum ?? 0;
@@ -99,7 +99,7 @@ export function limits(detail: ErrorDetail, format: Format): Record<"low" | "hig
   return { low: shown(low), high: maximum === null ? "" : shown(maximum), example: shown(middle) };
 }
 
-/** Why an entry is refused, and what would do. */
+/** Why an entry is refused, and an entry that would be accepted. */
 export function inWords({ key, values }: Trouble): string {
   return `${t(key, values)} ${t(values.high ? "entry.allowed" : "entry.example", values)}`;
 }
@@ -114,7 +114,7 @@ function fromDigits(text: string, format: "hex" | "decimal"): number | Trouble {
   return Number.parseInt(plain, format === "hex" ? 16 : 10);
 }
 
-/** Characters as they stand in a word: the first in its upper byte. */
+/** Characters in the order of a word: the first in its upper byte. */
 function fromCharacters(text: string): number | Trouble {
   if (text === "") return { key: "entry.missing", values: {} };
   const wrong = [...text].find((sign) => !/[\x20-\x7e]/.test(sign));
@@ -129,7 +129,7 @@ function characters(value: number): string {
   return /^[\x20-\x7e]*$/.test(text) ? text : "";
 }
 
-/** The same number in another format; what cannot be read stays as typed. */
+/** The same number in a different format; an entry that cannot be read stays as typed. */
 export function reformat(detail: ErrorDetail, entry: Entry, format: Format): Entry {
   if (isText(detail)) return entry;
   const read = entry.format === "text" ? fromCharacters(entry.text) : fromDigits(entry.text, entry.format);
@@ -143,7 +143,7 @@ export function reformat(detail: ErrorDetail, entry: Entry, format: Format): Ent
   return { text, format };
 }
 
-/** What is wrong with the entries of an error, by detail; empty when nothing is. */
+/** The problems with the entries of an error, by detail; empty when there are none. */
 export function troubles(error: ErrorInfo, entries: Entries): ReadonlyMap<string, Trouble> {
   const found = new Map<string, Trouble>();
   for (const detail of error.details) {
@@ -154,7 +154,7 @@ export function troubles(error: ErrorInfo, entries: Entries): ReadonlyMap<string
   return found;
 }
 
-/** The details as the server takes them; entries that are wrong are given as typed, for it to refuse. */
+/** The details as the server takes them; wrong entries are sent as typed, so that the server refuses them. */
 export function wireDetails(error: ErrorInfo, entries: Entries): Record<string, string> {
   return Object.fromEntries(
     error.details.flatMap((detail) => {
@@ -164,7 +164,7 @@ export function wireDetails(error: ErrorInfo, entries: Entries): Record<string, 
   );
 }
 
-/** The others that ask for something of the same name in the same way. */
+/** The other errors that have a detail of the same name with the same control. */
 export function kindred(error: ErrorInfo, others: readonly ErrorInfo[]): ErrorInfo[] {
   const alike = (other: ErrorInfo) => other.details.some((detail) => isOpen(detail) && sameKind(error, detail));
   return others.filter((other) => other.id !== error.id && alike(other));
@@ -174,7 +174,7 @@ function sameKind(error: ErrorInfo, detail: ErrorDetail): boolean {
   return error.details.some((own) => own.name === detail.name && own.control === detail.control && isOpen(own));
 }
 
-/** The entries of another error with those of this one taken over where they are of the same kind and valid there. */
+/** The entries of a different error, with those of this one taken over where the detail is the same and the value is valid there. */
 export function takenOver(from: ErrorInfo, entries: Entries, to: ErrorInfo, before: Entries): Entries {
   const next = { ...before };
   for (const detail of to.details) {

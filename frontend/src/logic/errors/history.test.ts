@@ -55,7 +55,7 @@ describe("the history", () => {
     expect(isFiltered({ ...everything, reaction: "unknown" })).toBe(true);
   });
 
-  it("is sorted, with what has no value at the end", () => {
+  it("is sorted, with rows without a value at the end", () => {
     expect(ids(historyLines(LINES, { ...everything, sort: { column: "by", down: false } }))).toBe("dabc");
     expect(ids(historyLines(LINES, { ...everything, sort: { column: "by", down: true } }))).toBe("adbc");
     expect(ids(historyLines(LINES, { ...everything, sort: { column: "reaction", down: false } }))).toBe("abcd");
@@ -63,7 +63,7 @@ describe("the history", () => {
     expect(ids(historyLines(LINES, { ...everything, sort: { column: "status", down: false } }))).toBe("bdac");
   });
 
-  it("goes up, down and back by clicks", () => {
+  it("is sorted up, down and as in the catalogue, by clicks on a column", () => {
     const up = sortedBy(null, "code");
     expect(up).toEqual({ column: "code", down: false });
     expect(sortedBy(up, "code")).toEqual({ column: "code", down: true });

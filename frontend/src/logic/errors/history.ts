@@ -1,10 +1,10 @@
-/** The error history as a table: filtered, sorted; of this PLC, of a version that ran before, or of an imported record. */
+/** The error history as a table, filtered and sorted: of this PLC, of an earlier program version, or of an imported record. */
 import type { ErrorHistoryRow, TestRecord } from "../../wire/types";
 import { isFinding, type ReactionFilter, reactionOf, verdictOf } from "./catalogue";
 
-/** A row, whoever tells it. */
+/** A row, from any of these sources. */
 export interface HistoryLine extends ErrorHistoryRow {
-  /** Why the finding was accepted, and by whom; empty: it was not. */
+  /** Why the finding was accepted, and by whom; empty: it was not accepted. */
   accepted?: string;
 }
 
@@ -35,13 +35,13 @@ export function isFiltered({ text, status, severity, reaction }: HistoryView): b
   return text.trim() !== "" || status !== "all" || severity !== "all" || reaction !== "all";
 }
 
-/** The rows to show, in the order wanted. */
+/** The rows to show, in the chosen order. */
 export function historyLines(lines: readonly HistoryLine[], view: HistoryView): HistoryLine[] {
   const shown = lines.filter((line) => passes(line, view));
   const { sort } = view;
   if (!sort) return shown;
   const sign = sort.down ? -1 : 1;
-  // What has no value stands at the end, whichever way it is sorted.
+  // Rows without a value come last, in both sort directions.
   return shown.sort((a, b) => {
     const [one, other] = [keyOf(a, sort.column), keyOf(b, sort.column)];
     if (one === null || other === null) return Number(one === null) - Number(other === null);
@@ -92,7 +92,7 @@ function keyOf(line: HistoryLine, column: Column): string | number | null {
   }
 }
 
-/** What a click on a column's head does: sorted by it, the other way round, as the catalogue has it. */
+/** Clicks on the head of a column sort by it, then in the other direction, then as in the catalogue. */
 export function sortedBy(sort: HistoryView["sort"], column: Column): HistoryView["sort"] {
   if (sort?.column !== column) return { column, down: false };
   return sort.down ? null : { column, down: true };

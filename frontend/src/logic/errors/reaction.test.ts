@@ -16,7 +16,7 @@ const reaction = (over: Partial<Reaction>): Reaction => ({
 });
 
 describe("a reaction", () => {
-  it("is told in a sentence, with what to do about a finding", () => {
+  it("is described in a sentence, with what to do about a finding", () => {
     expect(sentenceOf(reaction({}), "A402.12")).toBe("after 1 scan.");
     expect(sentenceOf(reaction({ first_effect: 3 }), "A402.12")).toBe("after 3 scans.");
     expect(sentenceOf(reaction({ verdict: "never_read" }), "A402.12")).toContain("A402.12");
@@ -30,7 +30,7 @@ describe("a reaction", () => {
     expect(nextStep("reacted", "A402.12")).toBe("");
   });
 
-  it("names each line that read once, with all that it read", () => {
+  it("lists each line that read the error once, with everything it read", () => {
     const reader = (line: number, what: "flag" | "code", scan: number) => ({
       file: "A.st",
       pou: "A",
@@ -45,7 +45,7 @@ describe("a reaction", () => {
     ]);
   });
 
-  it("takes handler lines that follow each other together", () => {
+  it("combines consecutive handler lines", () => {
     const line = (file: string, at: number) => ({ file, line: at });
     const lines = [line("B.st", 4), line("A.st", 8), line("A.st", 7), line("A.st", 12), line("A.st", 12)];
     expect(stretchesOf(reaction({ lines }))).toEqual([

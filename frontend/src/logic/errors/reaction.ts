@@ -1,18 +1,18 @@
-/** What is told about a reaction: a sentence, the places in the program, and what to do next. */
+/** The description of a reaction: a sentence, the places in the program, and what to do next. */
 
 import { t } from "../../text";
 import type { Reaction, Verdict } from "../../wire/types";
 
-/** One line of the program that had to do with an error. */
+/** A line of the program that took part in the reaction. */
 interface Place {
   file: string;
   line: number;
   what: "read" | "handler";
-  /** What it did, in words. */
+  /** What the line did, in words. */
   says: string;
 }
 
-/** The statements that read the error, each line once, with what it read first. */
+/** The lines that read the error, each once, with what it read first. */
 export function readersOf({ readers }: Reaction): Place[] {
   const found = new Map<string, { file: string; line: number; what: Set<string>; scan: number }>();
   for (const { file, line, what, scan } of readers) {
@@ -31,14 +31,14 @@ export function readersOf({ readers }: Reaction): Place[] {
   }));
 }
 
-/** Stretches of lines that were reached with the error only. */
+/** Ranges of lines that were executed only because of the error. */
 interface Stretch {
   file: string;
   from: number;
   to: number;
 }
 
-/** Handler lines that follow each other, taken together. */
+/** Consecutive handler lines, combined to ranges. */
 export function stretchesOf({ lines }: Reaction): Stretch[] {
   const inOrder = [...lines].sort((a, b) => a.file.localeCompare(b.file) || a.line - b.line);
   const found: Stretch[] = [];
@@ -59,7 +59,7 @@ export function sentenceOf(reaction: Reaction, flag: string): string {
   return t(`reaction.says.${verdict}`, values);
 }
 
-/** What to do about a finding; empty when nothing is missing. */
+/** What to do about a finding; empty when the program missed nothing. */
 export function nextStep(verdict: Verdict, flag: string): string {
   if (verdict === "reacted" || verdict === "stopped") return "";
   return t(`reaction.next.${verdict}`, { flag });

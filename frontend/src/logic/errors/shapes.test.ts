@@ -4,7 +4,7 @@ import { isPlain, plainShape, readShape, type ShapeForm, scansOf } from "./shape
 const form = (over: Partial<ShapeForm>): ShapeForm => ({ ...plainShape, ...over });
 
 describe("the shape of a fault", () => {
-  it("is an ordinary Generate at once and to stay", () => {
+  it("is by default an ordinary Generate: now, and permanent", () => {
     expect(isPlain(plainShape)).toBe(true);
     expect(isPlain(form({ how: "for" }))).toBe(false);
     expect(isPlain(form({ when: "line" }))).toBe(false);
@@ -15,13 +15,13 @@ describe("the shape of a fault", () => {
     });
   });
 
-  it("begins at a scan that is still to come", () => {
+  it("begins at a future scan", () => {
     expect(readShape(form({ when: "scan", scan: "1 500" }), 1000).start.scan).toBe(1500);
     expect(readShape(form({ when: "scan", scan: "900" }), 1000).troubles).toEqual({ scan: "shape.bad.past" });
     expect(readShape(form({ when: "scan", scan: "soon" }), 1000).troubles).toEqual({ scan: "shape.bad.scan" });
   });
 
-  it("begins with a condition or at a line", () => {
+  it("begins when a condition holds, or at a line", () => {
     expect(readShape(form({ when: "condition", condition: " Main.n > 3 " })).start.condition).toBe("Main.n > 3");
     expect(readShape(form({ when: "condition" })).troubles).toEqual({ condition: "run.noexpression" });
     expect(readShape(form({ when: "line", place: "blocks/FB_Belt.st:29" })).start).toMatchObject({
@@ -31,7 +31,7 @@ describe("the shape of a fault", () => {
     expect(readShape(form({ when: "line", place: "FB_Belt.st" })).troubles).toEqual({ place: "shape.bad.place" });
   });
 
-  it("goes on as its own fields say, and does not judge the others", () => {
+  it("continues as the visible fields say; hidden fields are not checked", () => {
     expect(readShape(form({ how: "for", scans: "5", period: "x", times: "y" }))).toMatchObject({
       shape: { kind: "for", scans: 5 },
       troubles: {},
@@ -44,7 +44,7 @@ describe("the shape of a fault", () => {
     expect(readShape(gone).shape).toMatchObject({ scans: 3, acknowledge: "reset" });
   });
 
-  it("says which field is wrong", () => {
+  it("names the field that is wrong", () => {
     expect(readShape(form({ how: "for", scans: "0" })).troubles).toEqual({ scans: "shape.bad.count" });
     expect(readShape(form({ how: "intermittent", scans: "10", period: "10" })).troubles).toEqual({
       period: "shape.bad.period",
@@ -53,7 +53,7 @@ describe("the shape of a fault", () => {
     expect(readShape(form({ how: "chatter", times: "-1" })).troubles).toEqual({ times: "shape.bad.count" });
   });
 
-  it("counts milliseconds as scans", () => {
+  it("converts milliseconds to scans", () => {
     expect(scansOf(100, 10_000_000)).toBe(10);
     expect(scansOf(1, 10_000_000)).toBe(1);
   });

@@ -1,4 +1,4 @@
-/** When a fault begins and how it goes on: the fields as typed, and what the server is told. */
+/** When a fault begins and how it continues: the fields as typed, and the request to the server. */
 
 import type { TextKey } from "../../text";
 import type { FaultShape, FaultStart } from "../../wire/types";
@@ -39,7 +39,7 @@ export const plainShape: ShapeForm = {
   acknowledge: "",
 };
 
-/** At once, and until somebody recovers it: an ordinary Generate. */
+/** Now, and until somebody recovers it: an ordinary Generate. */
 export const isPlain = (form: ShapeForm): boolean => form.when === "now" && form.how === "stay";
 
 interface ReadShape {
@@ -48,7 +48,7 @@ interface ReadShape {
   troubles: Partial<Record<ShapeField, TextKey>>;
 }
 
-/** Reads what was typed; fields that are not shown are not judged. `now` is the scan that the PLC has reached. */
+/** Reads the typed fields; hidden fields are not checked. `now` is the scan that the PLC has reached. */
 export function readShape(form: ShapeForm, now = 0): ReadShape {
   const troubles: ReadShape["troubles"] = {};
   return { start: readStart(form, now, troubles), shape: readHow(form, troubles), troubles };
@@ -96,7 +96,7 @@ function readHow(form: ShapeForm, troubles: ReadShape["troubles"]): FaultShape {
   return shape;
 }
 
-/** Milliseconds as scans of a task: one at least. */
+/** Milliseconds as scans of a task; at least one. */
 export function scansOf(ms: number, interval_ns: number): number {
   return Math.max(1, Math.round((ms * 1e6) / Math.max(1, interval_ns)));
 }

@@ -92,14 +92,14 @@ describe("matrixRows", () => {
     ]);
   });
 
-  it("says once what all states have in common", () => {
+  it("shows a result once when it is the same in all states", () => {
     const rows = matrixRows(full, ALL);
     expect(rowOf(rows, "memory").line).toEqual({ what: "stopped" });
     expect(rowOf(rows, "setup").line).toEqual({ what: "note", note: "Not on this model" });
     expect(rowOf(rows, "battery").line).toBeNull();
   });
 
-  it("keeps cells apart that could not be raised for different reasons", () => {
+  it("shows cells separately when they could not be raised for different reasons", () => {
     const rows = matrixRows(
       sweep([cell("setup", "Idle", null, { note: "a" }), cell("setup", "Running", null, { note: "b" })]),
       ALL,
@@ -107,7 +107,7 @@ describe("matrixRows", () => {
     expect(rowOf(rows, "setup").line).toBeNull();
   });
 
-  it("tells the cell that is tried now from those that wait", () => {
+  it("distinguishes the cell that runs now from those that wait", () => {
     const rows = matrixRows(
       sweep(
         [
@@ -124,13 +124,13 @@ describe("matrixRows", () => {
     expect(rowOf(rows, "setup").line).toEqual({ what: "waiting" });
   });
 
-  it("waits for nothing after a sweep was cancelled", () => {
+  it("shows no waiting cells after a sweep was cancelled", () => {
     const rows = matrixRows(sweep([cell("memory", "Idle", "stopped")], { status: "cancelled" }), ALL);
     expect(rowOf(rows, "memory").slots[1]).toBe("missing");
     expect(rowOf(rows, "setup").line).toEqual({ what: "missing" });
   });
 
-  it("leaves out what is no open finding, with the groups that become empty", () => {
+  it("omits rows without an open finding, and the groups that become empty", () => {
     const rows = matrixRows(full, { findings: true, verdict: null });
     expect(rows.map((row) => row.kind)).toEqual(["group", "error"]);
     expect(errorsIn(rows)).toEqual(["battery"]);
@@ -144,14 +144,14 @@ describe("matrixRows", () => {
     expect(errorsIn(matrixRows(full, { findings: false, verdict: "none" }))).toEqual(["setup"]);
   });
 
-  it("begins to look at the first finding that nobody accepted", () => {
+  it("starts the search at the first finding that nobody accepted", () => {
     expect(firstFinding(matrixRows(full, ALL))).toEqual({ error: "battery", state: "Idle" });
     expect(firstFinding(matrixRows(sweep([]), ALL))).toBeNull();
   });
 });
 
 describe("countCells", () => {
-  it("counts an accepted finding as accepted only", () => {
+  it("counts an accepted finding only as accepted", () => {
     const found = sweep([
       cell("memory", "Idle", "stopped"),
       cell("battery", "Idle", "never_read", { accepted: { reason: "r", by: "Ann", at: "" } }),
@@ -171,26 +171,26 @@ describe("stepIn", () => {
   const rows = matrixRows(sweep([]), ALL);
   const step = (row: number, column: number, key: string) => stepIn(rows, 2, { row, column }, key, 10);
 
-  it("passes over the names of groups", () => {
+  it("skips the names of groups", () => {
     expect(step(1, 1, "ArrowDown")).toEqual({ row: 3, column: 1 });
     expect(step(3, 1, "ArrowUp")).toEqual({ row: 1, column: 1 });
   });
 
-  it("stays inside", () => {
+  it("stays inside the matrix", () => {
     expect(step(1, 0, "ArrowUp")).toEqual({ row: 1, column: 0 });
     expect(step(1, 0, "ArrowLeft")).toEqual({ row: 1, column: 0 });
     expect(step(4, 1, "ArrowRight")).toEqual({ row: 4, column: 1 });
     expect(step(1, 0, "PageDown")).toEqual({ row: 4, column: 0 });
   });
 
-  it("leads to the ends of a row and of all", () => {
+  it("goes to the ends of a row and of the matrix", () => {
     expect(step(3, 0, "End")).toEqual({ row: 3, column: 1 });
     expect(step(3, 1, "Home")).toEqual({ row: 3, column: 0 });
     expect(step(1, 0, "Ctrl+End")).toEqual({ row: 4, column: 1 });
     expect(step(4, 1, "Ctrl+Home")).toEqual({ row: 1, column: 0 });
   });
 
-  it("begins at the first error, and leaves other keys alone", () => {
+  it("begins at the first error, and ignores other keys", () => {
     expect(stepIn(rows, 2, null, "ArrowDown", 10)).toEqual({ row: 1, column: 0 });
     expect(stepIn(rows, 2, null, "x", 10)).toBeNull();
     expect(step(1, 0, "x")).toBeNull();
@@ -204,7 +204,7 @@ describe("merged", () => {
     return { ...summary, ...more };
   };
 
-  it("puts new cells in the place of those of before, and keeps the others as they are", () => {
+  it("replaces cells that have a new result, and keeps the others as they are", () => {
     const before = sweep([cell("memory", "Idle", "stopped"), cell("battery", "Idle", "never_read")]);
     const after = merged(before, told({ done: 3 }), [
       cell("battery", "Idle", "reacted"),
@@ -219,7 +219,7 @@ describe("merged", () => {
     expect(after.cells[0]).toBe(before.cells[0]);
   });
 
-  it("keeps errors and cells where the news is a whole sweep of a moment before", () => {
+  it("keeps errors and cells when the summary is a whole, older sweep", () => {
     const before = sweep([cell("memory", "Idle", "stopped"), cell("battery", "Idle", "never_read")]);
     const after = merged(before, sweep([], { done: 5, errors: [] }), []);
     expect(after.done).toBe(5);
@@ -229,24 +229,24 @@ describe("merged", () => {
 });
 
 describe("secondsLeft", () => {
-  it("goes by what it took so far", () => {
+  it("is estimated from the time that the results took so far", () => {
     expect(secondsLeft(sweep([], { status: "running", done: 90, total: 120, seconds: 9 }))).toBeCloseTo(3);
   });
 
-  it("says nothing before the first result, and after the end", () => {
+  it("is unknown before the first result, and after the end", () => {
     expect(secondsLeft(sweep([], { status: "running", done: 0, seconds: 9 }))).toBeNull();
     expect(secondsLeft(sweep([], { status: "done", done: 6 }))).toBeNull();
   });
 });
 
 describe("comparing", () => {
-  it("takes the older sweep as before", () => {
+  it('takes the older sweep as "before"', () => {
     const list = [sweep([], { id: 5, at: "2026-11-21T15:00" }), sweep([], { id: 3, at: "2026-11-21T14:00" })];
     expect(olderFirst(list, 5, 3)).toEqual([3, 5]);
     expect(olderFirst(list, 3, 5)).toEqual([3, 5]);
   });
 
-  it("shows what is worse first, and the same only on demand", () => {
+  it("lists what became worse first, and unchanged cells only on demand", () => {
     const change = (error: string, kind: SweepChange["change"]): SweepChange => ({
       error,
       name: error,

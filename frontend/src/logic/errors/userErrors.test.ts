@@ -27,13 +27,13 @@ const model = {
 const error = (changed: Partial<UserError>): UserError => ({ ...newError([], model), ...changed });
 
 describe("ids", () => {
-  it("come from the name", () => {
+  it("are made from the name", () => {
     expect(idOf("Pump 2 overheated!")).toBe("pump-2-overheated");
     expect(idOf("2nd pump")).toBe("nd-pump");
     expect(idOf("ポンプ")).toBe("");
     expect(idOf(`${"a".repeat(63)} b`)).toMatch(/^a+$/);
   });
-  it("are counted on when somebody has them", () => {
+  it("get a number when the id is already used", () => {
     expect(freeId("pump", [])).toBe("pump");
     expect(freeId("pump", ["pump", "pump-2"])).toBe("pump-3");
     expect(freeId("pump-2", ["pump-2"])).toBe("pump-3");
@@ -41,32 +41,32 @@ describe("ids", () => {
 });
 
 describe("texts", () => {
-  it("keep English first, and leave out what says nothing", () => {
+  it("keep English first, and omit empty languages", () => {
     const japanese = withText([], "ja", "name", "ポンプ");
     const both = withText(japanese, "en", "name", "Pump");
     expect(both.map(({ language }) => language)).toEqual(["en", "ja"]);
     expect(textOf(both, "ja", "name")).toBe("ポンプ");
     expect(withText(both, "ja", "name", "").map(({ language }) => language)).toEqual(["en"]);
   });
-  it("of groups are paths", () => {
+  it("of groups are written as paths", () => {
     expect(readGroup(" Pumps /Cooling/ ")).toEqual(["Pumps", "Cooling"]);
     expect(groupText(["Pumps", "Cooling"])).toBe("Pumps / Cooling");
   });
 });
 
 describe("new errors", () => {
-  it("go on from the last one", () => {
+  it("continue after the last one", () => {
     const first = error({ id: "a", group: ["Pumps"], code: "4101", priority: "1200" });
     const second = newError([first], model);
     expect([second.group, second.code, second.priority]).toEqual([["Pumps"], "4102", "1201"]);
     expect(newError([], model).code).toBe("");
   });
-  it("are copied under another id and code", () => {
+  it("are copied with a different id and code", () => {
     const first = error({ id: "a", code: "41FF", flag: "W10.00" });
     const copy = duplicate(first, [first], model);
     expect([copy.id, copy.code, copy.flag]).toEqual(["a-2", "4200", "W10.00"]);
   });
-  it("begin with an example that the model takes", () => {
+  it("begin with an example that the model accepts", () => {
     const example = exampleFor(model);
     expect([example.flag, example.code, example.id]).toEqual(["W10.00", "4F02", "pump-overheated"]);
     expect(exampleFor(null).flag).toBe("");
@@ -74,7 +74,7 @@ describe("new errors", () => {
 });
 
 describe("details", () => {
-  it("change the way they are asked for, and keep where they write", () => {
+  it("change their control, and keep the addresses that they write", () => {
     const list = newDetail("List", []);
     list.addresses = list.addresses.map((address) => ({ ...address, id: "north", address: "W12.03", value: "3" }));
     const spin = withControl(list, "Spin");

@@ -1,4 +1,4 @@
-/** Errors that a project defines itself, as a form edits them: every field a text, right or wrong. */
+/** Errors that a project defines itself, as a form edits them: every field is a text, valid or not. */
 import type { ModelInfo, UserAddress, UserDetail, UserError, UserProblem, UserText } from "../../wire/types";
 
 /** The project's file that holds them. */
@@ -6,7 +6,7 @@ export const USER_ERRORS = "errors.xml";
 const SEPARATOR = " / ";
 const ID_LENGTH = 64;
 
-/** A name as an id: `Pump 2 overheated` is `pump-2-overheated`; '' where nothing of it can be in one. */
+/** A name as an id: `Pump 2 overheated` is `pump-2-overheated`; '' where no character of it may be in an id. */
 export function idOf(name: string): string {
   const words = name.toLowerCase().match(/[a-z0-9]+/g) ?? [];
   return words
@@ -16,7 +16,7 @@ export function idOf(name: string): string {
     .replace(/-$/, "");
 }
 
-/** The id itself, or the next one with a number that nobody has. */
+/** The id itself, or with the next number that is not used. */
 export function freeId(wanted: string, taken: readonly string[]): string {
   const base = wanted.replace(/-\d+$/, "");
   let id = wanted;
@@ -28,7 +28,7 @@ export function textOf(texts: readonly UserText[], language: string, what: "name
   return texts.find((text) => text.language === language)?.[what] ?? "";
 }
 
-/** The texts with one of them changed; English stands first, and a language in which nothing is said is left out. */
+/** The texts with one of them changed; English comes first, and a language without texts is omitted. */
 export function withText(
   texts: readonly UserText[],
   language: string,
@@ -84,7 +84,7 @@ export function newDetail(control: Control, taken: readonly string[]): UserDetai
   };
 }
 
-/** What a detail is when it is asked for in another way; what both ways have stays. */
+/** A detail with a different control; the properties that both controls have stay. */
 export function withControl(detail: UserDetail, control: Control): UserDetail {
   const [first = newChoice()] = detail.addresses;
   if (control === "List") {
@@ -96,7 +96,7 @@ export function withControl(detail: UserDetail, control: Control): UserDetail {
   return { ...detail, control, default: "", addresses: [{ ...number, ...limits }] };
 }
 
-/** An error to begin with: in the group of the one before it, less serious than all others, its code the next one. */
+/** A new error: in the group of the previous one, less severe than all others, with the next code. */
 export function newError(errors: readonly UserError[], model: ModelInfo | null): UserError {
   const last = errors.at(-1);
   const priorities = errors.map((error) => Number(error.priority)).filter(Number.isInteger);
@@ -118,7 +118,7 @@ export function newError(errors: readonly UserError[], model: ModelInfo | null):
   };
 }
 
-/** The code behind the highest one of the project's own; of the first error it cannot be guessed. */
+/** The code after the highest one of the project's own errors; '' for the first error, whose code cannot be guessed. */
 function nextCode(errors: readonly UserError[], model: ModelInfo | null): string {
   const sample = errors.at(-1)?.code ?? (model ? firstCode(model) : "");
   const decimal = isDecimal(model);
@@ -130,7 +130,7 @@ function nextCode(errors: readonly UserError[], model: ModelInfo | null): string
 
 const firstCode = (model: ModelInfo): string => model.catalogue.flatMap((group) => group.errors)[0]?.code ?? "";
 
-/** Devices show their codes in four or eight hexadecimal digits, or decimal, of any length. */
+/** Devices show their codes in four or eight hexadecimal digits, or in decimal with any number of digits. */
 function isDecimal(model: ModelInfo | null): boolean {
   const codes = model?.catalogue.flatMap((group) => codesOf(group)) ?? [];
   return codes.length > 0 && codes.every((code) => /^\d+$/.test(code)) && new Set(codes.map((c) => c.length)).size > 1;
@@ -161,11 +161,11 @@ export function problemsOf(problems: readonly UserProblem[], index: number): Rea
   return found;
 }
 
-/** Problems that belong to no error. */
+/** Problems that belong to no single error. */
 export const generalProblems = (problems: readonly UserProblem[]) =>
   problems.filter(({ path }) => !path.startsWith("errors."));
 
-/** An error that somebody without any can begin with: its flag is a bit of the model that everybody may write. */
+/** An example error for a project that has none: its flag is a bit of the model that everybody may write. */
 export function exampleFor(model: ModelInfo | null): UserError {
   const open = model?.areas.find(
     ({ program, tool, retain, name }) => program === "write" && tool === "write" && !retain && !OUTSIDE.test(name),
@@ -186,7 +186,7 @@ export function exampleFor(model: ModelInfo | null): UserError {
   };
 }
 
-/** Inputs and outputs are somebody else's. */
+/** Areas of inputs and outputs, which belong to the machine: an example's flag must not be there. */
 const OUTSIDE = /^(CIO|X|Y|I|Q|%I|%Q)$/;
 
 /** A bit some way into the area: `W0` is `W10.00`, `%MW0` is `%MX10.0`, `M0` (which counts bits) is `M100`. */

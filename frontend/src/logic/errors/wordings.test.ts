@@ -30,7 +30,7 @@ const groups = [
 ] as unknown as ErrorGroup[];
 
 describe("a catalogue in a language", () => {
-  it("has names, descriptions, details and choices in it, and keeps the key of a detail", () => {
+  it("has its names, descriptions, details and choices, and keeps the keys of details", () => {
     const [group] = inLanguage(groups, "ja");
     expect(group?.name).toBe("運転停止異常");
     const error = group?.errors[0];
@@ -39,7 +39,7 @@ describe("a catalogue in a language", () => {
     expect(error?.details[0]?.choices?.[0]).toMatchObject({ id: "table", description: "I/Oテーブル" });
   });
 
-  it("keeps the other name to be found, and stays where there is no wording", () => {
+  it("can also be searched by the other name, and is unchanged without a wording", () => {
     const [group] = inLanguage(groups, "ja");
     expect(group?.errors[0]?.wordings?.map((wording) => wording.name)).toContain("Memory error");
     expect(group?.errors[1]).toMatchObject({ name: "Plain", description: "No other words." });

@@ -1,4 +1,4 @@
-/** The catalogue in one language. What it was called before stays in `wordings`, so that both names are found. */
+/** The catalogue in one language. The other names stay in `wordings`, so that a search finds both. */
 import type { ErrorDetail, ErrorGroup, ErrorInfo } from "../../wire/types";
 
 type Wording = NonNullable<ErrorInfo["wordings"]>[number];
@@ -9,7 +9,7 @@ interface Worded {
   wordings?: Wording[];
 }
 
-/** Groups, errors, details and choices with the names and descriptions of a language; what has none stays as it is. */
+/** Groups, errors, details and choices with the names and descriptions of a language; those without a wording stay as they are. */
 export function inLanguage(groups: readonly ErrorGroup[], language: string): ErrorGroup[] {
   return groups.map((group) => ({
     ...worded(group, language),

@@ -1,11 +1,11 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { spaced } from "./debounce";
 
-describe("a deed that many reasons call for", () => {
+describe("a debounced call", () => {
   beforeEach(() => void vi.useFakeTimers());
   afterEach(() => void vi.useRealTimers());
 
-  it("is done once for all reasons of a moment", () => {
+  it("runs once for several requests in a short time", () => {
     const deed = vi.fn();
     const call = spaced(deed, 150);
     call();
@@ -15,7 +15,7 @@ describe("a deed that many reasons call for", () => {
     expect(deed).toHaveBeenCalledTimes(1);
   });
 
-  it("is done although the reasons never end", () => {
+  it("runs although requests never stop", () => {
     const deed = vi.fn();
     const call = spaced(deed, 150);
     for (let ms = 0; ms < 1500; ms += 50) {
@@ -25,7 +25,7 @@ describe("a deed that many reasons call for", () => {
     expect(deed.mock.calls.length).toBeGreaterThan(5);
   });
 
-  it("is not done when it was cancelled", () => {
+  it("does not run after it was cancelled", () => {
     const deed = vi.fn();
     const call = spaced(deed, 150);
     call();

@@ -1,11 +1,11 @@
-/** A deed that many reasons call for: done a moment after the first of them, and once for all that came until then. */
+/** Debounce: a call runs a moment after the first request, once for all requests that came until then. */
 
 interface Spaced {
   (): void;
   cancel: () => void;
 }
 
-/** Reasons that keep coming never put it off: it is done every `delay` milliseconds then. */
+/** Continuous requests do not postpone the call: it then runs every `delay` milliseconds. */
 export function spaced(deed: () => void, delay: number): Spaced {
   let timer: ReturnType<typeof setTimeout> | undefined;
   const call = () => {

@@ -28,14 +28,14 @@ describe("a value in a format", () => {
     expect(inFormat(shape, bits, format)).toBe(text);
   });
 
-  it("is the usual one where the type has no such format", () => {
+  it("is the default one where the type has no such format", () => {
     expect(inFormat(word, 1n, "float")).toBeNull();
     expect(inFormat({ kind: "bool", size: 1 }, 1n, "hex")).toBeNull();
     expect(formatsFor({ kind: "string", size: 80 })).toEqual([]);
   });
 });
 
-describe("what is typed in a format", () => {
+describe("an entry in a format", () => {
   it.each<[ValueShape, Format, string, string]>([
     [int, "hex", "FFFE", "-2"],
     [word, "hex", "ff", "255"],

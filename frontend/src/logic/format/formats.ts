@@ -1,8 +1,8 @@
-/** Numbers in the notation that somebody chose for a row, and back: what is typed there is meant in that notation. */
+/** Numbers in the format that somebody chose for a row. Entries in that row are read in the same format. */
 import type { PlcSymbol, WatchEntry } from "../../wire/types";
 import { formatTime } from "./durations";
 
-/** How a value can be shown; `default` is what its type suggests. */
+/** How a value can be shown; `default` is the usual format of its type. */
 export const FORMATS = [
   "default",
   "decimal",
@@ -29,7 +29,7 @@ export function formatsFor(shape: ValueShape): readonly Format[] {
   return [...all, ...(shape.size >= 4 ? (["float"] as const) : []), "time", "ascii"];
 }
 
-/** The text of a value (its bits, as an unsigned number); null where its type has no such format, and shows the usual one. */
+/** The text of a value (its bits, as an unsigned number); null where its type has no such format, and the default one is shown. */
 export function inFormat(shape: ValueShape, bits: bigint, format: Format): string | null {
   if (!formatsFor(shape).includes(format)) return null;
   const signed = BigInt.asIntN(shape.size * 8, bits);
@@ -68,7 +68,7 @@ export function based(value: bigint, size: number, format: "hex" | "binary"): st
 
 const milliseconds = (ns: bigint) => `${Number(ns) / 1e6}`;
 
-/** Decimal digits, four bits each; what is no digit shows that the value is no BCD. */
+/** Decimal digits, four bits each; a digit above 9 shows that the value is not BCD. */
 function bcd(bits: bigint, size: number): string {
   const digits = bits
     .toString(16)
@@ -85,7 +85,7 @@ function float(bits: bigint, size: number): string {
   return /[.eNI]/.test(text) ? text : `${text}.0`;
 }
 
-/** The first character is the one of the highest byte, as the number is read; what cannot be printed is a dot. */
+/** The first character is that of the highest byte, as in the number; characters that cannot be printed are dots. */
 function ascii(bits: bigint, size: number): string {
   let text = "";
   for (let byte = size - 1; byte >= 0; byte -= 1) {
@@ -97,8 +97,8 @@ function ascii(bits: bigint, size: number): string {
 
 const MS = { d: 86_400_000, h: 3_600_000, m: 60_000, s: 1000, ms: 1, us: 0.001, ns: 0.000001 };
 
-/** What was typed into a row of this format, as a literal that the PLC takes for this type. A literal with `#` says itself
- * what it is; what cannot be read goes as it is, and the PLC says why it is none. */
+/** An entry in a row of this format, as a literal that the PLC takes for this type. A literal with `#` states its own
+ * type; an entry that cannot be read is sent as it is, and the PLC says why it is refused. */
 export function literalOf(shape: ValueShape, format: Format, typed: string): string {
   const text = typed.trim();
   if (!formatsFor(shape).includes(format) || /[#]/.test(text.replace(/^L?(T|TIME)#/i, ""))) return text;
@@ -107,7 +107,7 @@ export function literalOf(shape: ValueShape, format: Format, typed: string): str
   if (shape.kind === "time") return `T#${bits}ms`;
   const wide = BigInt.asUintN(shape.size * 8, bits);
   if (shape.kind === "real") return based(wide, shape.size, "hex");
-  // A number that does not fit is sent as it is, so that the refusal names what was typed.
+  // A number that does not fit is sent as typed, so that the refusal quotes it.
   if (wide !== bits && BigInt.asIntN(shape.size * 8, bits) !== bits) return bits.toString();
   return (shape.kind === "int" ? BigInt.asIntN(shape.size * 8, bits) : wide).toString();
 }

@@ -1,4 +1,4 @@
-/** What an error says, for whoever shows it. */
+/** The message of a caught error. */
 export function messageOf(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }

@@ -7,7 +7,7 @@ export function grouped(value: number): string {
     .replace(/\B(?=(\d{3})+(?!\d))/g, "\u2009");
 }
 
-/** PLC time as 00:21:24.110; days are put in front when there are any. */
+/** PLC time as 00:21:24.110; with the number of days before it when there are any. */
 export function plcTime(ns: number): string {
   const ms = Math.floor(ns / 1e6);
   const pad = (value: number, width: number) => Math.floor(value).toString().padStart(width, "0");

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { chosenFor, isAddress, noPathIn, pathsIn, splitPath } from "./paths";
 
 describe("paths", () => {
-  it("are split before the last name; addresses stay whole", () => {
+  it("are split before the last name; addresses are not split", () => {
     expect(splitPath("Main.belt[3].enable")).toEqual({ own: "Main.belt[3].", name: "enable" });
     expect(splitPath("Main.tank[1..3]")).toEqual({ own: "Main.", name: "tank[1..3]" });
     expect(splitPath("Main.a[1].b[i.x]")).toEqual({ own: "Main.a[1].", name: "b[i.x]" });
@@ -11,7 +11,7 @@ describe("paths", () => {
     expect(splitPath("CIO 0.00")).toEqual({ own: "", name: "CIO 0.00" });
   });
 
-  it("know addresses", () => {
+  it("recognise addresses", () => {
     expect(["%MW3", "D100", "0.00", "CIO 1.05", "W10:8"].every(isAddress)).toBe(true);
     expect(["Main.x1", "start", "belt3"].some(isAddress)).toBe(false);
   });
@@ -24,7 +24,7 @@ describe("paths", () => {
     expect(pathsIn("  ")).toEqual([]);
   });
 
-  it("are told from expressions, which are not taken apart", () => {
+  it("are distinguished from expressions, which are not split", () => {
     for (const text of ["a + 3", "Main.a\nMain.b > 3", "a+b", "F(2)", "NOT Main.run", "a MOD b"])
       expect(noPathIn(text)).not.toBeNull();
     expect(noPathIn("Main.x, Main.tank[2].level + 3")).toBe("Main.tank[2].level + 3");
@@ -41,7 +41,7 @@ describe("paths", () => {
       expect(noPathIn(text)).toBeNull();
   });
 
-  it("have what was chosen for themselves, else for the nearest owner", () => {
+  it("take the choice made for themselves, else for the nearest owner", () => {
     const chosen = new Map([
       ["Main.a.z", "outer"],
       ["Main.a.z.io", "inner"],

@@ -1,11 +1,11 @@
-/** Instance paths as they are read: the way to the variable is faint, the last name is bright. */
+/** Instance paths as they are shown: the path to the variable is faint, the last name is bright. */
 
 interface SplitPath {
   own: string;
   name: string;
 }
 
-/** `Main.belt[3].enable` to `Main.belt[3].` and `enable`; an address such as `A402.12` stays whole. */
+/** `Main.belt[3].enable` to `Main.belt[3].` and `enable`; an address such as `A402.12` is not split. */
 export function splitPath(path: string): SplitPath {
   if (isAddress(path)) return { own: "", name: path };
   const dot = path.replace(/\[[^\]]*\]/g, (index) => "_".repeat(index.length)).lastIndexOf(".");
@@ -17,13 +17,13 @@ export function isAddress(path: string): boolean {
   return path.startsWith("%") || /^[A-Za-z]{0,3} ?\d+(\.\d+)?(:\d+)?$/.test(path);
 }
 
-/** The paths in a dropped or pasted text: one a line, or separated by commas or blanks; `CIO 0.00` is one address, and the
- * commas of `a[2,1]` separate nothing. What is no path is left out. */
+/** The paths in a dropped or pasted text: one a line, or separated by commas or spaces; `CIO 0.00` is one address, and the
+ * comma in `a[2,1]` is not a separator. Text that is not a path is omitted. */
 export function pathsIn(text: string): string[] {
   return piecesOf(text).flatMap(wordsOf).filter(isPath);
 }
 
-/** What of a typed text is meant as one thing and is no path: `a + 3`; null when all are paths. */
+/** The first part of a typed text that is an expression and not a path: `a + 3`; null when all parts are paths. */
 export function noPathIn(text: string): string | null {
   const odd = (word: string) => !isPath(word) || /^(AND|OR|XOR|NOT|MOD)$/i.test(word);
   return piecesOf(text).find((piece) => wordsOf(piece).some(odd)) ?? null;
@@ -39,7 +39,7 @@ const wordsOf = (piece: string) => (isAddress(piece) ? [piece] : piece.split(/\s
 
 const isPath = (word: string) => isAddress(word) || /^%?[\p{L}_\d][\p{L}\d_.[\]:%,^-]*$/u.test(word);
 
-/** What was chosen for a path itself, else for the nearest one that it stands in; case does not matter, as to the PLC. */
+/** The choice made for a path itself, else for its nearest owner; case is ignored, as in the PLC. */
 export function chosenFor<T>(chosen: ReadonlyMap<string, T>, path: string): T | undefined {
   const wanted = path.toUpperCase();
   let best = -1;

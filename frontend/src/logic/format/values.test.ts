@@ -24,7 +24,7 @@ describe("formatValue", () => {
     expect(text({ kind: "bits", size: 2 }, set, "decimal")).toBe("33012");
   });
 
-  it("shows REAL with the digits that it has, not those of LREAL", () => {
+  it("shows REAL with its own digits, not with those of LREAL", () => {
     expect(text({ kind: "real", size: 4 }, (v) => v.setFloat32(0, 0.1, true))).toBe("0.1");
     expect(text({ kind: "real", size: 4 }, (v) => v.setFloat32(0, 16777216, true))).toBe("16777216.0");
     expect(text({ kind: "real", size: 8 }, (v) => v.setFloat64(0, 0.1 + 0.2, true))).toBe("0.30000000000000004");
@@ -32,7 +32,7 @@ describe("formatValue", () => {
     expect(text({ kind: "real", size: 4 }, (v) => v.setFloat32(0, Number.NaN, true))).toBe("NaN");
   });
 
-  it("shows an enumeration by name, and a number without one as it is", () => {
+  it("shows an enumeration by name, and a number without a name as it is", () => {
     const colour: ValueShape = { kind: "int", size: 2, type: "Color", values: [{ name: "RED", value: -1 }] };
     expect(text(colour, (v) => v.setInt16(0, -1, true))).toBe("RED");
     expect(text(colour, (v) => v.setInt16(0, 7, true))).toBe("7");
@@ -47,7 +47,7 @@ describe("formatValue", () => {
     expect(text({ kind: "ref", size: 8 }, () => undefined)).toBe("NULL");
   });
 
-  it("shows BOOL as the language writes it", () => {
+  it("shows BOOL as TRUE and FALSE", () => {
     expect(text({ kind: "bool", size: 1 }, (v) => v.setUint8(0, 1))).toBe("TRUE");
     expect(text({ kind: "bool", size: 1 }, () => undefined)).toBe("FALSE");
   });

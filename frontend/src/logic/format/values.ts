@@ -1,16 +1,16 @@
-/** Raw bytes of a variable to the text that a programmer knows, by the symbol's kind. */
+/** Converts the raw bytes of a variable to the text that a programmer expects, by the symbol's kind. */
 import { formatTime } from "./durations";
 import { based, type Format, inFormat, type ValueShape } from "./formats";
 
-/** What a row is sorted by: numbers by size, texts as people count; what has nothing stands at the end. */
+/** The sort key of a row: numbers sort by size, texts alphabetically with numbers by size, rows without a value last. */
 export type SortKey = number | bigint | string | null;
 
-/** True, false, or null for what is not a BOOL: decides about the lamp in front of the value. */
+/** True, false, or null for a value that is not a BOOL: decides about the lamp before the value. */
 export function lampOf(shape: ValueShape, view: DataView, offset: number): boolean | null {
   return shape.kind === "bool" ? view.getUint8(offset) !== 0 : null;
 }
 
-/** The text of the value that stands in the eight bytes from `offset`. */
+/** The text of the value in the eight bytes from `offset`. */
 export function formatValue(shape: ValueShape, view: DataView, offset: number, format: Format = "default"): string {
   if (format !== "default") {
     const shown = inFormat(shape, bitsOf(shape.size, view, offset), format);
@@ -47,7 +47,7 @@ export function formatValue(shape: ValueShape, view: DataView, offset: number, f
   }
 }
 
-/** What the value that stands in the eight bytes from `offset` is sorted by. */
+/** The sort key of the value in the eight bytes from `offset`. */
 export function sortKeyAt(shape: ValueShape, view: DataView, offset: number): number | bigint {
   if (shape.kind === "real") return shape.size === 4 ? view.getFloat32(offset, true) : view.getFloat64(offset, true);
   const isSigned = shape.kind === "int" || shape.kind === "time" || shape.kind === "date";

@@ -27,25 +27,25 @@ const change = (path: string, before: string, after: string): VariableChange => 
 const CHANGES = [change("Main.belt[1].speed", "0", "25"), change("Main.count", "7", "8")];
 
 describe("changes", () => {
-  it("are filtered by every word, of path, type and values", () => {
+  it("are filtered by every word: in path, type and values", () => {
     expect(filterChanges(CHANGES, "belt 25").map(({ path }) => path)).toEqual(["Main.belt[1].speed"]);
     expect(filterChanges(CHANGES, "int")).toHaveLength(2);
     expect(filterChanges(CHANGES, "belt 8")).toEqual([]);
     expect(filterChanges(CHANGES, "  ")).toHaveLength(2);
   });
 
-  it("are copied as a table whose cells stay cells", () => {
+  it("are copied as a table that keeps its columns", () => {
     const text = changesAsText([change("Main.s", "'a\tb'", "'c'")], ["Scan 1", "Scan 2"]);
     expect(text.split("\n").map((line) => line.split("\t").length)).toEqual([4, 4]);
     expect(text).toContain("Scan 1\tScan 2");
   });
 
-  it("say how many found no room", () => {
+  it("say how many are not listed", () => {
     const changes = { first: 1, last: 2, changes: CHANGES, count: 9, entries: [], note: "" };
     expect(leftOut(changes)).toBe(7);
   });
 
-  it("take the two scans in either order", () => {
+  it("accept the two scans in either order", () => {
     expect(ordered(9, 4)).toEqual({ from: 4, to: 9 });
     expect(ordered(null, 4)).toBeNull();
   });
@@ -54,13 +54,13 @@ describe("changes", () => {
 describe("comparisons", () => {
   const instance = (id: number, name: string, project = 1) => ({ id, name, project: { id: project } }) as Instance;
 
-  it("offer the branches of this run first, then the project's, then the others", () => {
+  it("offer the branches of this run first, then other PLCs of the project, then the rest", () => {
     const here = instance(1, "line-1");
     const all = [here, instance(2, "press", 2), instance(3, "mixer"), instance(4, "line-2"), instance(5, "line-3")];
     expect(compareWith(here, all).map(({ id }) => id)).toEqual([5, 4, 3, 2]);
   });
 
-  it("tell what came of them", () => {
+  it("say what they found", () => {
     const going: Comparison = {
       type: "comparison",
       id: 1,
@@ -92,7 +92,7 @@ describe("comparisons", () => {
     expect(shareOf({ done: 0, of: 0 })).toBe(0);
   });
 
-  it("keep the newest word on each", () => {
+  it("keep the newest state of each", () => {
     const known = [
       { id: 3, done: 1 },
       { id: 1, done: 1 },
@@ -105,8 +105,8 @@ describe("comparisons", () => {
   });
 });
 
-describe("errors of marks", () => {
-  it("are named by their ids", () => {
+describe("the errors of marks", () => {
+  it("are found by their ids", () => {
     const ids = new Set(["battery-error", "io-bus"]);
     expect(errorsIn("generate battery-error (rack=2), io-bus, battery-error", ids)).toEqual([
       "battery-error",

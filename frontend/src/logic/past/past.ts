@@ -1,8 +1,8 @@
-/** What changed, who wrote, where two runs part: what the panels of the past need to know of it. */
+/** What changed, who wrote, where two runs diverge: functions for the panels about the past. */
 import type { Comparison, Instance, RunChanges, VariableChange } from "../../wire/types";
 import type { Axis } from "../plc/timeline";
 
-/** Every word must be found in the path, the type or one of the values. */
+/** Every word must occur in the path, the type or one of the values. */
 export function filterChanges(changes: readonly VariableChange[], filter: string): VariableChange[] {
   const wanted = filter.toLowerCase().split(/\s+/).filter(Boolean);
   if (wanted.length === 0) return [...changes];
@@ -20,13 +20,13 @@ export function changesAsText(changes: readonly VariableChange[], heads: readonl
 
 const cell = (text: string) => text.replace(/[\t\r\n]+/g, " ");
 
-/** Two scans as somebody typed them, the earlier one first; null when one of them is none. */
+/** Two typed scans, the earlier one first; null when one of them is not a scan. */
 export function ordered(one: number | null, other: number | null): Axis | null {
   if (one === null || other === null) return null;
   return { from: Math.min(one, other), to: Math.max(one, other) };
 }
 
-/** Those of the same project first, and of these the ones that are named after this one: its branches. */
+/** Instances of the same project come first; among these, first those that are named after this one: its branches. */
 export function compareWith(here: Instance, all: readonly Instance[]): Instance[] {
   const stem = stemOf(here.name);
   const rank = (other: Instance) =>
@@ -44,7 +44,7 @@ export function verdictOf({ result, message }: Comparison): Verdict {
   return result.scan === null ? "same" : "apart";
 }
 
-/** The newest word on each comparison or replay; the newest one first. */
+/** The newest state of each comparison or replay; the newest one first. */
 export function withNewest<T extends { id: number }>(known: readonly T[], told: T): T[] {
   return [told, ...known.filter(({ id }) => id !== told.id)].sort((a, b) => b.id - a.id);
 }
@@ -52,12 +52,12 @@ export function withNewest<T extends { id: number }>(known: readonly T[], told: 
 /** How far something is: 0 to 1. */
 export const shareOf = ({ done, of }: { done: number; of: number }) => (of > 0 ? Math.min(1, done / of) : 0);
 
-/** Not all of them found room. */
+/** Not all of them are listed. */
 export const leftOut = ({ changes, count }: RunChanges) => Math.max(0, count - changes.length);
 
 const WORD = /[\w-]+/g;
 
-/** The errors that a mark or an entry speaks of, by their ids. */
+/** The errors that a mark or an entry mentions, by their ids. */
 export function errorsIn(text: string, ids: ReadonlySet<string>): string[] {
   return [...new Set(text.match(WORD) ?? [])].filter((word) => ids.has(word));
 }

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { type RerunForm, readRerun } from "./rerun";
 
 const FORM: RerunForm = { name: " again ", how: "same", instead: "", way: "earlier", by: "1", behind: "0" };
-// More than what is asked for: the server refuses what it does not know.
+// No fields beyond those of the request: the server refuses unknown ones.
 const OF = { scan: 100, error: "battery-error", how: "same" };
 const read = (part: Partial<RerunForm>, first = 0) => readRerun({ ...FORM, ...part }, OF, first);
 
@@ -13,7 +13,7 @@ describe("a replay with a change", () => {
     expect(read({ way: "later", by: "1 000" })).toEqual({ wanted: { ...wanted, by: 1000 } });
   });
 
-  it("takes another error, or none, without a shift", () => {
+  it("raises a different error, or none, without a shift", () => {
     expect(read({ how: "instead", instead: "io-bus", way: "same" })).toMatchObject({
       wanted: { instead: "io-bus", by: 0, leave_out: false },
     });
@@ -30,7 +30,7 @@ describe("a replay with a change", () => {
     expect(read({ how: "instead" })).toEqual({ trouble: "rerun.noerror" });
   });
 
-  it("does not go before the run", () => {
+  it("refuses a scan before the beginning of the run", () => {
     expect(read({ by: "51" }, 50)).toEqual({ trouble: "rerun.toosoon" });
     expect(read({ by: "50" }, 50)).toMatchObject({ wanted: { by: -50 } });
   });

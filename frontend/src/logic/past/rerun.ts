@@ -1,4 +1,4 @@
-/** What somebody fills in to replay a run with one error another, and what the server is asked for. */
+/** The form for replaying a run with one error changed, and the request to the server. */
 
 import type { TextKey } from "../../text";
 import type { NewRerun } from "../../wire/types";
@@ -6,18 +6,18 @@ import type { NewRerun } from "../../wire/types";
 export interface RerunForm {
   name: string;
   how: "same" | "instead" | "out";
-  /** Id of the other error. */
+  /** Id of the error to raise instead. */
   instead: string;
   way: "same" | "earlier" | "later";
   /** How many scans, as typed. */
   by: string;
-  /** How many scans it goes on behind the end, as typed. */
+  /** How many scans the replay continues after the end, as typed. */
   behind: string;
 }
 
 type Read = { wanted: NewRerun } | { trouble: TextKey };
 
-/** The request, or what is missing. `first`: the scan with which the run begins. */
+/** The request, or what is missing. `first`: the first scan of the run. */
 export function readRerun(form: RerunForm, of: { scan: number; error: string }, first: number): Read {
   const name = form.name.trim();
   if (name === "") return { trouble: "name.missing" };

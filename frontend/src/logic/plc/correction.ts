@@ -1,4 +1,4 @@
-/** What could have been meant by an entry that the PLC refused, from what it says is allowed. */
+/** What a refused entry could have meant, from the values that the PLC says it allows. */
 
 const MOST = 3;
 

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { pathBefore, withName, withPath } from "./expression";
 
 describe("a near match", () => {
-  it("takes the place of the name that is not known", () => {
+  it("replaces the unknown name", () => {
     expect(withName("Main.cout > 3 AND start", "Main.cout is not known", "Main.count")).toBe(
       "Main.count > 3 AND start",
     );
@@ -11,17 +11,17 @@ describe("a near match", () => {
     );
   });
 
-  it("takes the place of the only name when the refusal names none", () => {
+  it("replaces the only name when the refusal names none", () => {
     expect(withName("NOT strat", "there is no such variable", "start")).toBe("NOT start");
   });
 
-  it("is all that is left when nothing tells which name is meant", () => {
+  it("replaces the whole expression when nothing says which name is meant", () => {
     expect(withName("a > b", "not known", "c")).toBe("c");
   });
 });
 
 describe("completion in a condition", () => {
-  it("is about the path in front of the caret", () => {
+  it("finds the path before the caret", () => {
     expect(pathBefore("Main.count > Main.be", 20)).toBe("Main.be");
     expect(pathBefore("Main.count > 3", 14)).toBe("");
     expect(pathBefore("Main.co > 3", 7)).toBe("Main.co");
@@ -30,7 +30,7 @@ describe("completion in a condition", () => {
     expect(pathBefore("%IX0", 4)).toBe("%IX0");
   });
 
-  it("replaces it and leaves the rest", () => {
+  it("replaces it and keeps the rest", () => {
     expect(withPath("Main.co > 3", 7, "Main.count")).toEqual({ text: "Main.count > 3", caret: 10 });
   });
 });

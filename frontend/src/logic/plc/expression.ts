@@ -1,9 +1,9 @@
-/** A condition as it is typed, and what to do with the names that the PLC did not know. */
+/** A condition as it is typed, and how to replace the names that the PLC did not know. */
 
 const NAME = /[A-Za-z_]\w*(?:\.\w+|\[[^\]]*\])*/g;
 const WORDS = new Set(["AND", "OR", "XOR", "NOT", "MOD", "TRUE", "FALSE"]);
 
-/** The expression with the unknown name, which the refusal names, replaced by a near match. */
+/** The expression with the unknown name (the refusal contains it) replaced by a near match. */
 export function withName(expression: string, refusal: string, name: string): string {
   const names = [...expression.matchAll(NAME)]
     .map(([found]) => found)
@@ -17,13 +17,13 @@ function escaped(text: string): string {
   return text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 }
 
-/** The path that is being typed in front of the caret: what to complete. Empty when it is none. */
+/** The path that is being typed directly before the caret, to be completed. Empty when there is none. */
 export function pathBefore(text: string, caret: number): string {
   const found = /(?:%|[A-Za-z_])[\w.%[\]:]*$/.exec(text.slice(0, caret))?.[0] ?? "";
   return WORDS.has(found.toUpperCase()) ? "" : found;
 }
 
-/** The condition with the path in front of the caret completed, and where the caret then stands. */
+/** The condition with the path before the caret completed, and the new position of the caret. */
 export function withPath(text: string, caret: number, path: string): { text: string; caret: number } {
   const from = caret - pathBefore(text, caret).length;
   return { text: text.slice(0, from) + path + text.slice(caret), caret: from + path.length };

@@ -4,13 +4,13 @@ import { t } from "../../text";
 import type { HaltInfo } from "../../wire/types";
 import { baseName } from "../format/paths";
 
-/** Why it halted says more than that it did: `Main.level changed from 3 to 7`, `error 20 was raised`. */
+/** The reasons that need more than their name: `Main.level changed from 3 to 7`, `error 20 was raised`. */
 const TELLING: readonly HaltInfo["reason"][] = ["data breakpoint", "error", "violation", "trap"];
 
-/** What happened, in the words of the debugger; empty where the reason says all there is to say. */
+/** What happened, in the debugger's words; empty where the reason is enough. */
 export const haltCause = (halt: HaltInfo) => (TELLING.includes(halt.reason) ? halt.text : "");
 
-/** `at breakpoint, line 29`: below the state word. */
+/** `at breakpoint, line 29`: shown below the state. */
 export function haltDetail(halt: HaltInfo): string {
   const why = haltCause(halt) || t(`debug.reason.${halt.reason}`);
   return halt.file === "" ? why : t("debug.atline", { why, line: halt.line });

@@ -18,7 +18,7 @@ const all = [plc(1, "line-10", 5), plc(2, "line-9", 7, "RUN"), plc(3, "press", 5
 const names = (shown: Instance[]) => shown.map(({ name }) => name);
 
 describe("the instance list", () => {
-  it("sorts numbers as numbers and names as people count, equals by name", () => {
+  it("sorts numbers by size, names alphabetically with numbers by size, equal values by name", () => {
     expect(names(shownInstances(all, "", { by: "name", down: false }))).toEqual(["line-9", "line-10", "press"]);
     expect(names(shownInstances(all, "", { by: "cpu", down: true }))).toEqual(["line-9", "line-10", "press"]);
     expect(names(shownInstances(all, "", { by: "cpu", down: false }))).toEqual(["line-10", "press", "line-9"]);
@@ -30,7 +30,7 @@ describe("the instance list", () => {
     expect(shownInstances(all, "nothing", { by: "name", down: false })).toEqual([]);
   });
 
-  it("adds up", () => {
+  it("adds up the load", () => {
     expect(sumOf(all)).toEqual({ running: 3, cpu: 17, memory: 3000 });
   });
 

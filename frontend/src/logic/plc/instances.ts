@@ -52,7 +52,7 @@ function compare(a: string | number, b: string | number): number {
   return typeof a === "number" && typeof b === "number" ? a - b : words.compare(String(a), String(b));
 }
 
-/** What they cost together. */
+/** The load of all instances together. */
 export function sumOf(all: readonly Instance[]): { running: number; cpu: number; memory: number } {
   return {
     running: all.filter(({ state }) => state.state === "running").length,

@@ -4,19 +4,19 @@ import { isBrokenLink, isOwnComputer, linkPath, readLink, wayTo } from "./links"
 const at = (pathname: string, search = "") => ({ pathname, search });
 
 describe("links", () => {
-  it("names an instance, a scan, a panel", () => {
+  it("contain an instance, a scan, a panel", () => {
     expect(readLink(at("/i/3/scan/4711", "?panel=watch"))).toEqual({ instance: 3, scan: 4711, panel: "watch" });
     expect(readLink(at("/i/3"))).toEqual({ instance: 3, scan: null, panel: null });
     expect(readLink(at("/i/3/", "?panel=&token=x"))).toEqual({ instance: 3, scan: null, panel: null });
     expect(readLink(at("/"))).toBeNull();
   });
 
-  it("knows the word for the verification", () => {
+  it("use the word for the verification", () => {
     expect(readLink(at("/i/1/scan/2", "?panel=verification"))?.panel).toBe("verify");
     expect(linkPath({ instance: 1, scan: 2, panel: "verify" })).toBe("/i/1/scan/2?panel=verification");
   });
 
-  it("reads what it wrote", () => {
+  it("are read back as they were written", () => {
     for (const link of [
       { instance: 12, scan: 0, panel: "trace" },
       { instance: 1, scan: null, panel: null },
@@ -27,14 +27,14 @@ describe("links", () => {
     }
   });
 
-  it("knows the hosts that lead a colleague to their own computer", () => {
+  it("know the hosts that would lead a colleague to their own computer", () => {
     expect(["localhost", "127.0.0.1", "[::1]", "plc.localhost"].filter(isOwnComputer)).toHaveLength(4);
     expect(["bench", "192.168.0.127", "127.example.org", "localhost.lan", "[fe80::1]"].filter(isOwnComputer)).toEqual(
       [],
     );
   });
 
-  it("tells a broken link from none", () => {
+  it("distinguish a broken link from no link", () => {
     expect(isBrokenLink(at("/i/x/scan/3"))).toBe(true);
     expect(isBrokenLink(at("/i/3/scan/-1"))).toBe(true);
     expect(isBrokenLink(at("/i/3/scan/1"))).toBe(false);
@@ -42,20 +42,20 @@ describe("links", () => {
   });
 });
 
-describe("the way to a linked scan", () => {
+describe("following a link to a scan", () => {
   const now = { first: 10, live: 100, past: null, others: 0 };
 
-  it("goes there when nobody else looks, asks when somebody does", () => {
+  it("goes there when nobody else looks at the PLC, asks when somebody does", () => {
     expect(wayTo(50, now)).toBe("go");
     expect(wayTo(50, { ...now, others: 1 })).toBe("ask");
   });
 
-  it("has nothing to do where that scan is shown already", () => {
+  it("does nothing when that scan is shown already", () => {
     expect(wayTo(50, { ...now, past: 50, others: 2 })).toBe("there");
     expect(wayTo(50, { ...now, past: 51, others: 2 })).toBe("ask");
   });
 
-  it("knows the scans that there are", () => {
+  it("checks which scans exist", () => {
     expect(wayTo(9, now)).toBe("outside");
     expect(wayTo(101, now)).toBe("outside");
     expect(wayTo(10, now)).toBe("go");

@@ -1,20 +1,20 @@
-/** The address of an instance, a scan of it, and the panel to look at: `/i/3/scan/4711?panel=verify`. */
+/** The address of an instance, of one of its scans, and of the panel to show: `/i/3/scan/4711?panel=verify`. */
 
 export interface Link {
   instance: number;
   /** Null is live. */
   scan: number | null;
-  /** As the tabs are named inside; null is whatever is in front. */
+  /** The internal name of a tab; null is whichever tab is active. */
   panel: string | null;
 }
 
 const PATH = /^\/i\/(\d{1,9})(?:\/scan\/(\d{1,15}))?\/?$/;
-/** Names that an address may use beside those of the tabs. */
+/** Names that an address may use besides those of the tabs. */
 const ALIASES: Readonly<Record<string, string>> = { verification: "verify", simulator: "errors", events: "log" };
 
 type Address = Pick<Location, "pathname" | "search">;
 
-/** What an address asks for; null when it is none of an instance. */
+/** What an address asks for; null when it is not the address of an instance. */
 export function readLink({ pathname, search }: Address): Link | null {
   const found = PATH.exec(pathname);
   if (!found) return null;
@@ -26,7 +26,7 @@ export function readLink({ pathname, search }: Address): Link | null {
   };
 }
 
-/** True of `/i/...` that says nothing this page understands. */
+/** True for `/i/...` that this page does not understand. */
 export function isBrokenLink(address: Address): boolean {
   return address.pathname.startsWith("/i/") && readLink(address) === null;
 }
@@ -38,14 +38,14 @@ export function linkPath({ instance, scan, panel }: Link): string {
   return `/i/${instance}${at}${shown}`;
 }
 
-/** True of a host that each computer understands as itself: an address with it leads a colleague to their own. */
+/** True for a host that means a different computer on every computer (such as localhost): a link with it leads a colleague to their own. */
 export function isOwnComputer(host: string): boolean {
   return /^(localhost|.+\.localhost|127(\.\d+){3}|\[::1\])$/i.test(host);
 }
 
 type LinkWay = "there" | "go" | "ask" | "outside";
 
-/** How a scan that a link names is come to. Where others look at the PLC they are asked for first: everybody sees the past. */
+/** How to follow a link to a scan. While others look at the PLC, the page asks first, because going to the past takes everybody along. */
 export function wayTo(
   scan: number,
   now: { first: number; live: number; past: number | null; others: number },

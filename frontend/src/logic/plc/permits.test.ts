@@ -26,17 +26,17 @@ const monitor: InstanceState = {
 };
 
 describe("permits", () => {
-  it("MONITOR takes everything", () => {
+  it("MONITOR allows everything", () => {
     for (const deed of ["write", "force", "errors", "mode", "run", "restart", "newrun", "change"] as const)
       expect(forbidden(monitor, true, deed)).toBeNull();
   });
 
-  it("a build needs no PLC", () => {
+  it("a build is possible without a PLC", () => {
     expect(forbidden(null, false, "build")).toBeNull();
     expect(forbidden({ ...monitor, mode: "RUN" }, true, "build")).toBeNull();
   });
 
-  it("RUN takes neither writes nor changes, but errors, modes and restarts", () => {
+  it("RUN allows neither writes nor changes, but errors, modes and restarts", () => {
     const run = { ...monitor, mode: "RUN" } as const;
     expect(forbidden(run, true, "write")).toBe("permit.run");
     expect(forbidden(run, true, "force")).toBe("permit.run");
@@ -44,7 +44,7 @@ describe("permits", () => {
     for (const deed of ["errors", "mode", "run", "restart"] as const) expect(forbidden(run, true, deed)).toBeNull();
   });
 
-  it("nothing reaches a PLC that does not answer, waits for space without a process, or cannot be started", () => {
+  it("nothing is possible while a PLC does not answer, has no process because it waits for disk space, or cannot be started", () => {
     const away = {
       "permit.silent": { ...monitor, state: "silent" },
       "permit.no_space": { ...monitor, state: "no_space", pid: null },
@@ -59,18 +59,18 @@ describe("permits", () => {
     }
   });
 
-  it("a PLC whose model is missing cannot begin a new run either", () => {
+  it("no new run is possible while the model is missing", () => {
     const missing: InstanceState = { ...monitor, state: "failed", pid: null, startable: false };
     for (const deed of ["write", "restart", "newrun", "change", "travel"] as const)
       expect(forbidden(missing, true, deed)).toBe("permit.model");
     expect(forbidden(missing, true, "build")).toBeNull();
   });
 
-  it("a PLC that has a process answers while it waits for space", () => {
+  it("a PLC with a process can be used while it waits for disk space", () => {
     expect(forbidden({ ...monitor, state: "no_space" }, true, "write")).toBeNull();
   });
 
-  it("nothing is done to the past, to a PLC that is off, and without a connection", () => {
+  it("nothing is possible in the past, while the PLC is switched off, and without a connection", () => {
     const past = { ...monitor, past: { live_scan: 9, by: "Ann" } };
     expect(forbidden(past, true, "errors")).toBe("permit.past");
     expect(forbidden(past, true, "travel")).toBeNull();

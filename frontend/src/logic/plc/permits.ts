@@ -1,4 +1,4 @@
-/** What may be done to a PLC now, and if not, why: one table for every control of the page. The PLC itself has the last word. */
+/** What may be done to a PLC now, and if not, why: one table for every control of the page. The PLC itself decides in the end. */
 
 import type { TextKey } from "../../text";
 import type { InstanceState } from "../../wire/types";
@@ -6,17 +6,17 @@ import { waitsForSpace } from "./plcstate";
 
 export type Deed = "write" | "force" | "errors" | "mode" | "run" | "restart" | "newrun" | "change" | "build" | "travel";
 
-/** Devices in RUN take nothing from a tool; errors come from the machine, so the error simulator goes on. */
+/** In RUN a device takes no changes from a tool; errors come from the machine, so the error simulator stays usable. */
 const NOT_IN_RUN: readonly Deed[] = ["write", "force", "change"];
 
-/** The text that says why something cannot be done now; null when it can. */
+/** The text that says why something cannot be done now; null when it can be done. */
 export function forbidden(state: InstanceState | null, connected: boolean, deed: Deed): TextKey | null {
-  // A build needs no PLC; one that shows its past waits, and could not take the program.
+  // A build is possible without a PLC. A PLC that shows its past is paused and could not take the program.
   if (deed === "build") return state?.past ? "permit.past.build" : null;
   if (!connected || state === null) return "permit.offline";
   if (!state.startable) return "permit.model";
   const unreachable = unreachableBy(state);
-  // A new run has a new process: it needs nothing of the old one.
+  // A new run has a new process: the old process may be in any state.
   if (unreachable !== null) return deed === "newrun" ? null : unreachable;
   if (state.past !== null) return deed === "travel" ? null : "permit.past";
   if (state.state === "off") return "permit.off";
@@ -24,7 +24,7 @@ export function forbidden(state: InstanceState | null, connected: boolean, deed:
   return null;
 }
 
-/** Why nothing reaches the program, in the past or live; null when it does. */
+/** Why the program cannot be reached, in the past or live; null when it can. */
 function unreachableBy(state: InstanceState): TextKey | null {
   if (state.state === "silent") return "permit.silent";
   if (state.state === "failed") return "permit.failed";

@@ -15,7 +15,7 @@ export interface ShownState {
   icon: StateIcon;
   word: string;
   detail: string;
-  /** The detail where room is short, when it is another. */
+  /** The short form of the detail, where it differs. */
   short?: string;
 }
 
@@ -35,7 +35,7 @@ const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
   no_space: { tone: "fatal", icon: "wait" },
 };
 
-/** Whether the PLC has no process, because its run cannot be recorded. One that has a process answers while it waits for space. */
+/** Whether the PLC has no process because its run cannot be recorded. A PLC with a process answers while it waits for disk space. */
 export const waitsForSpace = (state: InstanceState) => state.state === "no_space" && state.pid === null;
 
 export function showState(state: InstanceState | null, connected: boolean): ShownState {

@@ -15,7 +15,7 @@ describe("the declaration of a line", () => {
     expect(pouAt(pous, "belt.st", 1)).toBeUndefined();
   });
 
-  it("leaves a method behind at its end", () => {
+  it("ends a method at its end", () => {
     const block: Pou = { name: "FB", kind: "function_block", file: "fb.st", line: 1 };
     const method: Pou = { name: "FB.run", kind: "method", file: "fb.st", line: 2 };
     const text = "FUNCTION_BLOCK FB\nMETHOD run\n  x := 1;\nEND_METHOD\n  y := 2;\nEND_FUNCTION_BLOCK\n";
@@ -25,16 +25,16 @@ describe("the declaration of a line", () => {
   });
 });
 
-describe("the line in another version", () => {
+describe("the line in a different version of the text", () => {
   const before = "a\nb\nc\nd";
-  it("stays before an edit and moves behind it", () => {
+  it("stays the same before an edit and moves after it", () => {
     const after = "a\nnew\nb\nc\nd";
     expect(lineIn(before, after, 1)).toBe(1);
     expect(lineIn(before, after, 2)).toBe(3);
     expect(lineIn(before, after, 4)).toBe(5);
     expect(lineIn(after, before, 5)).toBe(4);
   });
-  it("of a line that was taken away is one that is there", () => {
+  it("of a deleted line is a line that exists", () => {
     expect(lineIn(before, "a\nd", 2)).toBe(1);
     expect(lineIn(before, "a\nd", 4)).toBe(2);
     expect(lineIn(before, "", 3)).toBe(1);

@@ -1,9 +1,9 @@
-/** Lines of source text: whose they are, and where they are in another version of the text. */
+/** Lines of source text: which declaration they belong to, and where they are in a different version of the text. */
 import type { Pou } from "../../wire/types";
 
 /**
- * The declaration that a line of a file stands in, for `Add to watch` in the editor. With the text, a method is left behind
- * at its end: the body of a block may come after its methods.
+ * The declaration that contains a line of a file, for `Add to watch` in the editor. If the text is given, a method ends at its
+ * end: the body of a block may come after its methods.
  */
 export function pouAt(pous: readonly Pou[], file: string, line: number, text = ""): Pou | undefined {
   const lines = text.split("\n");
@@ -17,8 +17,8 @@ export function pouAt(pous: readonly Pou[], file: string, line: number, text = "
 }
 
 /**
- * The line of another version of a text: lines before and behind what was edited keep their places, what stands between goes to the
- * end of it.
+ * The line in a different version of a text: lines before and after the edited part keep their places, lines inside it go to its
+ * end.
  */
 export function lineIn(from: string, to: string, line: number): number {
   if (from === to) return line;

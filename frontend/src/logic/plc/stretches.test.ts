@@ -7,8 +7,8 @@ const ERRORS = [error("memory-error", "fatal"), error("io-bus", "fatal"), error(
 const at = (scan: number, kind: Mark["kind"], text: string): Mark => ({ scan, kind, author: "Ann", text });
 const tones = (...marks: Mark[]) => stretches(marks, ERRORS).map(({ from, tone }) => [from, tone]);
 
-describe("stretches", () => {
-  it("run before the first mark, and follow the mode", () => {
+describe("the states of a run", () => {
+  it('are "running" before the first mark, and follow the mode', () => {
     expect(tones()).toEqual([[0, "running"]]);
     expect(
       tones(
@@ -30,7 +30,7 @@ describe("stretches", () => {
     ]);
   });
 
-  it("are fatal from a trap to the restart, the mended program, or PROGRAM", () => {
+  it("are fatal from a run-time error to the restart, the corrected program, or PROGRAM", () => {
     const trap = at(10, "system", "Main.st:9:14: division by zero (scan 10)");
     for (const way of [
       at(20, "run", "cold start: everything has its initial value"),
@@ -66,7 +66,7 @@ describe("stretches", () => {
     ]);
   });
 
-  it("do not trust the end of a long text, which is cut", () => {
+  it("ignore the end of a long text, which is cut off", () => {
     const cut = at(30, "recover", "recovered memory-error, io-bus, and ma");
     expect(tones(at(10, "error", "generated memory-error, io-bus, ba"), cut).at(-1)).toEqual([30, "stopped"]);
   });
@@ -75,7 +75,7 @@ describe("stretches", () => {
 describe("pieces", () => {
   const axis = { from: 0, to: 1000 };
 
-  it("lie side by side, inside of what is shown", () => {
+  it("are side by side, within the visible part", () => {
     const run = stretches(
       [at(400, "mode", "mode PROGRAM: the program is stopped"), at(600, "mode", "mode RUN: the program runs")],
       ERRORS,
@@ -88,7 +88,7 @@ describe("pieces", () => {
     expect(pieces(run, { from: 450, to: 550 }, 100)).toEqual([{ left: 0, width: 100, tone: "stopped" }]);
   });
 
-  it("show a trap that was mended at once, and are no more than there are pixels", () => {
+  it("show a run-time error that was corrected at once, and are no more than there are pixels", () => {
     const marks = Array.from({ length: 1000 }, (_, scan) => [
       at(scan, "system", "Main.st:1:1: x (scan 1)"),
       at(scan, "run", "warm start"),

@@ -1,4 +1,4 @@
-/** What state the PLC was in along its run, as the marks tell: the ribbon of the timeline. */
+/** The state of the PLC along its run, derived from the marks: the ribbon of the timeline. */
 import type { ErrorInfo, Mark } from "../../wire/types";
 import { type Axis, placeOf } from "./timeline";
 
@@ -17,18 +17,18 @@ interface Piece {
   tone: RunTone;
 }
 
-/** What the marks so far add up to: the fatal errors that are present, a trap, mode PROGRAM. */
+/** The state after the marks so far: the fatal errors that are present, a run-time error, mode PROGRAM. */
 interface Course {
   fatal: ReadonlySet<string>;
   trapped: boolean;
   program: boolean;
 }
 
-/** Before the first mark that says otherwise the program runs. */
+/** Before the first mark that says otherwise, the program runs. */
 const RUNNING: Course = { fatal: new Set(), trapped: false, program: false };
 const WORDS = /[\w-]+/g;
 
-/** The stretches of a run, each of another tone than the one before. `errors` is the catalogue: it knows which are fatal. */
+/** The stretches of a run; neighbours differ in tone. `errors` is the catalogue: it knows which errors are fatal. */
 export function stretches(marks: readonly Mark[], errors: readonly ErrorInfo[]): Stretch[] {
   const fatal = new Set(errors.filter((error) => error.severity === "fatal").map((error) => error.id));
   const found: Stretch[] = [{ from: 0, tone: "running" }];
@@ -56,10 +56,10 @@ function after(course: Course, { kind, text }: Mark, fatal: ReadonlySet<string>)
     case "system":
       return /^[^\s:]+:\d+:\d+: /.test(text) ? { ...course, trapped: true } : course;
     case "build":
-      // Where the old program had stopped by itself, the mended one begins anew, without the errors of before.
+      // Where the old program had stopped with an error, the corrected one starts without the errors of before.
       return /^program version \d+: warm start/.test(text) ? RUNNING : course;
     case "error":
-      // Armed is not raised yet, and missed was not raised at all.
+      // An armed error is not raised yet, and a missed one was never raised.
       if (/^(armed|fault) \d+\b/.test(text)) return course;
       return { ...course, fatal: new Set([...course.fatal, ...named(text, fatal)]) };
     case "recover":
@@ -87,7 +87,7 @@ function named(text: string, ids: ReadonlySet<string>): string[] {
   return (text.match(WORDS) ?? []).filter((word) => ids.has(word));
 }
 
-/** A PLC that is stopped counts no scans, so most stops have no length: they are to be seen all the same. */
+/** A stopped PLC counts no scans, so most stops have no length: they are drawn with a minimum width. */
 const LEAST = 3;
 const SERIOUS: readonly RunTone[] = ["running", "stopped", "fatal"];
 
@@ -101,7 +101,7 @@ export function pieces(run: readonly Stretch[], axis: Axis, width: number): Piec
     let left = placeOf(Math.max(from, axis.from), axis) * width;
     const last = found.at(-1);
     if (last && left - last.left < LEAST) {
-      // Where several share these pixels, the most serious one has them.
+      // Where several stretches share these pixels, the most severe one is drawn.
       last.tone = worse(last.tone, tone);
       left = last.left + LEAST;
       last.width = Math.min(right, left) - last.left;

@@ -21,8 +21,8 @@ import {
 const axis = { from: 1000, to: 2000 };
 const mark = (scan: number, kind: Mark["kind"] = "write"): Mark => ({ scan, kind, author: "Ann", text: `${kind}` });
 
-describe("places", () => {
-  it("go from edge to edge and back", () => {
+describe("the position of a scan", () => {
+  it("goes from edge to edge and back", () => {
     expect(placeOf(1000, axis)).toBe(0);
     expect(placeOf(1500, axis)).toBe(0.5);
     expect(placeOf(9999, axis)).toBe(1);
@@ -31,7 +31,7 @@ describe("places", () => {
     expect(scanAt(2, axis)).toBe(2000);
   });
 
-  it("of a run without scans are at the end", () => {
+  it("is at the end for a run without scans", () => {
     expect(placeOf(0, { from: 0, to: 0 })).toBe(1);
     expect(scanAt(0.5, { from: 0, to: 0 })).toBe(0);
   });
@@ -51,7 +51,7 @@ describe("ticks", () => {
 });
 
 describe("clusters", () => {
-  it("take together what lies too close; the most serious mark speaks", () => {
+  it("combine marks that are too close; the most severe mark gives the icon", () => {
     const found = clusters([mark(1000), mark(1001, "error"), mark(1002), mark(1500, "force")], axis, 320);
     expect(found.map(({ first, marks }) => [first.kind, first.scan, marks.length])).toEqual([
       ["error", 1001, 3],
@@ -60,7 +60,7 @@ describe("clusters", () => {
     expect(found.map(({ place }) => place)).toEqual([0, 0.5]);
   });
 
-  it("leave out what is not on the axis, and lose none that is", () => {
+  it("omit marks outside the axis, and lose none inside", () => {
     const many = Array.from({ length: 5000 }, (_, index) => mark(index));
     const found = clusters(many, axis, 1000);
     expect(found.reduce((sum, { marks }) => sum + marks.length, 0)).toBe(1001);
@@ -77,7 +77,7 @@ describe("clusters", () => {
     expect(joined.map(({ marks }) => marks.length)).toEqual([3]);
   });
 
-  it("can be looked at closer, until their marks stand on one scan", () => {
+  it("can be enlarged until all marks of a group are at one scan", () => {
     const whole = { from: 0, to: 10_000 };
     expect(around([mark(1000), mark(1100)], whole, whole)).toEqual({ from: 988, to: 1113 });
     expect(around([mark(9990), mark(10_000)], whole, whole)).toEqual({ from: 9980, to: 10_000 });
@@ -85,7 +85,7 @@ describe("clusters", () => {
     expect(around([mark(988), mark(1110)], { from: 988, to: 1113 }, whole)).toBeNull();
   });
 
-  it("count their kinds", () => {
+  it("count the kinds of their marks", () => {
     expect(countKinds([mark(1), mark(2, "error"), mark(3)])).toEqual([
       ["error", 1],
       ["write", 2],
@@ -94,7 +94,7 @@ describe("clusters", () => {
 });
 
 describe("moving", () => {
-  it("zooms around a scan, inside of the run", () => {
+  it("zooms around a scan, within the run", () => {
     const whole = { from: 0, to: 1000 };
     expect(zoomed(whole, whole, 0.5, 500)).toEqual({ from: 250, to: 750 });
     expect(zoomed(whole, whole, 0.5, 1000)).toEqual({ from: 500, to: 1000 });
@@ -102,7 +102,7 @@ describe("moving", () => {
     expect(zoomed({ from: 0, to: 20 }, whole, 0.5, 10)).toEqual({ from: 0, to: 20 });
   });
 
-  it("keeps a scan in sight", () => {
+  it("keeps a scan visible", () => {
     const whole = { from: 0, to: 1000 };
     expect(including({ from: 100, to: 200 }, whole, 150)).toEqual({ from: 100, to: 200 });
     expect(including({ from: 100, to: 200 }, whole, 600)).toEqual({ from: 550, to: 650 });
@@ -126,7 +126,7 @@ describe("moving", () => {
     expect(neighbour(marks, 30, 1)).toBeUndefined();
   });
 
-  it("reads a scan as it is typed", () => {
+  it("reads a typed scan", () => {
     expect(readScan(" 4711 ")).toBe(4711);
     expect(readScan("12 000")).toBe(12_000);
     expect(readScan("12\u2009000")).toBe(12_000);
@@ -137,7 +137,7 @@ describe("moving", () => {
     expect(readScan("")).toBeNull();
   });
 
-  it("reads PLC time as it is typed", () => {
+  it("reads a typed PLC time", () => {
     expect(readTime("1m2s")).toBe(62e9);
     expect(readTime("1:02")).toBe(62e9);
     expect(readTime("00:01:02.250")).toBe(62.25e9);
@@ -152,7 +152,7 @@ describe("moving", () => {
 describe("stretches on the axis", () => {
   const whole = { from: 0, to: 10_000 };
 
-  it("are looked at closely with some room around them", () => {
+  it("are enlarged with some room around them", () => {
     const close = closeTo({ from: 4000, to: 5000 }, whole);
     expect(close?.from).toBeLessThan(4000);
     expect(close?.to).toBeGreaterThan(5000);
@@ -161,13 +161,13 @@ describe("stretches on the axis", () => {
     expect(closeTo({ from: 0, to: 9999 }, whole)).toBeNull();
   });
 
-  it("are drawn with their last scan, as far as they are in sight", () => {
+  it("are drawn with their last scan, as far as they are visible", () => {
     expect(spanOn({ from: 0, to: 4999 }, whole)).toEqual({ left: 0, width: 0.5 });
     expect(spanOn({ from: 9000, to: 20_000 }, whole)).toEqual({ left: 0.9, width: expect.closeTo(0.1) });
     expect(spanOn({ from: 20_000, to: 30_000 }, whole)).toBeNull();
   });
 
-  it("have the marks of differences among the others, which speak for a group", () => {
+  it("have the marks of differences among the others, and these give the icon of a group", () => {
     const difference = { scan: 15, kind: "difference" as const, author: "A", text: "x" };
     const all = withDifferences([mark(10, "write"), mark(20, "write")], [difference]);
     expect(all.map(({ scan }) => scan)).toEqual([10, 15, 20]);

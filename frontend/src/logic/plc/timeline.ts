@@ -1,4 +1,4 @@
-/** The arithmetic of the timeline: scans to places on an axis and back, marks that lie too close taken together. */
+/** The arithmetic of the timeline: scans to positions on an axis and back, marks that are too close combined to groups. */
 import type { Mark } from "../../wire/types";
 
 /** The scans that are shown, from the left edge to the right one. */
@@ -7,19 +7,19 @@ export interface Axis {
   to: number;
 }
 
-/** Where a scan stands: 0 at the left edge, 1 at the right one. */
+/** The position of a scan: 0 at the left edge, 1 at the right edge. */
 export function placeOf(scan: number, axis: Axis): number {
   if (axis.to <= axis.from) return 1;
   return Math.min(1, Math.max(0, (scan - axis.from) / (axis.to - axis.from)));
 }
 
-/** The scan at a place, inside of the axis. */
+/** The scan at a position, within the axis. */
 export function scanAt(place: number, axis: Axis): number {
   const inside = Math.min(1, Math.max(0, place));
   return Math.round(axis.from + inside * (axis.to - axis.from));
 }
 
-/** Round numbers along the axis, as many as have room. */
+/** Round numbers along the axis, as many as there is room for. */
 export function ticks(axis: Axis, width: number, apart = 92): number[] {
   const most = Math.max(1, Math.floor(width / apart));
   const least = (axis.to - axis.from) / most;
@@ -33,7 +33,7 @@ export function ticks(axis: Axis, width: number, apart = 92): number[] {
   return found;
 }
 
-/** A mark of the journal, or where a verification or a comparison found a difference. */
+/** A mark of the journal, or of a difference that a verification or a comparison found. */
 export type ShownMark = Omit<Mark, "kind"> & { kind: Mark["kind"] | "difference" };
 
 /** Both in the order of their scans. */
@@ -42,14 +42,14 @@ export function withDifferences(marks: readonly Mark[], differences: readonly Sh
   return [...marks, ...differences].sort((a, b) => a.scan - b.scan);
 }
 
-/** Marks at one place of the axis, that of the earliest; `first` speaks for them: it is the most serious one. */
+/** Marks at one position of the axis, that of the earliest; `first` is the most severe one and gives the icon. */
 export interface Cluster {
   place: number;
   first: ShownMark;
   marks: readonly ShownMark[];
 }
 
-/** What is most worth seeing when several marks share a place. */
+/** What matters most when several marks share a position. */
 const SERIOUS: readonly ShownMark["kind"][] = [
   "error",
   "difference",
@@ -64,7 +64,7 @@ const SERIOUS: readonly ShownMark["kind"][] = [
   "write",
 ];
 
-/** Marks closer than `apart` pixels to the first of a group join it. They come, and the groups stay, in the order of their scans. */
+/** Marks closer than `apart` pixels to the first mark of a group join the group. Marks and groups are in the order of their scans. */
 export function clusters(marks: readonly ShownMark[], axis: Axis, width: number, apart = 16): Cluster[] {
   const found: { place: number; marks: ShownMark[] }[] = [];
   for (const mark of marks) {
@@ -85,7 +85,7 @@ export function clusters(marks: readonly ShownMark[], axis: Axis, width: number,
 /** Room for the number of a group, right of its icon. */
 const NUMBER_ROOM = 26;
 
-/** A group at the right edge moves in, so that its number is not cut; one that then stands too close to the last joins it. */
+/** A group at the right edge moves inside, so that its number is not cut off; if it is then too close to the previous one, it joins it. */
 function keepInside(found: { place: number; marks: ShownMark[] }[], width: number, apart: number): void {
   const last = found.at(-1);
   const most = 1 - NUMBER_ROOM / width;
@@ -97,7 +97,7 @@ function keepInside(found: { place: number; marks: ShownMark[] }[], width: numbe
   found.pop();
 }
 
-/** The part of the run to look closer at a group of marks; null when they lie too close for that. */
+/** The part of the run that enlarges a group of marks; null when they are too close for that. */
 export function around(marks: readonly ShownMark[], axis: Axis, whole: Axis): Axis | null {
   const scans = marks.map((mark) => mark.scan);
   const first = Math.min(...scans);
@@ -112,7 +112,7 @@ function rank(mark: ShownMark): number {
   return SERIOUS.indexOf(mark.kind);
 }
 
-/** How many marks of each kind, the most serious kind first. */
+/** How many marks of each kind, the most severe kind first. */
 export function countKinds(marks: readonly ShownMark[]): [ShownMark["kind"], number][] {
   return SERIOUS.map((kind): [ShownMark["kind"], number] => [
     kind,
@@ -127,7 +127,7 @@ export function neighbour(marks: readonly ShownMark[], scan: number, direction: 
 
 const LEAST_SHOWN = 20;
 
-/** The part of the run to see a stretch of it closely, both of its ends included; null is the whole run. */
+/** The part of the run that enlarges a stretch, both ends included; null is the whole run. */
 export function closeTo(stretch: Axis, whole: Axis): Axis | null {
   const length = Math.max(LEAST_SHOWN, Math.ceil((stretch.to - stretch.from) * 1.1));
   if (length >= whole.to - whole.from) return null;
@@ -136,15 +136,15 @@ export function closeTo(stretch: Axis, whole: Axis): Axis | null {
   return { from, to: from + length };
 }
 
-/** A stretch as it is drawn, in shares of the axis; null when it is out of sight. */
+/** A stretch as it is drawn, in fractions of the axis; null when it is not visible. */
 export function spanOn(stretch: Axis, axis: Axis): { left: number; width: number } | null {
   if (stretch.to < axis.from || stretch.from > axis.to) return null;
   const left = placeOf(stretch.from, axis);
-  // The last scan is part of it: it ends where the next one begins.
+  // The last scan is part of it: the stretch ends where the next scan begins.
   return { left, width: placeOf(Math.min(axis.to, stretch.to + 1), axis) - left };
 }
 
-/** A closer or wider look around a scan; null is the whole run. */
+/** Zooms in or out around a scan; null is the whole run. */
 export function zoomed(axis: Axis, whole: Axis, factor: number, around: number): Axis | null {
   const length = Math.max(LEAST_SHOWN, Math.round((axis.to - axis.from) * factor));
   if (length >= whole.to - whole.from) return null;
@@ -153,7 +153,7 @@ export function zoomed(axis: Axis, whole: Axis, factor: number, around: number):
   return { from, to: from + length };
 }
 
-/** A zoomed axis moved so that a scan is on it. */
+/** A zoomed axis, moved so that a scan is visible. */
 export function including(axis: Axis, whole: Axis, scan: number): Axis {
   if (scan >= axis.from && scan <= axis.to) return axis;
   const length = axis.to - axis.from;
@@ -161,7 +161,7 @@ export function including(axis: Axis, whole: Axis, scan: number): Axis {
   return { from, to: from + length };
 }
 
-/** Where a key leads from a scan; "live" is the live end, undefined a key that means nothing here. */
+/** Where a key moves to from a scan; "live" is the live end, undefined a key without a meaning here. */
 export function stepTo(key: string, scan: number, whole: Axis): number | "live" | undefined {
   const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: -100, PageDown: 100 }[key];
   if (by !== undefined) {
@@ -172,7 +172,7 @@ export function stepTo(key: string, scan: number, whole: Axis): number | "live" 
   return key === "End" || key === "Escape" ? "live" : undefined;
 }
 
-/** A scan as somebody types it: digits, with blanks between them if one likes. */
+/** A typed scan: digits, with optional spaces between them. */
 export function readScan(text: string): number | null {
   const digits = text.replace(/\s/g, "");
   return /^\d{1,15}$/.test(digits) ? Number(digits) : null;
@@ -181,7 +181,7 @@ export function readScan(text: string): number | null {
 const UNITS = /^(?:(\d+)d)?(?:(\d+)h)?(?:(\d+)m(?!s))?(?:(\d+(?:\.\d+)?)s)?(?:(\d+)ms)?$/;
 const CLOCK = /^(?:(\d+)d)?(?:(\d+):)?(\d+):(\d+(?:\.\d+)?)$/;
 
-/** PLC time as somebody types it, in nanoseconds: 1m2s, 90s, 1:02, 01:02:03.250, 2d 01:02:03. */
+/** A typed PLC time, in nanoseconds: 1m2s, 90s, 1:02, 01:02:03.250, 2d 01:02:03. */
 export function readTime(text: string): number | null {
   const plain = text.replace(/\s/g, "").toLowerCase();
   const found = plain === "" ? null : (UNITS.exec(plain) ?? CLOCK.exec(plain));

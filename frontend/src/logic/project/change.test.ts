@@ -19,14 +19,14 @@ const two = plc(2, "What-If");
 const refusing = plc(1, "line-1", "mode RUN");
 
 describe("online change", () => {
-  it("sorts what is not kept: only a changed type loses a value", () => {
+  it("lists the variables that are not kept: only a changed type loses a value", () => {
     expect(fates(one).reinitialized.map(({ path }) => path)).toEqual(["Main.shift"]);
     expect(changeNote(one)).toBe("58 kept, 1 reinitialized, 1 new, 1 removed");
     expect(changeNote({ ...one, lost: [], lost_count: 0 })).toBe("58 kept");
     expect(changeNote({ ...one, lost_count: 700 })).toContain("and 697 more");
   });
 
-  it("the button says which PLCs are changed", () => {
+  it("names on the button the PLCs that are changed", () => {
     expect(changeVerb([one], new Set([1]))).toBe("Change line-1");
     expect(changeVerb([one, two], new Set([1, 2]))).toBe("Change all 2 PLCs");
     expect(changeVerb([one, two], new Set([2]))).toBe("Change What-If only");
@@ -36,7 +36,7 @@ describe("online change", () => {
     expect(changeVerb([refusing], new Set([1]))).toBeNull();
   });
 
-  it("the result says what was changed where", () => {
+  it("says in the result what was changed where", () => {
     const note = "58 kept, 1 reinitialized, 1 new, 1 removed";
     expect(builtNote([], 1)).toBe("Built");
     expect(builtNote([one], 1)).toBe(`Built for line-1: ${note}`);

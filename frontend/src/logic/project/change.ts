@@ -1,4 +1,4 @@
-/** Online changes in words: what becomes of the variables, which PLCs are changed, and what a build did where. */
+/** Online changes in words: what happens to the variables, which PLCs are changed, and the result of a build. */
 
 import { t } from "../../text";
 import type { LostVariable, OnlineChange } from "../../wire/types";
@@ -7,7 +7,7 @@ import { grouped } from "../format/numbers";
 export const FATES = ["reinitialized", "new", "removed"] as const;
 export type Fate = (typeof FATES)[number];
 
-/** What is not kept, by what becomes of it: only what is reinitialized loses a value. */
+/** The variables that are not kept, by what happens to them: only reinitialized ones lose a value. */
 export function fates(change: OnlineChange): Record<Fate, LostVariable[]> {
   const sorted: Record<Fate, LostVariable[]> = { reinitialized: [], new: [], removed: [] };
   for (const variable of change.lost) sorted[fateOf(variable)].push(variable);
@@ -29,7 +29,7 @@ export function changeNote(change: OnlineChange): string {
   return [t("change.kept", { count: grouped(change.kept) }), ...parts].join(", ");
 }
 
-/** What the button of the dialog does; null when it can do nothing. */
+/** The label of the dialog's button; null when no PLC can be changed. */
 export function changeVerb(changes: readonly OnlineChange[], chosen: ReadonlySet<number>): string | null {
   const willing = changes.filter(({ refusal }) => refusal === "");
   const changed = willing.filter(({ instance }) => chosen.has(instance));
@@ -40,7 +40,7 @@ export function changeVerb(changes: readonly OnlineChange[], chosen: ReadonlySet
   return t("change.do.some", { count: changed.length, all: changes.length });
 }
 
-/** What a build did: for which PLCs, and with the figures of the one that is looked at, or which were not changed and why. */
+/** The result of a build: for which PLCs, with the figures of the selected one, or which PLCs were not changed and why. */
 export function builtNote(changes: readonly OnlineChange[], here: number | undefined): string {
   const changed = changes.filter(({ refusal }) => refusal === "");
   const left = changes
@@ -48,7 +48,7 @@ export function builtNote(changes: readonly OnlineChange[], here: number | undef
     .map((each) => t("change.left", { name: each.name, why: each.refusal }));
   if (changed.length === 0) return [t("build.ok"), ...left].join("; ");
   const names = changed.map(({ name }) => name).join(", ");
-  // There is one line only: a PLC that was not changed matters more than figures.
+  // There is only one line: a PLC that was not changed matters more than figures.
   if (left.length > 0) return [t("change.built", { names }), ...left].join("; ");
   const mine = changed.length === 1 ? changed[0] : changed.find(({ instance }) => instance === here);
   return mine ? t("change.built.note", { names, note: changeNote(mine) }) : t("change.built", { names });

@@ -1,4 +1,4 @@
-/** What the explorer shows of a project: files by the kind of what is declared in them. */
+/** The rows of the explorer: files grouped by the kind of what they declare. */
 import type { FileInfo, Pou } from "../../wire/types";
 import { pouAt } from "../plc/sourceLines";
 
@@ -7,7 +7,7 @@ export interface PouNode {
   name: string;
   file: string;
   line: number;
-  /** The file declares more than this, so that its name is worth showing. */
+  /** The file contains other declarations, too, so its name is shown. */
   shared: boolean;
 }
 
@@ -22,15 +22,15 @@ export interface PouGroup {
   nodes: (PouNode | FileNode)[];
 }
 
-// Methods and properties are found in the text of their block.
+// Methods and properties are not listed: they are in the text of their block.
 const ORDER = ["program", "function_block", "class", "interface", "function", "type", "global"] as const;
 
-/** What drives the inputs: the folder `plant/`, of a project or below a folder of it. */
+/** Files that drive the inputs: the folder `plant/`, of a project or of a folder in it. */
 const inPlant = (path: string) => /(^|\/)plant\//.test(path);
 
 /**
- * Groups in the order of the standard, then the plant by its files; files in which nothing is declared (new, or broken) come last,
- * as files.
+ * Groups in the order of the standard, then the plant by its files; files without a declaration (new, or with errors) come last,
+ * by their names.
  */
 export function pouGroups(declarations: readonly Pou[], files: readonly FileInfo[]): PouGroup[] {
   const pous = declarations.filter(({ file }) => !inPlant(file));
@@ -53,14 +53,14 @@ function pouNode(pou: Pou, perFile: ReadonlyMap<string, number>): PouNode {
   return { ...pou, kind: "pou", shared: (perFile.get(pou.file) ?? 0) > 1 };
 }
 
-/** Global variables come in dozens: what one opens is the file they are declared in. */
+/** Global variables come in dozens: the explorer shows the file that declares them. */
 function globalFiles(globals: readonly Pou[]): PouNode[] {
   const firsts = new Map<string, Pou>();
   for (const pou of globals) if (!firsts.has(pou.file)) firsts.set(pou.file, pou);
   return [...firsts.values()].map(({ file, line }) => ({ kind: "pou", name: file, file, line, shared: false }));
 }
 
-/** The declaration around the cursor among those that the explorer shows: a method is shown by its block. */
+/** The declaration around the cursor, among those that the explorer shows: for a method it is its block. */
 export function shownAt(pous: readonly Pou[], file: string, line: number): Pou | undefined {
   return pouAt(
     pous.filter((pou) => (ORDER as readonly string[]).includes(pou.kind) && pou.kind !== "global"),
@@ -74,16 +74,16 @@ const XML_FILE = /\.tc(pou|dut|gvl|io)$/i;
 const TEXT_FILE = /\.(st|iecst|exp)$/i;
 const TABLE = /\.csv$/i;
 
-/** What the file picker offers: what the compiler reads. */
+/** What the file picker offers: files that the compiler reads. */
 export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.csv";
 
-/** A table of inputs, no program text. */
+/** A table of inputs, not a program. */
 export const isTable = (path: string) => TABLE.test(path);
 
-/** Where a file of this name goes: tables drive the inputs, so they are the plant's. */
+/** The path for a file of this name: tables drive the inputs, so they go to the plant. */
 export const placeFor = (name: string) => (isTable(name) && !inPlant(name) ? `plant/${name}` : name);
 
-/** The path for a new file by the name someone typed, perhaps with a folder; null when it cannot be one. */
+/** The path for a new file by the typed name, which may contain a folder; null when it is not valid. */
 export function newFilePath(typed: string, existing: readonly FileInfo[]): string | null {
   const name = typed.trim();
   if (!name.split("/").every((part) => NAME.test(part))) return null;
@@ -92,11 +92,11 @@ export function newFilePath(typed: string, existing: readonly FileInfo[]): strin
   return existing.some((file) => file.path.toLowerCase() === path.toLowerCase()) ? null : path;
 }
 
-/** What a new file begins with: the frame of what its name promises; `input` is an address that a table can drive. */
+/** The initial text of a new file, by its name; `input` is an address that a table can drive. */
 export function skeleton(path: string, input = "%IX0.0"): string {
   if (isTable(path))
     return `# What the inputs are, and when. A row holds until the next one.\ntime; ${input}\n0; 0\n500; 1\n`;
-  if (XML_FILE.test(path)) return ""; // it is pasted whole: nobody types XML
+  if (XML_FILE.test(path)) return ""; // it is pasted as a whole: nobody types XML
   const name = path
     .replace(/^.*\//, "")
     .replace(/\.[^.]*$/, "")

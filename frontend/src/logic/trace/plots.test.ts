@@ -12,7 +12,7 @@ const signal = (text: string, kind = "int"): TraceSignal => ({
 });
 
 describe("plots", () => {
-  it("hold what has the same last name, and BOOLs have lanes", () => {
+  it("group signals with the same last name, and give BOOLs a lane each", () => {
     const { plots, lanes } = layoutOf(
       ["belt[1].speed", "belt[2].speed", "zone[2].parts", "Main.a + Main.b"]
         .map((text) => signal(text))
@@ -28,13 +28,13 @@ describe("plots", () => {
     expect(plots.flatMap(({ lines }) => lines.map(({ color }) => color))).toEqual([1, 2, 3, 4]);
   });
 
-  it("take what is dragged to them", () => {
+  it("take the signals that are dragged to them", () => {
     const signals = [signal("a.speed"), signal("b.parts")];
     const { plots } = layoutOf(signals, new Map([["b.parts", "SPEED"]]));
     expect(plots.map(({ lines }) => lines.map(({ signal: { text } }) => text))).toEqual([["a.speed", "b.parts"]]);
   });
 
-  it("have one unit each: a duration shares no axis with a number, also when it is dragged there", () => {
+  it("have one unit each: a duration shares no axis with a number, even if it is dragged there", () => {
     const of = (text: string, kind: string, type = "") => ({ ...signal(text, kind), type });
     const signals = [
       of("a.v", "int"),
@@ -57,11 +57,11 @@ describe("plots", () => {
     ]);
   });
 
-  it("are none without signals", () => {
+  it("are empty without signals", () => {
     expect(layoutOf([], new Map())).toEqual({ plots: [], lanes: [] });
   });
 
-  it("tell lines by dashes when the colours are used up", () => {
+  it("use dashes to distinguish lines when all colours are used", () => {
     const { plots } = layoutOf(
       Array.from({ length: 8 }, (_, at) => signal(`m[${at}].x`)),
       new Map(),
@@ -78,10 +78,10 @@ describe("axes", () => {
     expect(ticks({ from: 5, to: 5 }, 4)).toEqual([5]);
     expect(ticks({ from: 0, to: 3 }, 10, true)).toEqual([0, 1, 2, 3]);
   });
-  it("have short ones", () => {
+  it("have short numbers", () => {
     expect([0.1 + 0.2, 1_234_567, 0, -400, 0.00001].map(axisText)).toEqual(["0.3", "1.2e6", "0", "-400", "1.0e-5"]);
   });
-  it("leave room, also around a constant", () => {
+  it("leave room above and below, also around a constant", () => {
     expect(padded({ from: 5, to: 5 })).toEqual({ from: 4, to: 6 });
     expect(padded(null)).toEqual({ from: 0, to: 1 });
   });
@@ -96,7 +96,7 @@ it("last names", () => {
   ]);
 });
 
-it("a part of the whole stays inside", () => {
+it("keeps a part of the whole inside the whole", () => {
   const whole = { from: 0, to: 1000 };
   expect(within({ from: -50, to: 50 }, whole)).toEqual({ from: 0, to: 100 });
   expect(within({ from: 950, to: 1050 }, whole)).toEqual({ from: 900, to: 1000 });

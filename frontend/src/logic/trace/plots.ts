@@ -1,4 +1,4 @@
-/** How the signals of a trace are spread over plots and lanes, and what stands at their axes. */
+/** How the signals of a trace are distributed over plots and lanes, and the marks of their axes. */
 import type { TraceInfo, TraceSignal, TraceWhen } from "../../wire/types";
 import type { Range } from "./samples";
 
@@ -9,15 +9,15 @@ export interface Line {
   /** Index among the trace's signals. */
   index: number;
   signal: TraceSignal;
-  /** As short as it can be: the end of the path that tells it from the others of the plot. */
+  /** The shortest name: the end of the path that distinguishes it from the others of the plot. */
   name: string;
   color: number;
   dash: readonly number[];
-  /** The value is held until the next sample: drawn as steps. */
+  /** The value holds until the next sample: drawn as steps. */
   steps: boolean;
 }
 
-/** What a plot's axis counts: plain numbers, durations, days, times of day, or both of these. */
+/** The unit of a plot's axis: plain numbers, durations, days, times of day, or date and time. */
 export type AxisUnit = "number" | "time" | "date" | "clock" | "moment";
 
 export interface Plot {
@@ -39,7 +39,7 @@ export interface Layout {
   lanes: Line[];
 }
 
-/** BOOLs get lanes, the others share a plot with what has the same last name, or with whom they were dragged. */
+/** BOOLs get lanes. Other signals share a plot with those that have the same last name, or with those they were dragged to. */
 export function layoutOf(signals: readonly TraceSignal[], moved: ReadonlyMap<string, string>): Layout {
   const plots = new Map<string, Plot>();
   const lanes: Line[] = [];
@@ -61,7 +61,7 @@ export function layoutOf(signals: readonly TraceSignal[], moved: ReadonlyMap<str
     const title = lastName(signal.text);
     const key = moved.get(signal.text) ?? title.toUpperCase();
     const unit = unitOf(signal);
-    // One axis has one unit: what counts something else has a plot of its own, wherever it was dragged.
+    // An axis has one unit: a signal with a different unit has its own plot, wherever it was dragged.
     const known = `${unit} ${key}`;
     const plot = plots.get(known) ?? { key, title, unit, lines: [] };
     plots.set(known, plot);
@@ -72,7 +72,7 @@ export function layoutOf(signals: readonly TraceSignal[], moved: ReadonlyMap<str
   return { plots: [...plots.values()], lanes };
 }
 
-/** `Main.belt[1].speed` -> `speed`; of an expression all of it. */
+/** `Main.belt[1].speed` -> `speed`; of an expression the whole text. */
 export function lastName(text: string): string {
   const path = /^[\w.[\],^]+$/.test(text) ? text : null;
   return (
@@ -83,7 +83,7 @@ export function lastName(text: string): string {
   );
 }
 
-/** Names as short as they can be while they differ; what all of them begin and end with says nothing. */
+/** The shortest names that still differ; a beginning and an end that all of them share are omitted. */
 function shorten(lines: Line[]): void {
   if (lines.length === 0) return;
   const paths = lines.map(({ signal }) => (/^[\w.[\],^]+$/.test(signal.text) ? signal.text.split(".") : [signal.text]));
@@ -115,7 +115,7 @@ export function ticks({ from, to }: Range, count: number, whole = false): number
   return found;
 }
 
-/** A number at an axis: no longer than it must be. */
+/** A number at an axis, as short as possible. */
 export function axisText(value: number): string {
   if (value === 0) return "0";
   const size = Math.abs(value);
@@ -123,10 +123,10 @@ export function axisText(value: number): string {
   return Number(value.toPrecision(6)).toString();
 }
 
-/** Beside a constant moment: a tenth of all nanoseconds since 1970 would be years. */
+/** Around a constant time: a tenth of all nanoseconds since 1970 would be years. */
 const CONSTANT: Partial<Record<AxisUnit, number>> = { date: 86_400e9, clock: 60e9, moment: 60e9 };
 
-/** A little room above and below; a constant stands in the middle. */
+/** A little room above and below; a constant is in the middle. */
 export function padded(range: Range | null, unit: AxisUnit = "number"): Range {
   if (range === null) return { from: 0, to: 1 };
   const { from, to } = range;
@@ -138,7 +138,7 @@ export function padded(range: Range | null, unit: AxisUnit = "number"): Range {
   return { from: from - room, to: to + room };
 }
 
-/** A part of a whole, as wide as wanted where there is so much, and never outside. */
+/** A part of a whole, as wide as wanted if the whole is that wide, and always inside it. */
 export function within(part: Range, whole: Range, least = 4): Range {
   const width = Math.max(least, Math.min(part.to - part.from, Math.max(least, whole.to - whole.from)));
   const from = Math.max(whole.from, Math.min(part.from, whole.to - width));
@@ -151,10 +151,10 @@ export function zoomedAt(part: Range, whole: Range, factor: number, held: number
 }
 
 export const WHENS: readonly TraceWhen[] = ["rises", "falls", "changes", "above", "below", "equals", "holds"];
-/** Those that compare with a value. */
+/** Trigger kinds that compare with a value. */
 export const COMPARES: ReadonlySet<TraceWhen> = new Set(["above", "below", "equals"]);
 
-/** Scans of the buffer that lie in front of the trigger. */
+/** The scans of the buffer that are before the trigger. */
 export function scansBefore({ definition }: Pick<TraceInfo, "definition">): number {
   return Math.floor((definition.scans * (definition.trigger?.before ?? 0)) / 100);
 }

@@ -56,7 +56,7 @@ function line(from: number, count: number, value: (scan: number) => number): Sam
 }
 
 describe("samples", () => {
-  it("are read in every type, and are nothing where they are not valid", () => {
+  it("are read in every type, and are NaN where they are not valid", () => {
     const samples = decode(
       packed([
         { scan: 10, valid: 0b1111, values: [65534n, 1n, float(1.5), (1n << 64n) - 3n] },
@@ -73,7 +73,7 @@ describe("samples", () => {
     expect(texts(1)).toEqual(["", "FALSE", "", "9007199254740993"]);
   });
 
-  it("go on, and the oldest go", () => {
+  it("continue, and the oldest are dropped", () => {
     const joined = appended(
       line(0, 10, (scan) => scan),
       line(10, 5, (scan) => scan),
@@ -92,8 +92,8 @@ describe("samples", () => {
   });
 });
 
-describe("what is drawn", () => {
-  it("is every sample where there is room", () => {
+describe("the points to draw", () => {
+  it("are all samples where there is room", () => {
     const drawn = perPixel(
       line(0, 100, (scan) => scan),
       [0],
@@ -103,17 +103,17 @@ describe("what is drawn", () => {
     expect(drawn.xs).toEqual([9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]);
   });
 
-  it("keeps every peak, with two points a pixel at most", () => {
+  it("keep every peak, with at most two points a pixel", () => {
     const samples = line(0, 100_000, (scan) => (scan === 54_321 ? 99 : scan === 54_400 ? -99 : Math.sin(scan / 1000)));
     const drawn = perPixel(samples, [0], { from: 0, to: 99_999 }, 500);
     expect(drawn.xs.length).toBeLessThanOrEqual(1002);
     expect(bounds(drawn.ys)).toEqual({ from: -99, to: 99 });
     const peaks = (drawn.ys[0] ?? []).filter((value) => Math.abs(value ?? 0) === 99);
-    expect(peaks).toEqual([99, -99]); // in the order in which they came
+    expect(peaks).toEqual([99, -99]); // in the order of the samples
     for (let at = 1; at < drawn.xs.length; at += 1) expect(drawn.xs[at]).toBeGreaterThanOrEqual(drawn.xs[at - 1] ?? 0);
   });
 
-  it("has gaps where there is nothing", () => {
+  it("have gaps where there are no samples", () => {
     const samples = line(0, 10_000, (scan) => (scan < 5000 ? Number.NaN : 1));
     const drawn = perPixel(samples, [0], { from: 0, to: 9999 }, 100);
     expect(drawn.ys[0]?.[0]).toBeNull();

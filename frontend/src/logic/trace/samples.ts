@@ -1,4 +1,4 @@
-/** Samples of a trace as they come over the wire (`taps/trace_buffer.py` of the backend, `Samples.pack`), and rows of them. */
+/** Samples of a trace in the format of the wire (`taps/trace_buffer.py` of the backend, `Samples.pack`), and rows of them. */
 
 import type { TraceSignal } from "../../wire/types";
 import type { ValueShape } from "../format/formats";
@@ -9,9 +9,9 @@ export interface Range {
   to: number;
 }
 
-/** Rows, oldest first: NaN where a signal has no value. Of decimated ones two stand for each stretch, least and greatest. */
+/** Rows, oldest first: NaN where a signal has no value. Decimated rows come in pairs: least and greatest value of a stretch. */
 export interface Samples {
-  /** Scans `first` to `end` - 1 are all that there is. */
+  /** Scans `first` to `end` - 1 are all that exist. */
   first: number;
   end: number;
   generation: number;
@@ -77,7 +77,7 @@ function numbers(words: BigUint64Array, valid: BigUint64Array, index: number, si
   return found;
 }
 
-/** Rows that come after those of `before`, behind them; no more than the last `most`. */
+/** The rows of `before` followed by newer rows; only the last `most` of them. */
 export function appended(before: Samples, more: Samples, most: number): Samples {
   const rows = before.scans.length + more.scans.length;
   const skip = Math.max(0, Math.min(before.scans.length, rows - most));
@@ -140,7 +140,7 @@ export function textAt(samples: Samples, row: number, index: number, signal: Tra
   return formatValue(shapeOf(signal), wordView, 0);
 }
 
-/** What is drawn of a stretch: at most two points for each pixel, the least and the greatest value in their order. */
+/** The points to draw for a stretch: at most two for each pixel, the least and the greatest value in their order. */
 export interface Drawn {
   xs: number[];
   ys: (number | null)[][];
@@ -165,7 +165,7 @@ export function perPixel(samples: Samples, which: readonly number[], { from, to 
   return { xs, ys: which.map((index) => extremes(columns[index] ?? new Float64Array(0), starts)) };
 }
 
-/** Where each pixel's rows begin, and where the last one's end. */
+/** Where the rows of each pixel begin, and where those of the last pixel end. */
 function buckets(scans: Float64Array, low: number, high: number, from: number, to: number, pixels: number): number[] {
   const width = (to - from) / pixels;
   const starts: number[] = [];
@@ -208,7 +208,7 @@ function extremes(column: Float64Array, starts: readonly number[]): (number | nu
   return ys;
 }
 
-/** The least and greatest finite values that are drawn; null where there are none. */
+/** The least and greatest finite values among the points to draw; null where there are none. */
 export function bounds(columns: readonly (readonly (number | null)[])[]): Range | null {
   let from = Number.POSITIVE_INFINITY;
   let to = Number.NEGATIVE_INFINITY;

@@ -1,4 +1,4 @@
-/** A disturbance of the PLC: the fields as typed, and what the server is told. */
+/** A disturbance of the PLC: the fields as typed, and the request to the server. */
 
 import type { TextKey } from "../../text";
 import type { NewDisturbance } from "../../wire/types";
@@ -18,11 +18,11 @@ export interface DisturbForm {
   scan: string;
   /** As typed: `0.1 %`, `0.001`, `1/1000`. */
   chance: string;
-  /** With a chance; empty: for ever. */
+  /** At random only; empty: unlimited. */
   times: string;
   seed: string;
   scans: string;
-  /** A stuck input stays so until it is taken back. */
+  /** A stuck input stays stuck until it is taken back. */
   endless: boolean;
 }
 
@@ -42,14 +42,14 @@ export const plainDisturbance: DisturbForm = {
   endless: false,
 };
 
-/** So many scans mean: until it is taken back. */
+/** This number of scans means: until it is taken back. */
 export const ENDLESS = 1_000_000;
 const MOST_BIT = 1023;
 
-/** One bit of something is turned over: which one may be left to the seed. */
+/** Kinds that flip one bit; the seed may choose which. */
 export const turnsBits = (kind: DisturbKind): boolean => kind === "flip" || kind === "result";
 
-/** The seed decides something. */
+/** The seed has an effect. */
 export const isSeeded = (form: DisturbForm): boolean =>
   form.when === "chance" || (turnsBits(form.kind) && form.bit.trim() === "");
 
@@ -58,7 +58,7 @@ interface ReadDisturbance {
   troubles: Partial<Record<DisturbField, TextKey>>;
 }
 
-/** Reads what was typed; fields that are not shown are not judged. `now` is the scan that the PLC has reached. */
+/** Reads the typed fields; hidden fields are not checked. `now` is the scan that the PLC has reached. */
 export function readDisturbance(form: DisturbForm, now = 0): ReadDisturbance {
   const { kind, when } = form;
   const troubles: ReadDisturbance["troubles"] = {};
@@ -102,12 +102,12 @@ function readBit(text: string, troubles: ReadDisturbance["troubles"]): number | 
 function readStart(form: DisturbForm, now: number, troubles: ReadDisturbance["troubles"]): number | null {
   const scan = readScan(form.scan);
   if (scan === null) troubles.scan = "shape.bad.scan";
-  // A chance may begin in the past: it is asked in each scan from now on.
+  // The first scan may be in the past: the probability applies to each scan from now on.
   else if (scan < now && form.when === "scan") troubles.scan = "shape.bad.past";
   return scan;
 }
 
-/** A probability as somebody types it: `0.1 %`, `0,001`, `1/1000`; null when it is none between 0 and 1. */
+/** A typed probability: `0.1 %`, `0,001`, `1/1000`; null when it is not between 0 and 1. */
 export function readChance(text: string): number | null {
   const plain = text.replace(/\s/g, "").replace(",", ".");
   const found = /^(\d+(?:\.\d+)?|\.\d+)(%|\/(\d+(?:\.\d+)?))?$/.exec(plain);

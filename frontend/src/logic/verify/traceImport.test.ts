@@ -25,7 +25,7 @@ const proposal: TraceMapping = {
 const rows = (mapping: TraceMapping) => mapping.columns.map(({ column, path, role }) => `${column}=${path}:${role}`);
 
 describe("a mapping", () => {
-  it("has every column but the axis, in the order of the file", () => {
+  it("has every column except the axis, in the order of the file", () => {
     expect(rows(complete(proposal, FILE))).toEqual([
       "start=start:input",
       "speed=Main.belt.speed:output",
@@ -44,23 +44,23 @@ describe("a mapping", () => {
     expect(countRoles(ignored)).toEqual({ inputs: 1, outputs: 0 });
   });
 
-  it("has the old axis among the columns again when another one is chosen", () => {
+  it("has the old axis among the columns again when a different one is chosen", () => {
     const mapping = changeAxis(complete(proposal, FILE), "note", FILE);
     expect(mapping.axis).toBe("note");
     expect(mapping.columns.map(({ column }) => column)).toEqual(["scan", "start", "speed"]);
     expect(rows(changeAxis(mapping, "", FILE))).toContain("note=:ignore");
   });
 
-  it("says what stands as it was proposed", () => {
+  it("says which columns are still as proposed", () => {
     const mapping = changeColumn(complete(proposal, FILE), "speed", { path: "other" });
     expect(mapping.columns.filter((row) => isProposed(row, proposal)).map(({ column }) => column)).toEqual(["start"]);
   });
 });
 
-describe("another file", () => {
+describe("choosing a different file", () => {
   const before = complete(proposal, FILE);
 
-  it("keeps what was changed by hand, and takes what is proposed for the rest", () => {
+  it("keeps manual changes, and takes the proposal for the rest", () => {
     const changed = { ...changeColumn(before, "speed", { path: "mine" }), gaps: "hold" as const };
     const next: TraceMapping = {
       axis: "t",
@@ -73,18 +73,18 @@ describe("another file", () => {
     expect(rows(mapping)).toEqual(["speed=mine:output", "start=Main.start:input"]);
   });
 
-  it("has what is proposed when nothing was there before", () => {
+  it("takes the proposal when there was no mapping", () => {
     expect(carryOver(null, proposal, FILE)).toEqual(before);
   });
 
-  it("drops an axis that it does not have", () => {
+  it("drops an axis that the file does not have", () => {
     const byHand = changeAxis(before, "note", FILE);
     expect(carryOver({ mapping: byHand, proposal }, proposal, ["scan", "start"]).axis).toBe("scan");
   });
 });
 
 describe("a saved mapping", () => {
-  it("names the columns that the file does not have", () => {
+  it("reports the columns that the file does not have", () => {
     const saved = {
       ...proposal,
       axis: "t",
@@ -101,11 +101,11 @@ describe("a saved mapping", () => {
   });
 });
 
-it("the first values of a column say where there is none", () => {
+it("the first values of a column show where a cell is empty", () => {
   expect(firstValues([["1", "TRUE"], ["2", ""], ["3"]], 1)).toBe("TRUE · – · –");
 });
 
-it("problems are told by column; those of the file as a whole belong to none", () => {
+it("problems are listed by column; those of the whole file belong to no column", () => {
   const problem = (row: number | null, column: string) => ({ row, column, message: "?", warning: false });
   const found = byColumn([problem(2, "speed"), problem(null, ""), problem(9, "speed")]);
   expect([...found.keys()]).toEqual(["speed"]);

@@ -1,4 +1,4 @@
-/** The columns of a trace of a real controller and what they mean here: pure, and kept whatever goes wrong. */
+/** The columns of a controller log and how they are mapped. Pure functions: nothing is lost whatever goes wrong. */
 import type { NewTraceVerification, TraceColumnMap, TraceMapping, TraceProblem } from "../../wire/types";
 
 export const ROLES = ["input", "output", "ignore"] as const;
@@ -7,7 +7,7 @@ export const GAPS = ["refuse", "skip", "hold"] as const;
 
 const columnIn = (mapping: TraceMapping, name: string) => mapping.columns.find(({ column }) => column === name);
 
-/** A mapping that has every column of the file, in its order: what is asked for, else not used. */
+/** A mapping of every column of the file, in its order: as given, else not used. */
 export function complete(mapping: TraceMapping, columns: readonly string[]): TraceMapping {
   return {
     ...mapping,
@@ -18,7 +18,7 @@ export function complete(mapping: TraceMapping, columns: readonly string[]): Tra
   };
 }
 
-/** Another file, or the same one mended: what somebody changed by hand stays, the rest is proposed anew. */
+/** After a different file, or the same one corrected: manual changes stay, the rest is proposed again. */
 export function carryOver(
   before: { mapping: TraceMapping; proposal: TraceMapping } | null,
   proposal: TraceMapping,
@@ -46,19 +46,19 @@ export function carryOver(
 const isSame = (one: TraceColumnMap, other: TraceColumnMap | undefined): boolean =>
   other !== undefined && one.path === other.path && one.role === other.role;
 
-/** It stands as it was proposed, and means something. */
+/** The column is used, and its mapping is still the proposed one. */
 export function isProposed(row: TraceColumnMap, proposal: TraceMapping): boolean {
   return row.role !== "ignore" && row.path !== "" && isSame(row, columnIn(proposal, row.column));
 }
 
-/** A saved mapping for this file: what it says about columns that the file has; and which it misses. */
+/** Applies a saved mapping to this file: what it says about columns of the file, and the columns that the file does not have. */
 export function takeSaved(saved: TraceMapping, columns: readonly string[]): { mapping: TraceMapping; lost: string[] } {
   const wanted = [saved.axis, ...saved.columns.filter(({ role }) => role !== "ignore").map(({ column }) => column)];
   const lost = wanted.filter((name) => name !== "" && !columns.includes(name));
   return { mapping: complete(saved, columns), lost };
 }
 
-/** A column that gets a variable is used; as an input unless somebody says otherwise. */
+/** A column that gets a variable is used: as an input, unless somebody says otherwise. */
 export function changeColumn(mapping: TraceMapping, name: string, change: Partial<TraceColumnMap>): TraceMapping {
   const columns = mapping.columns.map((row) => {
     if (row.column !== name) return row;
@@ -69,7 +69,7 @@ export function changeColumn(mapping: TraceMapping, name: string, change: Partia
   return { ...mapping, columns };
 }
 
-/** Another column is the axis; the one that was it stands among the others again. */
+/** Chooses a different axis; the old axis is an ordinary column again. */
 export function changeAxis(mapping: TraceMapping, axis: string, columns: readonly string[]): TraceMapping {
   return complete({ ...mapping, axis }, columns);
 }
@@ -87,7 +87,7 @@ export function countRoles({ columns }: TraceMapping): { inputs: number; outputs
   return { inputs: count("input"), outputs: count("output") };
 }
 
-/** What is wrong with each column; a problem of a cell counts for its column, too. */
+/** The problems of each column; a problem of a cell counts for its column, too. */
 export function byColumn(problems: readonly TraceProblem[]): ReadonlyMap<string, readonly TraceProblem[]> {
   const found = new Map<string, TraceProblem[]>();
   for (const problem of problems) {

@@ -47,14 +47,14 @@ const row = (part: Partial<VerifyRow>): VerifyRow => ({
 });
 
 describe("rows", () => {
-  it("A' is that of the memory that the monitor runs on; a row without edits has one result", () => {
+  it("A' is the result on the chosen memory of the monitor; a row without edits has one result", () => {
     const edited = { control: "1802", monitor: "5802", set: "1802" };
     expect(resultOf(edited, "recorded")).toBe("5802");
     expect(resultOf(edited, "set")).toBe("1802");
     expect(resultOf({ ...edited, set: null }, "set")).toBe("5802");
   });
 
-  it("an output differs by its two results, also when one side did not write it", () => {
+  it("an output differs when its two results do, also when one side did not write it", () => {
     const one = row({ outputs: { speed: { control: "1802", monitor: "5802", set: "1802" } } });
     expect(differsIn(one, output, "recorded")).toBe(true);
     expect(differsIn(one, output, "set")).toBe(false);
@@ -63,7 +63,7 @@ describe("rows", () => {
     expect(differsIn(row({}), output, "recorded")).toBe(false);
   });
 
-  it("an input differs when the monitor would have read something else", () => {
+  it("an input differs when the monitor would have read a different value", () => {
     const disturbed = row({ inputs: { speed: { recorded: "4000", expected: "0000", set: null } } });
     expect(differsIn(disturbed, input, "recorded")).toBe(true);
     expect(isEdited(disturbed)).toBe(false);
@@ -71,9 +71,9 @@ describe("rows", () => {
   });
 });
 
-describe("from difference to difference", () => {
+describe("going from difference to difference", () => {
   const differing = [3, 17, 40];
-  it("leads to the next and to the one before, from any row", () => {
+  it("finds the next and the previous one, from any row", () => {
     expect(nextDifferent(differing, null, 1)).toBe(3);
     expect(nextDifferent(differing, 3, 1)).toBe(17);
     expect(nextDifferent(differing, 20, 1)).toBe(40);
@@ -81,22 +81,22 @@ describe("from difference to difference", () => {
     expect(nextDifferent(differing, null, -1)).toBe(40);
   });
 
-  it("ends at both ends", () => {
+  it("stops at both ends", () => {
     expect(nextDifferent(differing, 40, 1)).toBeNull();
     expect(nextDifferent(differing, 3, -1)).toBeNull();
     expect(nextDifferent([], null, 1)).toBeNull();
   });
 });
 
-describe("what is typed and told", () => {
-  it("a scan may have gaps between its digits", () => {
+describe("entries and labels", () => {
+  it("a scan may have spaces between its digits", () => {
     expect(scanTyped(" 128 388 ")).toBe(128388);
     expect(scanTyped("128\u2009388")).toBe(128388);
     expect(scanTyped("1,200")).toBe(1200);
     for (const bad of ["", "12a", "-3", "now"]) expect(scanTyped(bad)).toBeNull();
   });
 
-  it("stretches of skipped scans say how many", () => {
+  it("ranges of skipped scans say how many they are", () => {
     expect(
       stretchLines([
         [7, 7],
@@ -105,7 +105,7 @@ describe("what is typed and told", () => {
     ).toEqual(["7", "10 – 14 (5)"]);
   });
 
-  it("neither POU nor file is the whole scan", () => {
+  it("without POU and file it is the whole scan", () => {
     expect(isWholeScan({})).toBe(true);
     expect(isWholeScan({ pou: "", file: "" })).toBe(true);
     expect(isWholeScan({ pou: "Belt" })).toBe(false);
@@ -126,20 +126,20 @@ describe("variables of a row", () => {
     ...part,
   });
 
-  it("is that of the difference, else that of the column with the keys", () => {
+  it("is the variable of the difference, else that of the selected column", () => {
     expect(variableOf(differs({ name: "D120" }), null)).toBe("D120");
     expect(variableOf(null, "input:zone.parts")).toBe("zone.parts");
     expect(variableOf(null, "output:a[1,2]:A'")).toBe("a[1,2]");
     expect(variableOf(differs({ name: "count (global)" }), null)).toBe("count");
   });
 
-  it("what is told of no variable names none", () => {
+  it("does not exist for a difference without a variable", () => {
     expect(variableOf(null, "scan")).toBeNull();
     expect(variableOf(differs({ cause: "order", name: "next statement" }), null)).toBeNull();
     expect(variableOf(differs({ cause: "trap", name: "run-time error" }), null)).toBeNull();
   });
 
-  it("has a path: what the block has inside is below its instance, the rest is a path already", () => {
+  it("has a path: a variable of the block is below its instance, any other name is a path already", () => {
     const inside = [{ path: "Main.belt.position" }, { path: "Main.belt.zone" }];
     expect(memberOf("Main.belt", inside, "position")).toBe("Main.belt.position");
     expect(memberOf("Main.belt", inside, "Zone.parts[3]")).toBe("Main.belt.Zone.parts[3]");
@@ -148,13 +148,13 @@ describe("variables of a row", () => {
     expect(memberOf("", [], "lamp")).toBe("lamp");
   });
 
-  it("an input was written before the scan, a result in it", () => {
+  it("was written before the scan if it is an input, in the scan if it is a result", () => {
     expect(writtenBefore(row({ scan: 9 }), differs({ cause: "input" }))).toBe(9);
     expect(writtenBefore(row({ scan: 9 }), differs({}))).toBe(10);
     expect(writtenBefore(row({ scan: 9 }), null)).toBe(10);
   });
 
-  it("a jump leads to the cell that differs", () => {
+  it("gets the selection when it differs", () => {
     const both = { control: "01", monitor: "01", set: null };
     const read = row({ outputs: { speed: both }, differences: [differs({ cause: "input" })] });
     expect(firstDifferingUnit(read, [output, input], "recorded")).toBe(input);
@@ -163,7 +163,7 @@ describe("variables of a row", () => {
   });
 });
 
-it("what was verified is said in the language of the page", () => {
+it("is described in the language of the page", () => {
   const said = () =>
     ["the whole scan", "Belt, lines 14 to 20", "Belt.run, line 3", "Belt"].map((title) => titleOf({ title }));
   expect(said()).toEqual(["the whole scan", "Belt, lines 14 to 20", "Belt.run, line 3", "Belt"]);

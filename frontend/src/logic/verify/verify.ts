@@ -5,12 +5,12 @@ import type { VerificationInfo, VerifyDifference, VerifyOutput, VerifyRow } from
 import { grouped } from "../format/numbers";
 import type { Unit } from "./verifyColumns";
 
-/** A' as it is shown: on edited inputs where the monitor ran on them. */
+/** A' as it is shown: on edited inputs if the monitor ran on them. */
 export function resultOf(output: VerifyOutput, memory: VerificationInfo["memory"]): string | null {
   return memory === "set" && output.set !== null ? output.set : output.monitor;
 }
 
-/** What was verified, in the words of the page. */
+/** The range of a verification, in the language of the page. */
 export function titleOf({ title }: Pick<VerificationInfo, "title">): string {
   if (title === "the whole scan") return t("verify.title.whole");
   const [, of, first, last] = /^(.*), lines? (\d+)(?: to (\d+))?$/.exec(title) ?? [];
@@ -22,7 +22,7 @@ export function titleOf({ title }: Pick<VerificationInfo, "title">): string {
 
 export const isEdited = (row: VerifyRow) => Object.values(row.inputs).some(({ set }) => set !== null);
 
-/** Whether a unit of a row is not as it should be: an output with two results, an input that the monitor would have read otherwise. */
+/** Whether a unit of a row differs: an output with two results, or an input that the monitor would have read differently. */
 export function differsIn(row: VerifyRow, { side, column }: Unit, memory: VerificationInfo["memory"]): boolean {
   if (side === "output") {
     const output = row.outputs[column.name];
@@ -32,14 +32,14 @@ export function differsIn(row: VerifyRow, { side, column }: Unit, memory: Verifi
   return input?.expected != null && input.expected !== input.recorded;
 }
 
-/** A column that stands for a variable; null: what is told there is none, as `next statement`. */
+/** The variable of a difference, else of a column; null where there is none, such as for `next statement`. */
 export function variableOf(difference: VerifyDifference | null, track: string | null): string | null {
   const name = difference?.name ?? /^(?:input|output):(.*?)(?::A'?)?$/.exec(track ?? "")?.[1] ?? "";
   const plain = name.replace(/ \((?:part|global)\)$/, "");
   return plain === "" || plain.includes(" ") || difference?.cause === "trap" ? null : plain;
 }
 
-/** The path of a column: what the block of the row has inside, else the name is a path or an address already. */
+/** The path of a column: a variable of the block is below the row's instance; any other name is a path or an address already. */
 export function memberOf(instance: string, inside: readonly { path: string }[], column: string): string {
   const path = `${instance}.${column}`.toUpperCase();
   const isBelow = inside.some((member) => {
@@ -49,11 +49,11 @@ export function memberOf(instance: string, inside: readonly { path: string }[], 
   return isBelow ? `${instance}.${column}` : column;
 }
 
-/** An input was written before the scan; what came out of the scan is there when the next one begins. */
+/** The scan before which the variable was written: for an input this scan, for a result the next one. */
 export const writtenBefore = (row: VerifyRow, difference: VerifyDifference | null) =>
   difference?.cause === "input" ? row.scan : row.scan + 1;
 
-/** Where to look in a row that differs. */
+/** The column to select in a row that differs. */
 export const firstDifferingUnit = (
   row: VerifyRow,
   units: readonly Unit[],
@@ -63,14 +63,14 @@ export const firstDifferingUnit = (
     row.differences.some(({ name, cause }) => name === column.name && (cause === "input") === (side === "input")),
   ) ?? units.find((unit) => differsIn(row, unit, memory));
 
-/** The next row that differs, from a row on (null: from the front or the end); null when there is none. */
+/** The next row that differs, from a row on (null: from the beginning or the end); null when there is none. */
 export function nextDifferent(differing: readonly number[], from: number | null, by: 1 | -1): number | null {
   if (from === null) return (by === 1 ? differing[0] : differing.at(-1)) ?? null;
   if (by === 1) return differing.find((index) => index > from) ?? null;
   return differing.findLast((index) => index < from) ?? null;
 }
 
-/** `Main.st, lines 33 to 42` and the like are the server's words; this is what the dialog begins with. */
+/** `Main.st, lines 33 to 42` is the server's text; the dialog begins with these fields. */
 export interface RangeWish {
   pou?: string | undefined;
   file?: string | undefined;
@@ -88,13 +88,13 @@ export function stretchLines(stretches: readonly (readonly [number, number])[]):
   );
 }
 
-/** Scans `a` to `b` as somebody types them: thin gaps, spaces and commas between digits are no mistake; null: not a number. */
+/** A typed range of scans `a` to `b`: thin gaps, spaces and commas between digits are allowed; null: not a number. */
 export function scanTyped(text: string): number | null {
   const digits = text.replace(/[\s\u2009\u202f,._']/g, "");
   return /^\d+$/.test(digits) ? Number(digits) : null;
 }
 
-/** The PLC waits for it. */
+/** The PLC waits for this verification. */
 export const isPaced = (info: Pick<VerificationInfo, "state" | "source" | "pace">) =>
   info.source === "live" && info.pace !== "free" && isGoing(info);
 

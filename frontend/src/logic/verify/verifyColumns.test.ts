@@ -34,11 +34,11 @@ const keys = (all: readonly { key: string }[]) => all.map(({ key }) => key);
 const PLAIN = { instances: false, steps: false };
 
 describe("columns", () => {
-  it("are outputs, then inputs, in the order of use; one variable can be both", () => {
+  it("are outputs, then inputs, in the order of use; a variable can be both", () => {
     expect(keys(units)).toEqual(["output:speed", "output:run", "input:speed", "input:target", "input:sensor"]);
   });
 
-  it("are moved within their side, and stay there when others come", () => {
+  it("are moved within their side, and keep their place when others are added", () => {
     const other = moved(units, plainArrangement, "input:sensor", -1);
     expect(keys(inOrder(units, other)).slice(2)).toEqual(["input:speed", "input:sensor", "input:target"]);
     const more = unitsOf([
@@ -51,7 +51,7 @@ describe("columns", () => {
     expect(keys(inOrder(more, other)).slice(2)).toEqual(["input:speed", "input:sensor", "input:target", "input:edge"]);
   });
 
-  it("an output never stands among the inputs", () => {
+  it("keep outputs and inputs apart", () => {
     const dragged = movedTo(units, plainArrangement, "output:speed", "input:sensor");
     expect(keys(inOrder(units, dragged))).toEqual([
       "output:run",
@@ -63,7 +63,7 @@ describe("columns", () => {
     expect(moved(units, plainArrangement, "output:speed", -1)).toBe(plainArrangement);
   });
 
-  it("that are hidden are passed over", () => {
+  it("are skipped when they are hidden", () => {
     const hidden = { ...plainArrangement, hidden: toggled([], "input:target") };
     expect(keys(arranged(units, hidden))).not.toContain("input:target");
     const next = moved(units, hidden, "input:sensor", -1);
@@ -73,7 +73,7 @@ describe("columns", () => {
 });
 
 describe("tracks", () => {
-  it("an output has two, and what is pinned stands in sight in front", () => {
+  it("are two for an output; pinned ones stay visible on the left", () => {
     const pinned = ["input:target"];
     const tracks = tracksOf(arranged(units, { ...plainArrangement, pinned }), pinned, { instances: true, steps: true });
     expect(keys(tracks)).toEqual([
@@ -100,7 +100,7 @@ describe("tracks", () => {
     expect(wholeWidth(tracks)).toBe((tracks.at(-1)?.left ?? 0) + (tracks.at(-1)?.width ?? 0));
   });
 
-  it("what one looks at stays where it is when columns are inserted in front of it", () => {
+  it("keep the visible part in place when columns are inserted before it", () => {
     const of = (count: number) =>
       tracksOf(
         unitsOf([...[...Array(count)].map((_, at) => column(`out${at}`, true, false)), column("in", false, true)]),
@@ -116,7 +116,7 @@ describe("tracks", () => {
     expect(heldAcross(before, tracksOf([], [], PLAIN), 40)).toBe(40);
   });
 
-  it("of hundreds only those in the window are drawn, with what stays in sight", () => {
+  it("are drawn only within the window, plus those that stay visible", () => {
     const many = unitsOf([...Array(300)].map((_, at) => column(`v${at}`, true, false)));
     const tracks = tracksOf(many, [], PLAIN);
     const drawn = tracksInSight(tracks, 20_000, 800, 0);

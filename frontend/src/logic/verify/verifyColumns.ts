@@ -1,4 +1,4 @@
-/** The columns of a verification's table: which there are, in which order, and where they stand. */
+/** The columns of a verification's table: which there are, in which order, and where they are. */
 
 import type { VerifyColumn } from "../../wire/types";
 import type { Format } from "../format/formats";
@@ -29,7 +29,7 @@ export function unitsOf(columns: readonly VerifyColumn[]): Unit[] {
   );
 }
 
-/** In the order that somebody gave them; what is new stands behind what it naturally follows. Pinned ones come first. */
+/** In the order that somebody chose; a new unit comes after the one it follows in the order of use. Pinned units come first. */
 export function inOrder(units: readonly Unit[], { order, pinned }: Arrangement): Unit[] {
   const byKey = new Map(units.map((unit) => [unit.key, unit]));
   const placed = order.flatMap((key) => byKey.get(key) ?? []);
@@ -46,14 +46,14 @@ export function arranged(units: readonly Unit[], arrangement: Arrangement): Unit
   return inOrder(units, arrangement).filter(({ key }) => !arrangement.hidden.includes(key));
 }
 
-/** One place further among those that are shown; a unit does not leave its side. */
+/** Moves a unit one place among those that are shown; it stays on its side. */
 export function moved(units: readonly Unit[], arrangement: Arrangement, key: string, by: 1 | -1): Arrangement {
   const shown = arrangement.hidden.includes(key) ? inOrder(units, arrangement) : arranged(units, arrangement);
   const neighbour = shown[shown.findIndex((unit) => unit.key === key) + by];
   return neighbour ? movedTo(units, arrangement, key, neighbour.key) : arrangement;
 }
 
-/** To the place of another unit, as after a drag. */
+/** Moves a unit to the place of a different unit, as after a drag. */
 export function movedTo(units: readonly Unit[], arrangement: Arrangement, key: string, to: string): Arrangement {
   const keys = inOrder(units, arrangement).map((unit) => unit.key);
   const at = keys.indexOf(key);
@@ -85,14 +85,14 @@ export interface Track {
     | "note";
   width: number;
   left: number;
-  /** It stays in sight. */
+  /** It stays visible. */
   sticky: boolean;
   unit: Unit | null;
 }
 
 const FIXED = { mark: 26, scan: 82, call: 46, instance: 150, place: 190, from: 84, disturbance: 264, note: 320 };
 
-/** Of the kind of value, and of the name above it. */
+/** Its width depends on the kind of value, and on the name above it. */
 function widthOf({ column, side }: Unit): number {
   const { kind, size } = column;
   const value =
@@ -114,7 +114,7 @@ interface TableKind {
   steps: boolean;
 }
 
-/** What tells a row from the next stays in sight at the left, with the pinned units behind it. */
+/** The columns that identify a row stay visible on the left, followed by the pinned units. */
 export function tracksOf(units: readonly Unit[], pinned: readonly string[], kind: TableKind): Track[] {
   const tracks: Track[] = [];
   let left = 0;
@@ -143,18 +143,18 @@ export function tracksOf(units: readonly Unit[], pinned: readonly string[], kind
 
 export const wholeWidth = (tracks: readonly Track[]) => tracks.reduce((sum, { width }) => sum + width, 0);
 
-/** How far to scroll, so that what one looks at stays where it is when columns are inserted in front of it. */
+/** How far to scroll so that the visible part stays in place when columns are inserted before it. */
 export function heldAcross(before: readonly Track[], now: readonly Track[], left: number): number {
   const covered = (tracks: readonly Track[]) => wholeWidth(tracks.filter(({ sticky }) => sticky));
   const edge = left + covered(before);
   const first = before.find((track) => !track.sticky && track.left + track.width > edge);
   const same = now.find((track) => track.key === first?.key && !track.sticky);
-  // Whoever is at the beginning stays there.
+  // At the very beginning the view stays at the beginning.
   if (left <= 0 || !first || !same) return left;
   return Math.max(0, left + same.left - covered(now) - (first.left - covered(before)));
 }
 
-/** Those that are drawn: what stays in sight, and what stands in the window, with some room around it. */
+/** The columns to draw: those that stay visible, and those in the window, with some room around it. */
 export function tracksInSight(tracks: readonly Track[], left: number, width: number, around = 240): Track[] {
   return tracks.filter(
     (track) => track.sticky || (track.left + track.width >= left - around && track.left <= left + width + around),

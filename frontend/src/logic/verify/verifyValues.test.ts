@@ -12,27 +12,27 @@ describe("values of a verification", () => {
     expect(shownValue({ type: "TIME", kind: "time", size: 8 }, "00ca9a3b00000000").text).toBe("T#1s");
   });
 
-  it("a BOOL has a lamp, others have none", () => {
+  it("have a lamp for a BOOL only", () => {
     expect(shownValue({ type: "BOOL", kind: "bool", size: 1 }, "01")).toEqual({ text: "TRUE", lamp: true });
     expect(shownValue(INT, "0100").lamp).toBeNull();
   });
 
-  it("a number of an enumeration has its name", () => {
+  it("show the name of an enumeration's number", () => {
     const type = { ...INT, type: "Colour", values: [["Red", 1] as [string, number], ["Green", 2] as [string, number]] };
     expect(shownValue(type, "0200").text).toBe("Green");
     expect(shownValue(type, "0300").text).toBe("3");
   });
 
-  it("a STRING is as long as it says, a WSTRING has units of two bytes", () => {
+  it("have the length that a STRING states; a WSTRING has units of two bytes", () => {
     const text = { type: "STRING[5]", kind: "string", size: 7 };
     expect(shownValue(text, "02004f4b586161").text).toBe("'OK'");
     expect(shownValue(text, "0000").text).toBe("''");
     expect(shownValue({ type: "WSTRING[2]", kind: "string", size: 6 }, "0100c4301234").text).toBe('"ツ"');
-    // A damaged length ends with the bytes.
+    // A wrong length does not go beyond the bytes.
     expect(shownValue(text, "ff004f4b").text).toBe("'OK'");
   });
 
-  it("what is not there, or too long, says so", () => {
+  it("say when they are missing or too long", () => {
     expect(shownValue(INT, null).text).toBe(NOTHING);
     expect(shownValue({ type: "X", kind: "struct", size: 10 }, "00112233445566778899").text).toBe(
       "16#00112233445566778899",
@@ -41,19 +41,19 @@ describe("values of a verification", () => {
 });
 
 describe("bits beside each other", () => {
-  it("stand from the highest to the lowest, and mark what differs", () => {
+  it("are ordered from the highest to the lowest, and marked where they differ", () => {
     const groups = bitsBeside("1802", "5802", "int");
     expect(groups?.map((group) => group.map(({ a }) => a).join("")).join(" ")).toBe("0000 0010 0001 1000");
     expect(groups?.flat().findIndex(({ differs }) => differs)).toBe(9);
     expect(differingBits(groups ?? [])).toBe(1);
   });
 
-  it("of a BOOL only the one that counts", () => {
+  it("are only the one significant bit for a BOOL", () => {
     expect(bitsBeside("01", "00", "bool")).toEqual([[{ a: "1", differs: true }]]);
     expect(bitsBeside("81", "00", "bool")?.flat()).toHaveLength(8);
   });
 
-  it("are left out where one side has none, and for texts", () => {
+  it("are omitted where one side has none, and for texts", () => {
     expect(bitsBeside("", "5802", "int")).toBeNull();
     expect(bitsBeside("00".repeat(12), "00".repeat(12), "string")).toBeNull();
   });

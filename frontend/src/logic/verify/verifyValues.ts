@@ -1,4 +1,4 @@
-/** Values of a verification, which come as the bytes that lie in the image, as text and as bits. */
+/** Values of a verification, as text and as bits. They come as the bytes of the image. */
 
 import type { VerifyColumn } from "../../wire/types";
 import type { Format, ValueShape } from "../format/formats";
@@ -20,7 +20,7 @@ export function shapeOf({ type, kind, size, values = [] }: ValueType): ValueShap
   return { type, kind: kind as ValueShape["kind"], size, values: named };
 }
 
-/** The bytes of a value, in hex as they lie in the image, as text; null: there is none. */
+/** The text of a value from its bytes (hex, in the order of the image); null: there is none. */
 export function shownValue(of: ValueType, hex: string | null, format: Format = "default"): ShownValue {
   if (hex === null || hex === "") return { text: NOTHING, lamp: null };
   const bytes = bytesOf(hex);
@@ -46,7 +46,7 @@ function stringText(bytes: Uint8Array, wide: boolean): string {
   return formatString(text, wide ? '"' : "'");
 }
 
-/** Bits of two values from the highest to the lowest, in groups of four; null where that says nothing (long values). */
+/** Bits of two values from the highest to the lowest, in groups of four; null where bits are not useful (long values). */
 export function bitsBeside(a: string, b: string, kind: string): { a: string; differs: boolean }[][] | null {
   const one = bytesOf(a);
   const other = bytesOf(b);

@@ -8,13 +8,13 @@ const entries: WatchEntry[] = [
 ];
 
 describe("a watch list as CSV", () => {
-  it("comes back as it went", () => {
+  it("is read back as it was written", () => {
     expect(toCsv(entries)).toBe('path;format;group\r\nMain.belt[1,2].run;default;\r\nW10:8;hex;"Belt; ""3"""\r\n');
     expect(fromCsv(toCsv(entries))).toEqual({ entries, bad: [] });
     expect(fromCsv(`\uFEFF${toCsv(entries)}`).entries).toEqual(entries);
   });
 
-  it("is read from other programs, too: other separators and orders, or paths alone", () => {
+  it("is also read from other programs: with different separators and orders, or only paths", () => {
     expect(fromCsv('Group,Path\n"a,b","Main.x[1,2]"').entries).toEqual([
       { path: "Main.x[1,2]", format: "default", group: "a,b" },
     ]);
@@ -32,7 +32,7 @@ describe("a watch list as CSV", () => {
     ]);
   });
 
-  it("is no formula in a spreadsheet, and comes back without the guard", () => {
+  it("contains no formula for a spreadsheet, and is read back without the guard", () => {
     const groups = ["=1+1", "+x", "-x", "@SUM(A1)", "'=kept", "''@", "'plain", "a=b"];
     const listed = groups.map((group): WatchEntry => ({ path: "D1", format: "default", group }));
     const text = toCsv(listed);
@@ -41,13 +41,13 @@ describe("a watch list as CSV", () => {
     expect(fromCsv(text)).toEqual({ entries: listed, bad: [] });
   });
 
-  it("reads cells with line breaks, and counts the lines behind them", () => {
+  it("reads cells with line breaks, and numbers the lines after them correctly", () => {
     const listed: WatchEntry[] = [{ path: "D1", format: "hex", group: "two\r\nlines" }];
     expect(fromCsv(toCsv(listed))).toEqual({ entries: listed, bad: [] });
     expect(fromCsv(`${toCsv(listed)}D2;octal;`).bad).toEqual([expect.stringMatching(/^Line 4: /)]);
   });
 
-  it("loses one line, not all, to a quote that nothing closes", () => {
+  it("loses one line, not all, to an unclosed quote", () => {
     const { entries: good, bad } = fromCsv('path;format;group\nD1;hex;"open\nD2;hex;\nD3;hex;g');
     expect(good.map(({ path }) => path)).toEqual(["D2", "D3"]);
     expect(bad).toEqual([expect.stringMatching(/^Line 2: .*quot/)]);

@@ -8,7 +8,7 @@ const HEAD = ["path", "format", "group"];
 
 interface ReadList {
   entries: WatchEntry[];
-  /** What could not be read, with its line. */
+  /** A line that could not be read. */
   bad: string[];
 }
 
@@ -22,7 +22,7 @@ const quoted = (text: string) => {
   return /[";\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 };
 
-/** A spreadsheet takes a cell that begins like this for a formula: another's list could hold one. */
+/** A spreadsheet takes a cell that begins like this for a formula: a list from somebody else could contain one. */
 const guarded = (text: string) => (/^'*[=+\-@\t\r]/.test(text) ? `'${text}` : text);
 const unguarded = (text: string) => (/^'+[=+\-@\t\r]/.test(text) ? text.slice(1) : text);
 
@@ -55,14 +55,14 @@ function wrongWith({ path, format, group }: Record<keyof WatchEntry, string>): s
 }
 
 interface Line {
-  /** Where it begins. */
+  /** The line at which it begins. */
   line: number;
   cells: string[];
-  /** A quote that nothing closes: it ends with its line, so that the others are read. */
+  /** An unclosed quote ends with its line, so that the other lines are read. */
   open: boolean;
 }
 
-/** Lines of cells; a cell in quotes may hold the separator, line breaks, and two quotes for one. */
+/** Lines of cells; a quoted cell may contain the separator, line breaks, and two quotes for one. */
 function records(text: string, separator: string): Line[] {
   const found: Line[] = [];
   let line = 1;

@@ -28,7 +28,7 @@ const shown = ({ entries }: ListContent) =>
   entries.map(({ path, group }) => (group ? `${path};${group}` : path)).join(" ");
 
 describe("a watch list", () => {
-  it("takes each path once, and knows the groups of what is added", () => {
+  it("takes each path once, and creates the groups of added entries", () => {
     const added = addEntries(list("a b"), [entry("b;x"), entry("c;x"), entry("c"), entry("d")]);
     expect(shown(added)).toBe("a b c;x d");
     expect(added.groups).toEqual(["x"]);
@@ -42,7 +42,7 @@ describe("a watch list", () => {
     expect(moveEntry(begin, "nope", "x", null)).toBe(begin);
   });
 
-  it("keeps the entries of a group that goes or is called otherwise", () => {
+  it("keeps the entries of a group that is removed or renamed", () => {
     const begin = list("a b;x c;y", "x y");
     expect(shown(removeGroup(begin, "x"))).toBe("a b c;y");
     expect(renameGroup(begin, "x", "y").groups).toEqual(["y"]);
@@ -50,7 +50,7 @@ describe("a watch list", () => {
     expect(addGroup(begin, "x")).toBe(begin);
   });
 
-  it("has another path in the same place", () => {
+  it("replaces a path in its place", () => {
     expect(shown(replacePath(list("a b c"), "b", "d"))).toBe("a d c");
     expect(shown(replacePath(list("a b c"), "b", "a"))).toBe("a c");
   });
@@ -59,7 +59,7 @@ describe("a watch list", () => {
 describe("two edits of one list", () => {
   const base = list("a b c d", "g");
 
-  it("have both additions and both removals", () => {
+  it("contain both additions and both removals", () => {
     const mine = addEntries(removeEntry(base, "a"), [entry("m")]);
     const theirs = addEntries(removeEntry(base, "d"), [entry("t;new")]);
     const merged = merge(base, mine, theirs);
@@ -67,7 +67,7 @@ describe("two edits of one list", () => {
     expect(merged.groups).toEqual(["g", "new"]);
   });
 
-  it("of the same entry take mine, of others theirs", () => {
+  it("take my change of the same entry, and theirs of others", () => {
     const mine = setFormat(base, "a", "hex");
     const theirs = setFormat(setFormat(base, "a", "bcd"), "b", "binary");
     expect(merge(base, mine, theirs).entries.map(({ format }) => format)).toEqual([
@@ -84,7 +84,7 @@ describe("two edits of one list", () => {
     expect(shown(merge(base, addEntries(base, [entry("m")]), moved))).toBe("d m a b c");
   });
 
-  it("keep an entry that was put into a group which somebody removed", () => {
+  it("keep an entry that I put into a group which somebody removed", () => {
     const mine = moveEntry(base, "a", "g", null);
     expect(shown(merge(base, mine, removeGroup(base, "g")))).toBe("b c d a");
   });

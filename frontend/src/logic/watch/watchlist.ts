@@ -1,9 +1,9 @@
-/** What a watch list holds, and what can be done to it: new content out of old, so that it can be undone and compared. */
+/** The content of a watch list and its edits. Each edit makes new content, so that it can be undone and compared. */
 import type { WatchEntry } from "../../wire/types";
 
 export interface ListContent {
   name: string;
-  /** With everybody at the project; else it is one's own. */
+  /** Shared with everybody at the project; else private. */
   shared: boolean;
   groups: readonly string[];
   entries: readonly WatchEntry[];
@@ -11,7 +11,7 @@ export interface ListContent {
 
 const pathsOf = (content: ListContent) => new Set(content.entries.map(({ path }) => path));
 
-/** Adds what is not there yet at the end of a group. */
+/** Adds the entries that the list does not have yet, each at the end of its group. */
 export function addEntries(content: ListContent, wanted: readonly WatchEntry[]): ListContent {
   const known = pathsOf(content);
   const fresh: WatchEntry[] = [];
@@ -28,7 +28,7 @@ export function removeEntry(content: ListContent, path: string): ListContent {
   return { ...content, entries: content.entries.filter((entry) => entry.path !== path) };
 }
 
-/** Another path in the same place; one that is there already takes its place. */
+/** Replaces a path in its place; if the new path is in the list already, that entry moves here. */
 export function replacePath(content: ListContent, path: string, by: string): ListContent {
   const others = content.entries.filter((entry) => entry.path !== by || entry.path === path);
   return { ...content, entries: others.map((entry) => (entry.path === path ? { ...entry, path: by } : entry)) };
@@ -38,7 +38,7 @@ export function setFormat(content: ListContent, path: string, format: WatchEntry
   return { ...content, entries: content.entries.map((entry) => (entry.path === path ? { ...entry, format } : entry)) };
 }
 
-/** Puts an entry into a group, in front of another entry or at its end. */
+/** Moves an entry into a group, before a given entry or to the end. */
 export function moveEntry(content: ListContent, path: string, group: string, before: string | null): ListContent {
   const moved = content.entries.find((entry) => entry.path === path);
   if (!moved || path === before) return content;
@@ -52,7 +52,7 @@ export function addGroup(content: ListContent, name: string): ListContent {
   return content.groups.includes(name) ? content : { ...content, groups: [...content.groups, name] };
 }
 
-/** A group that gets the name of another one becomes part of it. */
+/** A group that is renamed to the name of a different group is merged with it. */
 export function renameGroup(content: ListContent, from: string, to: string): ListContent {
   const groups = [...new Set(content.groups.map((name) => (name === from ? to : name)))];
   const entries = content.entries.map((entry) => (entry.group === from ? { ...entry, group: to } : entry));
@@ -68,8 +68,8 @@ export function removeGroup(content: ListContent, name: string): ListContent {
   };
 }
 
-/** Two people changed what was `base`: what either of them added, removed or changed is in the result; of two changes to
- * the same thing mine is taken. */
+/** Two people changed `base`: the result contains what either of them added, removed or changed; of two changes to
+ * the same entry it takes mine. */
 export function merge(base: ListContent, mine: ListContent, theirs: ListContent): ListContent {
   const groups = mergeOrder(base.groups, mine.groups, theirs.groups);
   const [before, ours, others] = [base, mine, theirs].map(byPath) as [Entries, Entries, Entries];
@@ -103,7 +103,7 @@ export function sameContent(one: ListContent, other: ListContent): boolean {
   );
 }
 
-/** Their order, unless only mine changed; what I added stands behind what it stood behind. */
+/** Their order, unless only mine changed; an entry that I added comes after the same entry as in my list. */
 function mergeOrder(base: readonly string[], mine: readonly string[], theirs: readonly string[]): string[] {
   const [inBase, inMine, inTheirs] = [new Set(base), new Set(mine), new Set(theirs)];
   const kept = theirs.filter((key) => inMine.has(key) || !inBase.has(key));

@@ -34,7 +34,7 @@ const shown = (of: Partial<WatchListView>) =>
   );
 
 describe("watchRows", () => {
-  it("has entries without a group first, then the groups, members below their owner, notes below their row", () => {
+  it("lists entries without a group first, then the groups; members are below their owner, notes below their row", () => {
     expect(shown({})).toEqual([
       "value Main.belt",
       "value Main.belt[1]",
@@ -49,7 +49,7 @@ describe("watchRows", () => {
     ]);
   });
 
-  it("folds groups, and sorts inside of them", () => {
+  it("folds groups, and sorts inside them", () => {
     const folded = shown({ collapsed: new Set(["Belt 2"]), open: new Set(), notes: new Map() });
     expect(folded.slice(-2)).toEqual(["# Belt 1 0", "# Belt 2 2"]);
     const byName = shown({ open: new Set(), notes: new Map(), sort: { column: "target", down: false } });
@@ -85,7 +85,7 @@ describe("watchRows", () => {
     expect(watchRows({ ...large, shown: new Map([["Main.v", 250]]) })).toHaveLength(251);
   });
 
-  it("says where an in-out leads, and knows what stands below it", () => {
+  it("says where an in-out leads, and knows the rows below it", () => {
     const zone = symbol("Main.fb.zone", { expandable: true, section: "VAR_IN_OUT", in_out: true });
     const rows = watchRows({
       ...view,
@@ -100,17 +100,17 @@ describe("watchRows", () => {
     expect(actualOf("Main.fb.zone.parts", "Main.fb.zone", "Main.zone[3]")).toBe("Main.zone[3].parts");
   });
 
-  it("says what is not known, and what it may have meant", () => {
+  it("reports an unknown name, and what it may have meant", () => {
     const refusals = new Map([["Main.belt", { message: "no such variable", near: ["Main.belts"] }]]);
     const rows = watchRows({ ...view, open: new Set(), refusals });
     expect(rows[1]).toMatchObject({ kind: "note", note: { kind: "unknown", near: ["Main.belts"] } });
   });
 
-  it("watches entries and the values that are shown, but no structures inside", () => {
+  it("watches entries and visible values, but not the structures among them", () => {
     expect(pathsToWatch(watchRows(view))).toEqual(["Main.belt", "Main.belt[1].run", "A402", "Main.b", "Main.a"]);
   });
 
-  it("offers what would be taken instead of what was refused", () => {
+  it("offers an allowed value instead of a refused one", () => {
     expect(noteOf(true, "Main.x: 1800 is outside of INT (0 to 1500)", [], "1800", "write").instead).toEqual(["1500"]);
     expect(noteOf(false, "", [], "1800", "force")).toMatchObject({ kind: "unsent", instead: [] });
   });

@@ -1,4 +1,4 @@
-/** The watch list as rows: groups, entries in their order, unfolded members, and below a row what it has to say. */
+/** The watch list as rows: groups, entries in their order, unfolded members, and notes below their row. */
 
 import type { PlcSymbol, Refusal, WatchEntry } from "../../wire/types";
 import { splitPath } from "../format/paths";
@@ -6,19 +6,19 @@ import type { SortKey } from "../format/values";
 import { corrections } from "../plc/correction";
 import { type Filter, matches, type Sort, type SortColumn, sorted } from "./watchsort";
 
-/** So many members of an array are shown at once, and so many more with each asking. */
+/** An array shows this many members at first, and as many more with each request. */
 export const PAGE = 100;
 
 export interface WatchNote {
   kind: "refused" | "unsent" | "unknown";
   message: string;
-  /** Near matches for a name that is not known. */
+  /** Near matches for an unknown name. */
   near: readonly string[];
-  /** What was typed, to be offered again. */
+  /** The typed value, to be offered again. */
   entry?: string;
-  /** Values that would be taken instead. */
+  /** Values that would be accepted instead. */
   instead: readonly string[];
-  /** What the entry was to do. */
+  /** What the entry was for: a write or a force. */
   verb?: "write" | "force";
 }
 
@@ -33,7 +33,7 @@ export interface GroupRow {
 interface OfEntry {
   key: string;
   path: string;
-  /** The list entry that this row stands under; equal to `path` for the entry itself. */
+  /** The list entry that this row belongs to; equal to `path` for the entry itself. */
   root: string;
   level: number;
 }
@@ -41,12 +41,12 @@ interface OfEntry {
 export interface ValueRow extends OfEntry {
   kind: "value";
   group: string;
-  /** Of its entry; a member may have another one. */
+  /** The format of its entry; a member may have a different one. */
   format: WatchEntry["format"];
   open: boolean;
-  /** Known for members; for entries it comes with the watch's answer. */
+  /** Known for members; for entries it comes with the answer of the watch. */
   symbol: PlcSymbol | null;
-  /** The in-out that this row is, or stands below. */
+  /** The in-out that this row is, or is below. */
   inOut: string | null;
 }
 
@@ -55,7 +55,7 @@ export interface NoteRow extends OfEntry {
   note: WatchNote;
 }
 
-/** Where an in-out leads, below its row. */
+/** The line below an in-out that says where it leads. */
 export interface BindingRow extends OfEntry {
   kind: "binding";
 }
@@ -82,11 +82,11 @@ export interface WatchListView {
   members: ReadonlyMap<string, readonly PlcSymbol[]>;
   symbols: ReadonlyMap<string, PlcSymbol>;
   notes: ReadonlyMap<string, WatchNote>;
-  /** Names that the PLC does not know, with its reason. */
+  /** Names that the PLC does not know, with the reason. */
   refusals: ReadonlyMap<string, Refusal>;
   sort: Sort;
   filter: Filter;
-  /** What a filter by state, and a sort by what only the page knows, go by. */
+  /** For a filter by state and for sorts by values that only the page knows. */
   keyOf: (path: string, column: SortColumn) => SortKey;
   isForced: (path: string) => boolean;
   hasChanged: (path: string) => boolean;
@@ -133,7 +133,7 @@ function passes(view: WatchListView, path: string): boolean {
   return text === "" || shows(view, path, view.symbols.get(path), text);
 }
 
-/** Whether a text is in an entry, or in a member that is unfolded below it. */
+/** Whether a text occurs in an entry, or in one of its unfolded members. */
 function shows(view: WatchListView, path: string, symbol: PlcSymbol | undefined, text: string): boolean {
   if (matches(text, [path, symbol?.type, symbol?.address])) return true;
   if (!view.open.has(path)) return false;
@@ -176,7 +176,7 @@ function unknownNote(refusal: Refusal | undefined): WatchNote | null {
   return refusal ? { kind: "unknown", message: refusal.message, near: refusal.near ?? [], instead: [] } : null;
 }
 
-/** A note about an entry that was not taken, with what would be. */
+/** The note about a refused entry, with values that would be accepted. */
 export function noteOf(
   sent: boolean,
   message: string,
@@ -188,7 +188,7 @@ export function noteOf(
   return { kind: sent ? "refused" : "unsent", message, near, entry, instead, verb };
 }
 
-/** What to ask the PLC for: entries, and members that have a value of their own. */
+/** The paths to watch: entries, and members that have a value themselves. */
 export function pathsToWatch(rows: readonly WatchRow[]): string[] {
   const paths = new Set<string>();
   for (const row of rows) {
@@ -197,8 +197,8 @@ export function pathsToWatch(rows: readonly WatchRow[]): string[] {
   return [...paths];
 }
 
-/** A member shows only what it adds to its owner: `[1]` or `run`. */
+/** The name of a member, without its owner: `[1]` or `run`. */
 export const memberName = (row: ValueRow) => row.symbol?.name || splitPath(row.path).name;
 
-/** What stands behind a member of an in-out, from what the in-out itself is bound to: `Main.zone[3].parts`. */
+/** The variable that a member of an in-out refers to, from the argument of the in-out itself: `Main.zone[3].parts`. */
 export const actualOf = (path: string, inOut: string, actual: string) => actual + path.slice(inOut.length);

@@ -1,10 +1,10 @@
-/** The order of a watch list's entries by a column, and which of them a filter lets through. */
+/** Sorts the entries of a watch list by a column, and filters them. */
 import type { SortKey } from "../format/values";
 
 const SORT_COLUMNS = ["target", "current", "change", "type", "address", "bound"] as const;
 export type SortColumn = (typeof SORT_COLUMNS)[number];
 
-/** Null is as listed. */
+/** Null is the order of the list. */
 export type Sort = { column: SortColumn; down: boolean } | null;
 
 export const ONLY = ["all", "changed", "forced", "errors"] as const;
@@ -34,7 +34,7 @@ function compared(a: Exclude<SortKey, null>, b: Exclude<SortKey, null>): number 
   return a < b ? -1 : a > b ? 1 : 0;
 }
 
-/** A click on a column's head: up, down, as listed. */
+/** Clicks on the head of a column: up, down, as listed. */
 export function nextSort(sort: Sort, column: SortColumn): Sort {
   if (sort?.column !== column) return { column, down: false };
   return sort.down ? null : { column, down: true };
@@ -43,7 +43,7 @@ export function nextSort(sort: Sort, column: SortColumn): Sort {
 export const matches = (text: string, parts: readonly (string | null | undefined)[]) =>
   text === "" || parts.some((part) => part?.toLowerCase().includes(text.toLowerCase()));
 
-/** Whether every entry must be watched, and not only those in sight. */
+/** Whether every entry must be watched, not only the visible ones. */
 export const needsAll = (sort: Sort, filter: Filter) =>
   (sort !== null && ["current", "type", "address"].includes(sort.column)) ||
   filter.only === "changed" ||

@@ -3,7 +3,7 @@ import { useRanApart } from "../../store/project/shownProgram";
 import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
-/** In the past, where another program ran than the one whose files are shown: says so. */
+/** Says in the past that a different program version ran than the one whose files are shown. */
 export function PastNote({ of }: { of: "files" | "problems" }) {
   const ran = useRanApart();
   if (ran === null) return null;

@@ -4,14 +4,14 @@ import { t } from "../../text";
 import { PathBox } from "../../ui/PathBox";
 import type { PlcSymbol } from "../../wire/types";
 
-/** Typing a variable, an address or an expression to record, with what the program has to offer. */
+/** A field for a variable, an address or an expression to record, with completion. */
 export function AddSignal() {
   async function record(text: string): Promise<{ text: string }> {
     const signal = text.trim();
     return { text: signal !== "" && (await addAllToTrace([signal])) ? "" : text };
   }
 
-  /** What has members is gone on into; the rest is recorded. */
+  /** Choosing a name with members continues with its members; any other name is recorded. */
   function take({ path, kind, expandable }: PlcSymbol) {
     return expandable ? { text: kind === "array" ? `${path}[` : `${path}.` } : record(path);
   }

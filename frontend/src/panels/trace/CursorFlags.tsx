@@ -12,7 +12,7 @@ interface Props {
   scale: Scale;
 }
 
-/** The two cursors: lines over all plots, with a flag to drag, or to move by the arrow keys. */
+/** The two cursors: lines over all plots, each with a flag that can be dragged, or moved by the arrow keys. */
 export function CursorFlags({ shown, samples, scale }: Props) {
   const a = useTraces((traces) => traces.a);
   const b = useTraces((traces) => traces.b);

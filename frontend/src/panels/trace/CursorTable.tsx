@@ -15,7 +15,7 @@ interface Props {
   samples: Samples | null;
 }
 
-/** Values at the cursors: what the plots show, as text. Without a cursor, the newest values. */
+/** Values at the cursors: the content of the plots as text. Without a cursor, the newest values. */
 export function CursorTable({ shown, samples }: Props) {
   const a = useTraces((traces) => traces.a);
   const b = useTraces((traces) => traces.b);
@@ -200,7 +200,7 @@ function difference(a: At | null, b: At | null, index: number, signal: TraceSign
   return axisText(other - one).replace("-", "−");
 }
 
-/** The samples of a scan: from what is held when that is exact, else asked for. */
+/** The samples of a scan: from the held ones if they are exact, else fetched. */
 function useRow(shown: Shown, samples: Samples | null, scan: number | null): At | null {
   const [asked, setAsked] = useState<{ key: string; samples: Samples } | null>(null);
   const row = samples && scan !== null ? rowAt(samples, scan) : -1;

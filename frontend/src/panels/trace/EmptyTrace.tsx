@@ -2,7 +2,7 @@ import { t } from "../../text";
 import { Empty } from "../../ui/Empty";
 import { AddSignal } from "./AddSignal";
 
-/** Nothing is recorded yet: what a trace is, and how to begin one. */
+/** No trace yet: what a trace is, and how to begin one. */
 export function EmptyTrace() {
   return (
     <div className="trempty">

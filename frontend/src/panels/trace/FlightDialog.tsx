@@ -8,7 +8,7 @@ import { t } from "../../text";
 import { Field } from "../../ui/Field";
 import { FormDialog } from "../../ui/FormDialog";
 
-/** The flight recorder: the last scans of any variables, found out from the journal. */
+/** The retrospective trace: the last scans of any variables, computed from the journal. */
 export function FlightDialog({ onClose }: { onClose: () => void }) {
   const shown = shownOf(useTraces());
   const kept = useTimeline((run) => run.info?.first_scan ?? 0);

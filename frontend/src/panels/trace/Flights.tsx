@@ -3,7 +3,7 @@ import { cancelFlight, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
-/** Earlier scans on their way into a record: how far, and a way out. */
+/** Retrospective traces that are being computed: their progress, and a Cancel button. */
 export function Flights() {
   const flights = useTraces((traces) => traces.flights);
   return flights.map(({ id, done, of, by }) => (

@@ -42,10 +42,10 @@ interface Props {
 
 const AXIS = 22;
 const LEAST_PLOT = 84;
-/** So far the pointer must move for a press to be more than a click. */
+/** A press is a drag and not a click once the pointer has moved this far. */
 const DRAG = 4;
 
-/** The outline of all, the plots and lanes with the same scans above each other, and the cursors over them. */
+/** The overview, the plots and lanes with a common scan axis, and the cursors over them. */
 export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
   const element = useRef<HTMLDivElement>(null);
   const size = useSize(element);
@@ -94,7 +94,7 @@ export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
   );
 }
 
-/** The columns of a record for the signals that are drawn. */
+/** The columns of a record that belong to the drawn signals. */
 function comparedWith(compared: Compared | null, lines: readonly { signal: { text: string } }[]) {
   if (compared === null) return null;
   const { record, samples, shift } = compared;
@@ -104,7 +104,7 @@ function comparedWith(compared: Compared | null, lines: readonly { signal: { tex
 
 type ShowBox = (box: Range | null) => void;
 
-/** What is marked while the pointer is dragged: it moves without anything else being drawn. */
+/** The range that is marked during a drag: only this element is drawn again. */
 function DragBox({ ref }: { ref: Ref<ShowBox> }) {
   const [box, show] = useState<Range | null>(null);
   useImperativeHandle(ref, () => show, []);
@@ -130,8 +130,8 @@ interface AreaProps {
 function PlotArea({ plot, width, height, view, samples, xTicks, cursors, compared }: AreaProps) {
   const element = useRef<HTMLDivElement>(null);
   const drawing = useRef<PlotDrawing | null>(null);
-  // The drawing is made once; React's key makes another one for other lines or colours.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: as said
+  // The drawing is created once; for different lines or colours, React's key creates a new one.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: see above
   useLayoutEffect(() => {
     if (!element.current || width === 0) return;
     const made = new PlotDrawing(element.current, plot, colorsOf(element.current), { width, height });
@@ -139,7 +139,7 @@ function PlotArea({ plot, width, height, view, samples, xTicks, cursors, compare
     return () => made.destroy();
   }, [width === 0]);
   const { from, to } = view;
-  // Once a frame, however often what is shown changes meanwhile.
+  // Once a frame, however often the view changes meanwhile.
   useEffect(() => {
     const beside = comparedWith(compared, plot.lines);
     const frame = requestAnimationFrame(() => {
@@ -176,7 +176,7 @@ interface LanesProps {
   compared: Compared | null;
 }
 
-/** Lanes of BOOLs, and the scans below all. */
+/** Lanes of BOOLs, and the scan axis below all plots. */
 function Lanes({ layout: { lanes }, samples, scale, xTicks, theme, compared }: LanesProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const height = (lanes.length > 0 ? lanes.length * LANE + 8 : 0) + AXIS;
@@ -213,7 +213,7 @@ function useSize(element: { current: HTMLElement | null }): { width: number; hei
   return size;
 }
 
-/** Wheel: closer and wider at the pointer; with Shift, or sideways: along. */
+/** Wheel: zooms at the pointer; with Shift, or sideways: scrolls. */
 function useWheel(element: { current: HTMLElement | null }, shown: Shown, scale: Scale): void {
   const now = useRef({ shown, scale });
   now.current = { shown, scale };
@@ -240,13 +240,13 @@ function useWheel(element: { current: HTMLElement | null }, shown: Shown, scale:
   }, [element]);
 }
 
-/** Between the gutters: there the wheel zooms, also where the panel could be scrolled. */
+/** Between the gutters the wheel zooms, even if the panel could be scrolled. */
 function inside(event: WheelEvent, target: HTMLElement): boolean {
   const { left, width } = target.getBoundingClientRect();
   return event.clientX - left > LEFT && event.clientX - left < width - RIGHT;
 }
 
-/** Click: a cursor. Drag: what is marked fills the view. Drag with Shift or the middle button: along. */
+/** Click: sets a cursor. Drag: zooms to the marked range. Drag with Shift or the middle button: scrolls. */
 function useDrag(
   shown: Shown,
   samples: Samples | null,
@@ -289,7 +289,7 @@ function useDrag(
     addEventListener("pointercancel", onUp);
   }
 
-  /** The first cursor, then the second, then whichever is nearer. */
+  /** Sets the first cursor, then the second, then moves the nearer one. */
   function click(scan: number): void {
     if (!samples || scan < scale.view.from || scan > scale.view.to) return;
     const at = samples.scans[nearestRow(samples, scan)];

@@ -17,7 +17,7 @@ interface Props {
 const EDGE = 12;
 const SIGNALS = 3;
 
-/** All that is recorded, with the part that is shown marked: drag that along. */
+/** The whole record, with the visible part marked; the mark can be dragged. */
 export function Overview({ shown, samples, layout, view, theme, width }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const whole = wholeOf({ ...shown, end: Math.max(shown.end, view.to + 1) });

@@ -5,12 +5,12 @@ import { change } from "../../store/trace/traces";
 import { t } from "../../text";
 import type { TraceInfo, TraceTrigger, TraceWhen } from "../../wire/types";
 
-/** What the trace waits for, how often it is sampled and how far it reaches back: each entry counts at once. */
+/** The trigger of the trace, its sample rate and its length: each entry takes effect at once. */
 export function Settings({ trace }: { trace: TraceInfo }) {
   const { definition } = trace;
   const { trigger } = definition;
   const id = useId();
-  // What was chosen before there is a variable that it could be chosen for.
+  // A condition can be chosen before there is a variable for it: it is stored here until then.
   const [when, setWhen] = useState<TraceWhen>(trigger?.when ?? "rises");
   const [value, setValue] = useState(trigger?.value ?? "");
   useEffect(() => {
@@ -27,7 +27,7 @@ export function Settings({ trace }: { trace: TraceInfo }) {
       return;
     }
     const next = { text, when, value, before: trigger?.before ?? 50, ...part };
-    if (COMPARES.has(next.when) && next.value.trim() === "") return; // the value comes next
+    if (COMPARES.has(next.when) && next.value.trim() === "") return; // the value is entered next
     void change({ trigger: next });
   }
 
@@ -167,7 +167,7 @@ interface EntryProps {
   onCommit: (text: string) => void;
 }
 
-/** A field whose entry counts with Enter, or when it is left; Escape takes it back. */
+/** A field whose entry takes effect on Enter, or when the field is left; Escape discards it. */
 function Entry({ id, value, unit, placeholder, list, mono, disabled, onCommit }: EntryProps) {
   const [typed, setTyped] = useState<string | null>(null);
   function commit(): void {

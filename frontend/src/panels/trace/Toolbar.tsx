@@ -32,7 +32,7 @@ import { savePng } from "./png";
 type Question = "keep" | "rename" | "flight" | null;
 const COMPARED_POINTS = 8000;
 
-/** What is shown and how it stands; zoom, files, and what can be done. */
+/** The name and the state of the trace; zoom, files, and other actions. */
 export function Toolbar({ shown, graph }: { shown: Shown | null; graph: RefObject<HTMLDivElement | null> }) {
   const [asked, ask] = useState<Question>(null);
   const follows = useTraces((traces) => traces.follows);

@@ -15,7 +15,7 @@ import { Toolbar } from "./Toolbar";
 import "./trace.css";
 import { useSamples } from "./useSamples";
 
-/** Signals over scans, recorded where the PLC runs: whoever looks, and whether somebody looks. */
+/** Signals over scans. They are recorded in the PLC's process, whether anybody looks or not, and everybody sees the same. */
 export function TracePanel() {
   const instance = useBench((bench) => bench.instance?.id ?? null);
   const { source, traces, records, moved, compared } = useTraces(
@@ -24,7 +24,7 @@ export function TracePanel() {
   const shown = useMemo(() => shownOf({ source, traces, records }), [source, traces, records]);
   const layout = useMemo(() => layoutOf(shown?.signals ?? [], moved), [shown?.signals, moved]);
   const graph = useRef<HTMLDivElement>(null);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another PLC has other traces
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a different PLC has different traces
   useEffect(() => void refreshTraces(), [instance]);
   const { samples, whole } = useSamples(shown);
 

@@ -1,4 +1,4 @@
-/** What is drawn on canvases: colours from the theme, lanes of BOOLs, the outline of the whole record. */
+/** Drawing on canvases: colours from the theme, lanes of BOOLs, the overview of the whole record. */
 import { type Line, padded } from "../../logic/trace/plots";
 import { bounds, perPixel, type Range, type Samples } from "../../logic/trace/samples";
 
@@ -61,7 +61,7 @@ export const xOf = (scan: number, { view, width }: Scale): number =>
 export const scanOf = (x: number, { view, width }: Scale): number =>
   view.from + ((x - LEFT) / Math.max(1, width)) * (view.to - view.from);
 
-/** Lanes of BOOLs, below each other. */
+/** Lanes of BOOLs, one below the other. */
 export function drawLanes(
   context: CanvasRenderingContext2D,
   lanes: readonly Line[],
@@ -140,7 +140,7 @@ function steps(
   context.setLineDash([...dash]);
   context.beginPath();
   let last: number | null = null;
-  let high = 0; // where the stretch began that is TRUE
+  let high = 0; // where the stretch with TRUE began
   for (let row = 0; row < xs.length; row += 1) {
     const value = ys[row] ?? null;
     const x = xOf((xs[row] as number) + shift, scale);
@@ -159,7 +159,7 @@ function steps(
   context.setLineDash([]);
 }
 
-/** The whole record in outline, each signal in its own height. */
+/** The overview of the whole record, each signal scaled to its own range. */
 export function drawOverview(
   context: CanvasRenderingContext2D,
   lines: readonly Line[],
@@ -212,7 +212,7 @@ function line(context: CanvasRenderingContext2D, x1: number, y1: number, x2: num
   context.stroke();
 }
 
-/** As much of a text as fits; its end says more than its beginning. */
+/** As much of a text as fits; the beginning is cut off, because the end matters more. */
 export function cut(context: CanvasRenderingContext2D, text: string, width: number): string {
   if (context.measureText(text).width <= width) return text;
   let short = text;

@@ -1,4 +1,4 @@
-/** One plot of numbers with uPlot: decimated to its pixels before, names at the ends of lines and dots at cursors drawn behind. */
+/** One plot of numbers with uPlot. Samples are decimated to pixels first; names at the ends of lines and dots at cursors are drawn behind the lines. */
 import uPlot from "uplot";
 import { axisMarks, type Mark } from "../../logic/trace/axis";
 import { type Plot, padded } from "../../logic/trace/plots";
@@ -110,7 +110,7 @@ export class PlotDrawing {
     };
   }
 
-  /** Behind uPlot's own: what is compared with, names, dots, the title. In device pixels. */
+  /** Drawn behind uPlot's lines: the record to compare with, names, dots, the title. In device pixels. */
   private behind(): void {
     const { ctx, bbox } = this.chart;
     const ratio = devicePixelRatio || 1;

@@ -1,6 +1,6 @@
 import { saveFile } from "../../store/page/download";
 
-/** What the graph shows, as a picture: its canvases below each other, on the colour of the panel. */
+/** The graph as a picture: its canvases one below the other, on the colour of the panel. */
 export function savePng(graph: HTMLElement, name: string): void {
   const canvases = [...graph.querySelectorAll("canvas")].filter(({ width, height }) => width > 0 && height > 0);
   const width = Math.max(0, ...canvases.map((canvas) => canvas.width));

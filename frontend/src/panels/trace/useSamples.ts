@@ -4,7 +4,7 @@ import { isRecording, readSamples, type Shown, shownOf, useTraces, viewOf, whole
 
 const PERIOD = 100;
 const WHOLE_PERIOD = 1000;
-/** Rows that a browser holds in full; of more it holds the least and greatest of stretches. */
+/** Up to this many rows a browser holds all samples; of more rows it holds the least and greatest value of stretches. */
 const FULL = 24_000;
 const POINTS = 4_000;
 const OVERVIEW = 1_200;
@@ -14,18 +14,18 @@ const keyOf = (shown: Shown) => `${shown.source.kind} ${shown.source.id} ${shown
 interface Held {
   key: string;
   samples: Samples;
-  /** The scans that it holds all samples of. */
+  /** The range of scans whose samples are all held. */
   from: number;
   to: number;
 }
 
-/** Whether what is held is enough for what is shown: as fine as it can be, and not much more than a screen's width otherwise. */
+/** Whether the held samples cover the view finely enough: all samples, or decimated ones of at most four times the visible range. */
 function enough({ samples, from, to }: Held, wanted: { from: number; to: number }, grown: boolean): boolean {
   if (grown || wanted.from < from || wanted.to > to) return false;
   return !samples.decimated || to - from <= 4 * (wanted.to - wanted.from);
 }
 
-/** The samples of what is shown, fetched as the view moves and the record grows; and the whole record in outline. */
+/** The samples of the view, fetched as the view moves and the record grows; and the overview of the whole record. */
 export function useSamples(shown: Shown | null): { samples: Samples | null; whole: Samples | null } {
   const [held, setHeld] = useState<Held | null>(null);
   const [outline, setOutline] = useState<{ key: string; samples: Samples } | null>(null);
@@ -80,7 +80,7 @@ export function useSamples(shown: Shown | null): { samples: Samples | null; whol
   };
 }
 
-/** What is to be held now; the same where nothing has changed. */
+/** Fetches what the view needs; returns the same object where nothing has changed. */
 async function fetched(key: string, held: Held | null): Promise<Held | null> {
   const state = useTraces.getState();
   const shown = shownOf(state);
@@ -114,7 +114,7 @@ async function fetched(key: string, held: Held | null): Promise<Held | null> {
   if (!data) return held;
   const samples = decode(data, shown.signals);
   if (!atEnd) return { key, samples, from, to };
-  // A PLC that runs as fast as it can has many more rows than were told: those at its end are taken in full.
+  // A PLC at full speed has recorded many more rows than the last message said: the rows at its end are taken in full.
   const tail = samples.decimated && rows <= FULL ? samples.end - 1 - (to - from) : null;
   const again = tail === null ? null : await readSamples(shown.source, tail, samples.end - 1, points);
   const latest = again ? decode(again, shown.signals) : samples;

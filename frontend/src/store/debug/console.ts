@@ -1,4 +1,4 @@
-/** The console of the debugger: expressions and their values, and what logpoints say. */
+/** The console of the debugger: expressions with their values, and the messages of logpoints. */
 import { create } from "zustand";
 import { type DebugProtocol, dap } from "../../wire/dap";
 import { keep, recall } from "../page/localStorage";
@@ -17,7 +17,7 @@ export interface ConsoleLine {
 
 interface Console {
   lines: readonly ConsoleLine[];
-  /** What was typed, the last first. */
+  /** Earlier entries, the last first. */
   history: readonly string[];
 }
 
@@ -43,7 +43,7 @@ interface Evaluated {
   type?: string;
 }
 
-/** The value of an expression where the program stands. What begins with `!` may change it, through the one door. */
+/** Evaluates an expression at the current statement. An expression that begins with `!` may change values; the change is a command like any other. */
 export async function evaluate(expression: string): Promise<void> {
   const text = expression.trim();
   if (text === "") return;
@@ -61,12 +61,12 @@ export async function evaluate(expression: string): Promise<void> {
 
 function inFrame(): { frameId?: number } {
   const { frame } = useStack.getState();
-  // A frame lives no longer than its halt.
+  // A frame is valid only during its halt.
   const halted = usePlc.getState().state?.halt != null;
   return frame === null || !halted ? {} : { frameId: frame };
 }
 
-/** The value for a hover: in the frame when there is one that the text belongs to, else of a path. Undefined when there is none. */
+/** The value for a hover: in the frame if the text belongs to one, else of a path. Undefined when there is none. */
 export async function worthOf(expression: string, inside: boolean): Promise<Evaluated | undefined> {
   try {
     const where = inside ? inFrame() : {};

@@ -1,4 +1,4 @@
-/** Which statements were reached since coverage was switched on; shared by everybody at the PLC. */
+/** The statements executed since coverage was switched on; shared by everybody at the PLC. */
 
 import { create } from "zustand";
 import { t } from "../../text";
@@ -15,7 +15,7 @@ export function onCoverage(coverage: Coverage | null): void {
 
 onInstanceChange(() => onCoverage(null));
 
-/** `reset` forgets what was noted. */
+/** `reset` forgets what was recorded so far. */
 export async function setCoverage(on: boolean, reset = false): Promise<void> {
   const answer = await send({ type: "set_coverage", on, reset });
   useDebug.setState({ refused: answer.ok ? null : answer.message || t("notsent") });

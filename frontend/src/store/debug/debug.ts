@@ -1,4 +1,4 @@
-/** The debugger of this PLC as everybody shares it: breakpoints, and how this browser joins the session. */
+/** The debugger of this PLC, which everybody shares: breakpoints, and the debug session of this browser. */
 
 import { create } from "zustand";
 import type { Wanted } from "../../logic/debug/breakpoints";
@@ -13,20 +13,20 @@ export type Access = BreakpointInfo["access"];
 interface Debug {
   /** Of all groups, in the order in which they were made. */
   breakpoints: readonly BreakpointInfo[];
-  /** Where a form is open in the editor; null while there is none. */
+  /** The place of the form that is open in the editor; null while none is open. */
   editing: Editing | null;
-  /** Why the last thing asked of the debugger was not done. */
+  /** Why the last request to the debugger was refused. */
   refused: string | null;
 }
 
 export interface Editing {
   file: string;
-  /** In the text as it is shown. */
+  /** The line in the shown text. */
   line: number;
   wanted: Wanted;
-  /** The breakpoint that is changed; null makes a new one. */
+  /** The breakpoint to change; null makes a new one. */
   id: number | null;
-  /** What it does when it is reached; decides which field is asked for. */
+  /** What the breakpoint does when it is hit; decides which field the form shows. */
   does: "halt" | "log" | "assign";
 }
 
@@ -34,7 +34,7 @@ export const useDebug = create<Debug>(() => ({ breakpoints: [], editing: null, r
 const get = useDebug.getState;
 const set = useDebug.setState;
 
-/** After each connection: a debug session of its own, with the breakpoints that all browsers share. */
+/** After each connection: begins a debug session, with the breakpoints that all browsers share. */
 export function joinDebugger(breakpoints: readonly BreakpointInfo[]): void {
   set({ breakpoints, refused: null });
   const hello: DebugProtocol.InitializeRequestArguments = {
@@ -54,7 +54,7 @@ export function onBreakpoints(breakpoints: readonly BreakpointInfo[]): void {
   set({ breakpoints });
 }
 
-/** A request whose refusal is shown in the status bar; null when it was refused. */
+/** A request whose refusal is shown in the status bar; the result is null when it was refused. */
 export async function ask<T = object>(command: string, args: object = {}): Promise<T | null> {
   try {
     const body = (await dap.request<T | undefined>(command, args)) ?? ({} as T);
@@ -70,22 +70,22 @@ export const reasonOf = (error: unknown) => (error instanceof Error && error.mes
 
 interface Set {
   id: number | null;
-  /** Why it cannot hold. */
+  /** Why it can never halt. */
   trouble: string | null;
 }
 
-/** Adds a breakpoint to the shared list, or changes the one of this id. Throws what refused it. */
+/** Adds a breakpoint to the shared list, or changes the one with this id. Throws the reason of a refusal. */
 export async function setBreakpoint(wanted: Wanted, id: number | null = null): Promise<Set> {
   const { file, ...rest } = wanted;
   const breakpoint = { ...rest, source: { path: file }, ...(id === null ? {} : { id }) };
   const body = await dap.request<{ breakpoint: DebugProtocol.Breakpoint }>("scanbench/setBreakpoint", { breakpoint });
   set({ refused: null });
   const { verified, message, id: known } = body.breakpoint;
-  // One that is off needs no place to hold at.
+  // A disabled breakpoint needs no statement.
   return { id: known ?? id, trouble: verified || !wanted.enabled ? null : (message ?? null) };
 }
 
-/** The same where no form is open to show a refusal. */
+/** The same without an open form; a refusal is shown in the status bar. */
 export async function addBreakpoint(wanted: Partial<Wanted>, id: number | null = null): Promise<void> {
   try {
     await setBreakpoint({ ...PLAIN, ...wanted }, id);
@@ -119,19 +119,19 @@ export function breakpointsAt(file: string, line: number): BreakpointInfo[] {
       isShared(known) &&
       known.kind === "line" &&
       known.file === file &&
-      // One that was moved to a statement is found at its line, and where it was asked for.
+      // A breakpoint that was moved to a statement is found at its line, and at the line where it was set.
       (known.at_line || known.line) === line,
   );
 }
 
-/** A click on the gutter, F9: takes away what is there, or sets a plain one. */
+/** A click on the gutter, F9: removes the breakpoints of the line, or sets a plain one. */
 export async function toggleBreakpoint(file: string, line: number): Promise<void> {
   const here = breakpointsAt(file, line);
   if (here.length > 0) await removeBreakpoints(here.map(({ id }) => id));
   else await addBreakpoint({ file, line });
 }
 
-/** After a build of this browser: lines that moved with the text. */
+/** After a build by this browser: breakpoints move with the lines of the text. */
 export async function moveBreakpoints(file: string, lines: ReadonlyMap<number, number>): Promise<void> {
   for (const known of get().breakpoints) {
     const line = lines.get(known.id);
@@ -140,7 +140,7 @@ export async function moveBreakpoints(file: string, lines: ReadonlyMap<number, n
   }
 }
 
-/** What a person decided of a breakpoint, without what became of it. */
+/** The properties of a breakpoint that a person chose, without the server's results. */
 export function wantedOf(known: BreakpointInfo): Wanted {
   const { kind, enabled, file, line, path, access, error, scan, condition, hits, log, assign, instance, task } = known;
   return { kind, enabled, file, line, path, access, error, scan, condition, hits, log, assign, instance, task };

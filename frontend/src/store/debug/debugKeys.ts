@@ -1,4 +1,4 @@
-/** Keys of the debugger that mean the line of the caret. */
+/** Keys of the debugger that refer to the line of the caret. */
 import { lineIn } from "../../logic/plc/sourceLines";
 import { useDocuments } from "../project/documents";
 import { toggleBreakpoint } from "./debug";

@@ -1,4 +1,4 @@
-/** Mode and run controls: what they send, and what was refused. */
+/** Mode and run controls: the commands that they send, and the refusals. */
 import { create } from "zustand";
 import { forbidden } from "../../logic/plc/permits";
 import { t } from "../../text";
@@ -15,7 +15,7 @@ const CONDITIONS = 5;
 
 interface RunState {
   refused: string | null;
-  /** The conditions that runs were to stop at, the last one first. */
+  /** The conditions of earlier runs, the last one first. */
   conditions: readonly string[];
 }
 
@@ -29,17 +29,17 @@ export async function runAction(action: RunOrder["action"]): Promise<void> {
   await order({ action });
 }
 
-/** Only that: a paused PLC stays paused, and a run that was asked to end somewhere still does. */
+/** Changes only the speed: a paused PLC stays paused, and a run with an end keeps its end. */
 export async function setSpeed(speed: number): Promise<void> {
   await order({ action: "speed", speed });
 }
 
-/** So many scans, then pause. The dialog that asked shows a refusal itself. */
+/** Runs this many scans, then pauses. The dialog shows a refusal itself. */
 export function runScans(scans: number): Promise<Answer> {
   return post({ action: "continue", scans });
 }
 
-/** Up to the first scan after which a condition holds. What was accepted is kept, to be asked for again. */
+/** Runs up to the first scan after which a condition holds. An accepted condition is stored, to be offered again. */
 export async function runUntil(until: string): Promise<Answer> {
   const answer = await post({ action: "continue", until });
   if (!answer.ok) return answer;
@@ -57,7 +57,7 @@ export async function rollBack(): Promise<void> {
   if (report(await send({ type: "roll_back" })).ok) useDocuments.setState({ change: null });
 }
 
-/** From scan 0, with an empty timeline. The dialog that asked shows a refusal itself. */
+/** Begins at scan 0, with an empty timeline. The dialog shows a refusal itself. */
 export async function newRun(): Promise<void> {
   const answer = await send({ type: "new_run" });
   if (!answer.ok) throw new Error(answer.message || t("notsent"));
@@ -67,7 +67,7 @@ export async function chooseMode(mode: Mode): Promise<void> {
   report(await send({ type: "mode", mode }));
 }
 
-/** Out of a run-time error without a restart: the errors that are present are recovered, and the program goes on in MONITOR. */
+/** Leaves a run-time error without a restart: recovers the present errors, and the program continues in MONITOR. */
 export async function recoverAndGoOn(): Promise<void> {
   const present = [...usePlc.getState().errors.values()].some((row) => row.status === "generated");
   if (present && !report(await send({ type: "recover", ids: null })).ok) return;
@@ -82,14 +82,14 @@ export function modeBefore(): Mode {
   return mode === "PROGRAM" ? ranIn : mode;
 }
 
-/** Once nothing fatal is left: into a mode at once where the model allows it, else by way of PROGRAM. */
+/** Sets the mode once no fatal error is present: at once where the model allows it, else by way of PROGRAM. */
 export async function backTo(mode: Mode): Promise<void> {
   const direct = await send({ type: "mode", mode });
-  // A trap that no error stands for is ended by PROGRAM, too.
+  // PROGRAM also ends a run-time error that no error of the catalogue reports.
   if (!direct.ok && report(await send({ type: "mode", mode: "PROGRAM" })).ok) await chooseMode(mode);
 }
 
-/** The same condition once more, from the menu: a refusal is shown in the status bar. */
+/** Runs to an earlier condition, from the menu: a refusal is shown in the status bar. */
 export async function runUntilAgain(until: string): Promise<void> {
   report(await runUntil(until));
 }
@@ -107,7 +107,7 @@ function report(answer: Answer): Answer {
   return answer;
 }
 
-/** A refusal has had its time: another command was accepted, or the PLC is in another state. */
+/** Removes the message of a refusal: a later command was accepted, or the state of the PLC changed. */
 export function forgetRefusals(): void {
   if (useRun.getState().refused !== null) useRun.setState({ refused: null });
   if (useTimeline.getState().refused !== null) useTimeline.setState({ refused: null });
@@ -119,7 +119,7 @@ usePlc.subscribe(({ state: now }, { state: before }) => {
     forgetRefusals();
 });
 
-/** F5: goes on when paused or halted, pauses when running. */
+/** F5: continues when paused or halted, pauses when running. */
 export function toggleRun(): void {
   const { state } = usePlc.getState();
   if (state?.halt) void step("continue");
@@ -127,7 +127,7 @@ export function toggleRun(): void {
   if (state?.state === "paused") void runAction("continue");
 }
 
-/** F8: one more scan of the PLC, or in the past the next one that there was. */
+/** F8: runs one scan, or in the past goes to the next one. */
 export function singleScan(): void {
   const { state } = usePlc.getState();
   if (state?.state === "paused") void runAction("scan");

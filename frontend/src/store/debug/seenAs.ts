@@ -1,4 +1,4 @@
-/** As which instance the text of a block is looked at: its live values are those of one instance. */
+/** The instance as which the text of a block is seen: its live values are those of this instance. */
 
 import { create } from "zustand";
 import { rest } from "../../wire/rest";
@@ -9,7 +9,7 @@ import { onInstanceChange } from "../plc/reset";
 import { useStack } from "./stack";
 
 interface SeenAs {
-  /** By the name of a POU, in capitals. */
+  /** By the name of a POU, in upper case. */
   chosen: ReadonlyMap<string, string>;
   instances: ReadonlyMap<string, readonly string[]>;
 }
@@ -20,7 +20,7 @@ const set = useSeenAs.setState;
 
 const asked = new Set<string>();
 
-/** Another PLC or another program: other instances. What was chosen stays as long as it is there. */
+/** A different PLC or program has different instances. A choice stays as long as its instance exists. */
 function resetSeenAs(): void {
   asked.clear();
   set({ instances: new Map() });
@@ -39,7 +39,7 @@ export async function loadInstances(pou: string): Promise<void> {
     if (useMembers.getState().instance !== instance) return;
     set(({ instances }) => ({ instances: new Map(instances).set(key, paths) }));
   } catch {
-    asked.delete(key); // The PLC is away: it is asked again when the text is looked at the next time.
+    asked.delete(key); // The PLC cannot answer: the instances are requested again when the text is shown the next time.
   }
 }
 
@@ -58,7 +58,7 @@ export function seenAs({ chosen, instances }: SeenAs, pou: string): string | und
 
 export const seenAsNow = (pou: string) => seenAs(get(), pou);
 
-// Where the program stands is what one wants to see: a halt, and a frame that is chosen, take their instance along.
+// After a halt, and after a frame was selected, the text shows the values of that instance.
 usePlc.subscribe(({ state: now }, { state: before }) => {
   const halt = now?.halt;
   if (halt?.instance && halt.number !== before?.halt?.number) choose(halt.pou, halt.instance);
@@ -76,7 +76,7 @@ export async function loadNames(pou: string): Promise<void> {
   await Promise.all([loadMembers(""), instance === undefined ? [] : loadMembers(instance)]);
 }
 
-/** The instance path of a variable as it is written in a POU; undefined when it is none, or not known (yet). */
+/** The instance path of a variable as it is written in a POU; undefined when it is not a variable, or not known (yet). */
 export function pathOf(pou: string, written: string): string | undefined {
   const { of } = useMembers.getState();
   const root = /^[^.[^]+/.exec(written)?.[0].toUpperCase();

@@ -1,4 +1,4 @@
-/** Where the program stands while it is halted: frames, scopes and the variables in them. */
+/** The call stack while the program is halted: frames, scopes and the variables in them. */
 
 import { create } from "zustand";
 import { type DebugProtocol, dap } from "../../wire/dap";
@@ -6,7 +6,7 @@ import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 import { ask, reasonOf } from "./debug";
 
-/** What this adapter says of a frame beyond the protocol. */
+/** What this adapter sends about a frame beyond the protocol. */
 export interface Frame extends DebugProtocol.StackFrame {
   scanbench?: { pou: string; instance: string; task: string };
 }
@@ -17,15 +17,15 @@ export interface Variable extends DebugProtocol.Variable {
 
 interface Stack {
   frames: readonly Frame[];
-  /** Id of the frame that is looked at. */
+  /** Id of the selected frame. */
   frame: number | null;
   scopes: readonly DebugProtocol.Scope[];
   /** By the key of a scope (its name) or of a variable below one (`VAR/belt[3]`). */
   below: ReadonlyMap<string, readonly Variable[]>;
   open: ReadonlySet<string>;
-  /** Keys of variables that have another value than at the halt before. */
+  /** Keys of variables whose value differs from that at the previous halt. */
   changed: ReadonlySet<string>;
-  /** Why an entry was not taken, by the key of its variable. */
+  /** Why an entry was refused, by the key of its variable. */
   refused: ReadonlyMap<string, string>;
 }
 
@@ -38,7 +38,7 @@ const nothing: Omit<Stack, "open"> = {
   refused: new Map(),
 };
 
-/** More are shown page by page. */
+/** More variables are shown page by page. */
 const PAGE = 100;
 const OPEN_AT_FIRST = ["VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR_TEMP", "RESULT", "THIS"];
 
@@ -46,9 +46,9 @@ export const useStack = create<Stack>(() => ({ ...nothing, open: new Set(OPEN_AT
 const get = useStack.getState;
 const set = useStack.setState;
 
-/** An answer about a halt that is over is dropped. */
+/** Counts halts: an answer about an earlier halt is dropped. */
 let turn = 0;
-/** The texts of the frame looked at before, to see what changed. */
+/** The values of the previously shown frame, to find changes. */
 let texts: ReadonlyMap<string, string> = new Map();
 let textsOf = "";
 
@@ -65,7 +65,7 @@ dap.on("continued", resetWhileRunning);
 dap.on("invalidated", () => void loadFrame());
 dap.on("terminated", resetStack);
 
-// Whoever goes on itself is not told `continued`, and a trap ends a halt, too.
+// The adapter does not send `continued` to the client that continues, and a run-time error ends a halt, too.
 usePlc.subscribe(({ state: now }, { state: before }) => {
   if (before?.halt && !now?.halt) resetWhileRunning();
 });
@@ -95,7 +95,7 @@ export async function chooseFrame(id: number): Promise<void> {
   await loadFrame();
 }
 
-/** Fetches scopes and what is unfolded in them anew. */
+/** Fetches the scopes and their unfolded variables again. */
 async function loadFrame(): Promise<void> {
   const mine = turn;
   const { frame } = get();
@@ -143,7 +143,7 @@ function textsIn(below: ReadonlyMap<string, readonly Variable[]>): Map<string, s
 export const keyOf = (above: string, variable: Variable) => `${above.split("/")[0]}/${nameOf(variable)}`;
 const nameOf = (variable: Variable) => variable.evaluateName ?? variable.name;
 
-/** How many there are below; what was fetched may be less. */
+/** The number of members; fewer may have been fetched. */
 export const countOf = (variable: { namedVariables?: number; indexedVariables?: number }) =>
   (variable.namedVariables ?? 0) + (variable.indexedVariables ?? 0);
 
@@ -167,7 +167,7 @@ export async function moreBelow(key: string, reference: number): Promise<void> {
   if (mine === turn) set(({ below }) => ({ below: new Map(below).set(key, [...known, ...more]) }));
 }
 
-/** Gives a variable of the frame a value through the one door. True when it was taken; else the reason stands in its row. */
+/** Writes the value of a variable of the frame. True when it was accepted; else the reason is shown in its row. */
 export async function setVariable(key: string, variable: Variable, value: string): Promise<boolean> {
   const { frame } = get();
   try {
@@ -186,7 +186,7 @@ export function forgetEntry(key: string): void {
   if (refused.delete(key)) set({ refused });
 }
 
-/** The text of a variable of the frame by its name as written, for temporaries that no path leads to. */
+/** The text of a variable of the frame by its name as written; temporaries have no path. */
 export function frameText(name: string): string | undefined {
   const wanted = name.toUpperCase();
   for (const scope of get().scopes) {
@@ -194,7 +194,7 @@ export function frameText(name: string): string | undefined {
     const found = get()
       .below.get(scope.name)
       ?.find((variable) => variable.name.toUpperCase() === wanted);
-    // What it consists of says more than how much that is.
+    // The members say more than their number.
     if (found) return found.variablesReference > 0 ? undefined : found.value;
   }
   return undefined;

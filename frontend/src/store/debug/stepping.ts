@@ -1,4 +1,4 @@
-/** Steps of the debugger: what the buttons and keys send, and whom the view follows. */
+/** Steps of the debugger: the requests of buttons and keys, and whose view follows a halt. */
 import { create } from "zustand";
 import { permits } from "../../logic/debug/stepping";
 import { isPaced } from "../../logic/verify/verify";
@@ -10,16 +10,16 @@ import { caretPlace } from "./debugKeys";
 
 type StepCommand = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
 
-/** Whether a way back is searched for so long that people wonder: from then on it is said, and the buttons are off. */
+/** True while a search backwards takes noticeably long: the page says so, and the buttons are disabled. */
 export const useStepping = create<{ searching: boolean }>(() => ({ searching: false }));
 
 const isStepwise = () => useVerify.getState().verifications.some((info) => info.pace === "step" && isPaced(info));
 
-/** Most searches are over before one could read of them. */
+/** Most searches are over before a message about them could be read. */
 const NOTICED_MS = 250;
 let goingBack = false;
 
-/** While the PLC searches back it answers nothing else: what is pressed meanwhile is dropped, not kept for later. */
+/** While the PLC searches backwards it answers nothing else: further clicks are dropped, not queued. */
 async function back(command: string, args: object): Promise<void> {
   if (goingBack) return;
   goingBack = true;
@@ -33,7 +33,7 @@ async function back(command: string, args: object): Promise<void> {
   }
 }
 
-/** Steps from a PLC that runs halt it first; what cannot be done now is not sent. */
+/** A step from a running PLC halts it first; impossible steps are not sent. */
 export async function step(command: StepCommand): Promise<void> {
   const { state, link } = usePlc.getState();
   if (goingBack || link.state !== "open" || !permits(state, command)) return;
@@ -41,7 +41,7 @@ export async function step(command: StepCommand): Promise<void> {
   else await ask(command, { threadId: 1 });
 }
 
-/** Up to the first statement of the next scan. */
+/** Runs to the first statement of the next scan. */
 export async function stepScan(): Promise<void> {
   if (!goingBack) await ask("scanbench/singleScan");
 }
@@ -56,16 +56,16 @@ export function runToCaret(): void {
   if (place) void runTo(place.file, place.line);
 }
 
-/** Back to the last write of a variable. */
+/** Goes back to the last write of a variable. */
 export async function reverseTo(path: string): Promise<void> {
   await back("scanbench/reverseTo", { path });
 }
 
-// A halt opens its file for the one who caused it. Others are told, and go there when they want to: nobody's text is taken away.
+// A halt opens its file for the person who caused it. For others only a message appears, so that their open text stays.
 usePlc.subscribe(({ state: now, you, users }, { state: before }) => {
   const halt = now?.halt;
   if (!halt || halt.file === "" || halt.number === before?.halt?.number) return;
   const alone = new Set(users.map(({ name }) => name)).size < 2;
-  // Step by step the Verification panel shows the statement: the editor does not come in front of it.
+  // In a stepwise verification the Verification panel shows the statement, so the editor does not cover it.
   if ((alone || halt.by === you?.name) && !isStepwise()) openFile(halt.file);
 });

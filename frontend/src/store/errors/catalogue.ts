@@ -1,4 +1,4 @@
-/** The errors that the virtual PLC knows, with the project's own, in the language of the page. */
+/** The errors that the virtual PLC knows, with those of the project, in the language of the page. */
 import { useMemo } from "react";
 import { allErrors } from "../../logic/errors/catalogue";
 import { inLanguage } from "../../logic/errors/wordings";
@@ -15,7 +15,7 @@ interface Catalogue {
 const none: Catalogue = { groups: [], errors: [], byId: new Map() };
 const made = new WeakMap<ModelInfo, Map<string, Catalogue>>();
 
-// Many panels ask for the same: it is made once for a model and a language.
+// Many panels need it: it is computed once for a model and a language.
 function catalogueOf(model: ModelInfo | null, language: string): Catalogue {
   if (!model) return none;
   const known = made.get(model) ?? new Map<string, Catalogue>();
@@ -36,13 +36,13 @@ export function useCatalogue(): Catalogue {
   return useMemo(() => catalogueOf(model, language), [model, language]);
 }
 
-/** The catalogue where it is that of the model; what was swept or written down elsewhere may be of another one. */
+/** The catalogue if it is that of the given model, else null: a sweep or a record may belong to a different model. */
 export function useCatalogueOf(model: string): Catalogue {
   const catalogue = useCatalogue();
   return useBench((bench) => bench.model?.name === model) ? catalogue : none;
 }
 
-/** The same outside of React. */
+/** The same outside React. */
 export function catalogueNow(): Catalogue {
   return catalogueOf(useBench.getState().model, usePrefs.getState().language);
 }

@@ -1,4 +1,4 @@
-/** What raising errors would write: asked for a moment after the last change of a detail. */
+/** What raising errors would write: requested a moment after the last change of a detail. */
 
 import { useEffect, useState } from "react";
 import { spaced } from "../../logic/format/debounce";
@@ -11,14 +11,14 @@ import { usePlc } from "../plc/plc";
 const DELAY = 150;
 
 interface Previewed {
-  /** The last answer; stays while a newer one is on its way. */
+  /** The last answer; it stays until a newer one arrives. */
   preview: PreviewedErrors | null;
   refused: string | null;
 }
 
 const nothing: Previewed = { preview: null, refused: null };
 
-/** Follows what is wanted; null asks nothing. Errors that are raised or recovered meanwhile change the answer, too. */
+/** Follows the wanted errors; null requests nothing. Errors that are raised or recovered meanwhile change the answer, too. */
 export function usePreview(errors: readonly GenerateOne[] | null, again: boolean): Previewed {
   const [seen, setSeen] = useState(nothing);
   const instance = useBench((bench) => bench.instance?.id ?? null);
@@ -33,7 +33,7 @@ export function usePreview(errors: readonly GenerateOne[] | null, again: boolean
   return seen;
 }
 
-/** Asks, and asks again whenever other errors are present; until the returned function is called. */
+/** Requests the preview, and again whenever the present errors change; until the returned function is called. */
 function follow([instance, errors, again]: [number, GenerateOne[], boolean], tell: (seen: Previewed) => void) {
   let asked = 0;
   let told = 0;
@@ -41,7 +41,7 @@ function follow([instance, errors, again]: [number, GenerateOne[], boolean], tel
   const ask = spaced(() => {
     asked += 1;
     const turn = asked;
-    // Answers may overtake one another.
+    // A later request may be answered first.
     const answer = (seen: Previewed) => {
       if (over || turn < told) return;
       told = turn;
@@ -63,7 +63,7 @@ function follow([instance, errors, again]: [number, GenerateOne[], boolean], tel
   };
 }
 
-/** The errors that are generated now, with their details. */
+/** The errors that are present, with their details. */
 function present(errors: ReturnType<typeof usePlc.getState>["errors"]): string {
   const rows = [...errors.values()].filter(({ status }) => status === "generated");
   return rows.map(({ id, details }) => `${id} ${details}`).join("\n");

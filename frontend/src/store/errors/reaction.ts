@@ -1,4 +1,4 @@
-/** How the program reacted to the error that is selected: asked for once its window is over. */
+/** The reaction of the program to the selected error: requested once its window is over. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -9,10 +9,10 @@ import { usePlc } from "../plc/plc";
 import { useSimulator } from "./simulator";
 
 interface Seen {
-  /** The error that it is about; null when there is nothing to show. */
+  /** The error of the reaction; null when there is nothing to show. */
   id: string | null;
   reaction: Reaction | null;
-  /** Why it could not be told. */
+  /** Why the reaction is not available. */
   refused: string | null;
 }
 
@@ -22,7 +22,7 @@ export const useReaction = create<Seen>(() => nothing);
 
 let shown = "";
 
-/** What decides whether it has to be asked anew: another error, raised again, another PLC or program. */
+/** The reaction is requested again when this changes: the error, when it was raised, the PLC or the program. */
 function wanted(): { key: string; instance: number; id: string } | null {
   const { selected } = useSimulator.getState();
   const { errors, state } = usePlc.getState();
@@ -42,7 +42,7 @@ function follow(): void {
     useReaction.setState(nothing);
     return;
   }
-  // Of the same error the last one stays until the new one is here: nothing jumps.
+  // The old reaction to the same error stays until the new one arrives, so that the layout does not jump.
   if (useReaction.getState().id !== next.id) useReaction.setState({ ...nothing, id: next.id });
   rest.reaction(next.instance, next.id).then(
     (reaction) => shown === key && useReaction.setState({ id: next.id, reaction, refused: null }),

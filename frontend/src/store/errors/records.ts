@@ -1,4 +1,4 @@
-/** The error history that is looked at: of the version that runs, or of one before; and test records from elsewhere. */
+/** The shown error history: of the running program version, or of an earlier one; and imported test records. */
 
 import { create } from "zustand";
 import { everything, type HistoryView } from "../../logic/errors/history";
@@ -11,19 +11,19 @@ import { useBench } from "../plc/bench";
 import { usePlc } from "../plc/plc";
 
 interface Records {
-  /** The PLC and the project that the rest is about. */
+  /** The PLC and the project that the other fields belong to. */
   instance: number | null;
   project: number | null;
   /** The newest first. */
   versions: readonly HistoryVersion[];
-  /** Null: that of the version that runs, which comes by the socket. */
+  /** Null: the history of the running version is shown, which comes by the socket. */
   old: { version: number; rows: readonly ErrorHistoryRow[] } | null;
   view: HistoryView;
   list: readonly RecordInfo[];
-  /** The record that the page shows. */
+  /** The imported record that the page shows. */
   shown: number | null;
   record: ImportedRecord | null;
-  /** What was refused, in the server's words. */
+  /** The last refusal, in the server's words. */
   trouble: string | null;
 }
 
@@ -56,7 +56,7 @@ async function guarded(deed: () => Promise<void>): Promise<void> {
 
 // ---- the history of this PLC -----------------------------------------------------------------------------------
 
-/** Which versions there are, and which records were brought in: at first sight, and when another program runs. */
+/** Loads the list of versions and of imported records: when the panel is shown first, and when a different program runs. */
 export async function refreshRecords(): Promise<void> {
   const { instance, project } = useBench.getState();
   const now = { instance: instance?.id ?? null, project: project?.id ?? null };
@@ -69,7 +69,7 @@ export async function refreshRecords(): Promise<void> {
   });
 }
 
-/** Shows the history of a version; of the one that runs when there is none. */
+/** Shows the history of a version; without a version that of the running one. */
 export function showVersion(version: number | null): Promise<void> {
   return guarded(async () => {
     const { instance } = get();
@@ -87,20 +87,20 @@ export function showVersion(version: number | null): Promise<void> {
 
 type Format = "csv" | "xml" | "html";
 
-/** Where the test record of a PLC stands: of one version of its program, else of the one that runs. */
+/** The address of the test record of a PLC: of one version of its program, else of the running one. */
 export function recordAddress(instance: number, format: Format, version?: number): string {
   const of = version === undefined ? "" : `&version=${version}`;
   return `/api/instances/${instance}/record?${query(format)}${of}`;
 }
 
-/** Where an imported record stands as a file. */
+/** The address of an imported record as a file. */
 export function importedAddress({ id, project }: RecordInfo, format: Format): string {
   return `/api/projects/${project}/records/${id}?${query(format)}`;
 }
 
 const query = (format: Format) => new URLSearchParams({ format, lang: language() }).toString();
 
-/** Keeps a test record from elsewhere, and shows it. */
+/** Imports a test record, and shows it. */
 export function importRecord(file: Blob): Promise<void> {
   return guarded(async () => {
     const { project } = get();
@@ -117,7 +117,7 @@ export function showRecord(id: number): void {
   void loadRecord();
 }
 
-/** The record that the page shows, from the server: also when the page comes back with a reload. */
+/** Fetches the record that the page shows: also after a reload of the page. */
 export async function loadRecord(): Promise<void> {
   if (get().project === null || get().project !== useBench.getState().project?.id) await refreshRecords();
   const { project, list, shown } = get();

@@ -1,4 +1,4 @@
-/** When the next fault begins and how it goes on, as typed; judged against the scan that the PLC has reached. */
+/** When the next fault begins and how it continues, as typed; checked against the scan that the PLC has reached. */
 import { useSyncExternalStore } from "react";
 import { isPlain, readShape, type ShapeForm } from "../../logic/errors/shapes";
 import { bindClock, readClock } from "../plc/clock";
@@ -12,7 +12,7 @@ interface ReadForm {
   ready: boolean;
 }
 
-/** A scan that was still to come is over some time: it is told when it happens, without a key being pressed. */
+/** A future scan becomes a past one some time: the message then appears without a key press. */
 export function useShape(): ReadForm {
   const form = useSimulator((state) => state.shape);
   const troubled = () => JSON.stringify(readShape(form, readClock().scan).troubles);

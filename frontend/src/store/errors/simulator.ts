@@ -1,4 +1,4 @@
-/** What is chosen in the error simulator, what is typed there, and its commands. */
+/** The selection and the entries of the error simulator, and its commands. */
 
 import { create } from "zustand";
 import { type ErrorStatus, type ReactionFilter, toggleAll } from "../../logic/errors/catalogue";
@@ -21,11 +21,11 @@ import { onInstanceChange } from "../plc/reset";
 export interface Outcome {
   ok: boolean;
   message: string;
-  /** What it was about. */
+  /** The errors that it is about. */
   ids: readonly string[];
-  /** Of these, the ones that are generated already: generating them again changes their details. */
+  /** Those of them that are generated already: generating them again changes their details. */
   present: readonly string[];
-  /** Names that come near one that the PLC did not know. */
+  /** Known names that are similar to the unknown one. */
   near: readonly string[];
 }
 
@@ -37,14 +37,14 @@ interface Simulator {
   closed: ReadonlySet<string>;
   checked: ReadonlySet<string>;
   selected: string | null;
-  /** Details as edited, by error; the others stand at their defaults. */
+  /** Details as edited, by error; other errors have their defaults. */
   details: Readonly<Record<string, Entries>>;
-  /** When the next fault begins and how it goes on. */
+  /** When the next fault begins and how it continues. */
   shape: ShapeForm;
-  /** The dialog for several errors is open, with these. */
+  /** The errors of the open dialog for several errors; null while it is closed. */
   asking: readonly string[] | null;
   outcome: Outcome | null;
-  /** What the outcome says became of which errors, or why it was refused: they are present. */
+  /** The errors that the message is about, with their state: it is valid while they stay in this state. */
   told: { ids: readonly string[]; status: ErrorStatus } | null;
 }
 
@@ -76,7 +76,7 @@ export const setShape = (change: Partial<ShapeForm>) => set(({ shape }) => ({ sh
 export const closeDialog = () => set({ asking: null });
 export const forgetOutcome = () => set({ outcome: null });
 
-/** A name in the condition that the PLC did not know becomes one that it does. */
+/** Replaces an unknown name in the condition by a known one. */
 export function mendCondition({ message }: Outcome, name: string): void {
   const { shape } = get();
   const field = shape.when === "condition" ? "condition" : "acknowledge";
@@ -95,7 +95,7 @@ export function toggleGroup(key: string): void {
   });
 }
 
-/** Details as edited; else those with which the error is present, else its defaults. */
+/** Details as edited; else those of the present error, else its defaults. */
 export function entriesOf(
   { details }: Pick<Simulator, "details">,
   error: ErrorInfo,
@@ -114,32 +114,32 @@ export function setEntries(error: ErrorInfo, entries: Entries): void {
   set(({ details }) => ({ details: { ...details, [error.id]: entries } }));
 }
 
-/** What the buttons work on: what is ticked, else the selected error; the key of a group begins with a slash. */
+/** The errors that the buttons act on: the ticked ones, else the selected one; the key of a group begins with a slash. */
 export function targets(state: Pick<Simulator, "checked" | "selected">): string[] {
   if (state.checked.size > 0) return [...state.checked];
   return state.selected === null || state.selected.startsWith("/") ? [] : [state.selected];
 }
 
-/** Several errors are asked for in a dialog; those of one stand in place, unless another error is shown there. */
+/** Details of several errors are edited in a dialog; those of one are edited in the panel, unless it shows a different error. */
 export function asksFirst(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): boolean {
   const chosen = chosenOf(state, errors);
   if (chosen.length === 1 && chosen[0]?.id === state.selected) return false;
   return chosen.some(needsDetails);
 }
 
-/** The errors that the buttons work on, in the order of the catalogue. */
+/** The errors that the buttons act on, in the order of the catalogue. */
 export function chosenOf(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): ErrorInfo[] {
   const wanted = new Set(targets(state));
   return errors.filter((error) => wanted.has(error.id));
 }
 
-/** Opens the dialog for what is chosen, whether it needs details or not. */
+/** Opens the dialog for these errors, whether they need details or not. */
 export function askDetails(errors: readonly ErrorInfo[]): void {
   const chosen = chosenOf(get(), errors);
   if (chosen.length > 0) set({ asking: chosen.map((error) => error.id), outcome: null });
 }
 
-/** Raises what is chosen; asks for the details first where several need some. */
+/** Raises these errors; opens the dialog first if several need details. */
 export async function generate(errors: readonly ErrorInfo[]): Promise<void> {
   if (asksFirst(get(), errors)) askDetails(errors);
   else await raise(chosenOf(get(), errors));
@@ -148,7 +148,7 @@ export async function generate(errors: readonly ErrorInfo[]): Promise<void> {
 export const asWanted = (errors: readonly ErrorInfo[]): GenerateOne[] =>
   errors.map((error) => ({ id: error.id, details: wireDetails(error, entriesNow(error)) }));
 
-/** Raises these in one seam, or arms them when they come later, one by one or not to stay. True when it was accepted. */
+/** Raises these errors in one seam, or arms them if they come later, one by one or temporarily. True when it was accepted. */
 export async function raise(errors: readonly ErrorInfo[], { gap = 0, again = false } = {}): Promise<boolean> {
   if (errors.length === 0) return false;
   const { shape: form } = get();
@@ -157,12 +157,12 @@ export async function raise(errors: readonly ErrorInfo[], { gap = 0, again = fal
   const { start, shape, troubles } = readShape(form, readClock().scan);
   if (Object.keys(troubles).length > 0) return false;
   const accepted = await report(send({ type: "arm", errors: wanted, start, shape, gap }), errors);
-  // The next error is an ordinary one again, unless somebody says otherwise.
+  // The form returns to an ordinary Generate for the next error.
   if (accepted) set(({ shape: now }) => ({ shape: { ...now, when: "now", how: "stay" } }));
   return accepted;
 }
 
-/** What was refused because some of it is present, once more: what is present takes the details that are shown now. */
+/** Repeats a Generate that was refused because some errors are present: present errors get the details that are shown now. */
 export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outcome): Promise<boolean> {
   const ids = new Set(outcome.ids);
   return raise(
@@ -171,7 +171,7 @@ export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outco
   );
 }
 
-/** Recovers those of the chosen errors that are generated; `everything` recovers all there are. */
+/** Recovers those of the chosen errors that are generated; `everything` recovers all errors. */
 export async function recover(everything: boolean): Promise<void> {
   const { errors } = usePlc.getState();
   const present = [...errors.values()].filter((row) => row.status === "generated").map((row) => row.id);
@@ -179,12 +179,12 @@ export async function recover(everything: boolean): Promise<void> {
   if (await report(send({ type: "recover", ids: everything ? null : ids }))) set({ told: { ids, status: "cleared" } });
 }
 
-/** Takes faults back; null is all of them. */
+/** Cancels faults; null cancels all of them. */
 export async function disarm(ids: number[] | null): Promise<void> {
   await report(send({ type: "disarm", ids }));
 }
 
-/** The way out of a fatal stop: recovers the fatal errors, the others stay. True when it was done. */
+/** Leaves a fatal stop: recovers the fatal errors, the others stay. True when it was done. */
 export async function clearFatal(): Promise<boolean> {
   const rows = [...usePlc.getState().errors.values()];
   const ids = rows.filter((row) => row.status === "generated" && row.severity === "fatal").map((row) => row.id);
@@ -202,7 +202,7 @@ async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInf
   return ok;
 }
 
-// What was done is said as long as it is so: somebody else may have raised or recovered it since.
+// A message is shown as long as it is true: somebody else may have raised or recovered the errors since.
 usePlc.subscribe((now, before) => {
   const { told } = get();
   if (!told || now.errors === before.errors) return;

@@ -1,4 +1,4 @@
-/** Error sweeps of the project, and the kept states that they begin from. */
+/** Error sweeps of the project, and the kept states from which they begin. */
 
 import { create } from "zustand";
 import { merged, olderFirst, withAccepted } from "../../logic/errors/sweep";
@@ -37,10 +37,10 @@ interface Sweeps {
   shown: Shown;
   sweep: Sweep | null;
   comparison: SweepComparison | null;
-  /** What each running sweep tries now. */
+  /** The cell that each running sweep tries now. */
   now: Readonly<Record<number, string>>;
   question: Question | null;
-  /** What was refused or cannot be shown, in the server's words. */
+  /** The last refusal, or why something cannot be shown, in the server's words. */
   trouble: string | null;
 }
 
@@ -73,20 +73,20 @@ export function useSweepTitle(): string {
 
 // ---- dialogs and pages -----------------------------------------------------------------------------------------
 
-/** The dialog "Run all": which errors, from which states. */
+/** Opens the dialog "Run all": which errors, from which states. */
 export function openSweep(): void {
   set({ question: { ask: "run" } });
   void refreshSweeps();
 }
 
-/** Asks for a name, and keeps the PLC as it was before `scan`; without one as it is shown now. */
+/** Asks for a name, and keeps the state of the PLC before `scan`; without a scan the state that is shown now. */
 export function keepState(scan: number | null = shownScan()): void {
   set({ question: { ask: "keep", scan } });
 }
 
 export const closeQuestion = () => set({ question: null });
 
-/** The scan that is shown while one looks at the past; null is now. */
+/** The shown scan while the page shows the past; null is now. */
 export function shownScan(): number | null {
   const { state } = usePlc.getState();
   return state?.past ? state.scan : null;
@@ -110,13 +110,13 @@ function show(shown: Shown): void {
   const { project } = get();
   if (project !== null) keep(`sweep.${project}`, shown.view === "sweep" ? shown.id : null);
   openPage("sweep");
-  // The list may have changed: what others delete is not told.
+  // The list may have changed: the server does not report deletions by others.
   void (shown.view === "list" ? refreshSweeps() : loadShown());
 }
 
 // ---- what the server tells -------------------------------------------------------------------------------------
 
-/** Everything of the project that is looked at, from the server: at first sight, and after the connection was away. */
+/** Fetches everything about the project's sweeps: when the page is shown first, and after the connection was lost. */
 export async function refreshSweeps(): Promise<void> {
   const project = useBench.getState().project?.id ?? null;
   if (project !== get().project) {
@@ -128,7 +128,7 @@ export async function refreshSweeps(): Promise<void> {
     const [list, states] = await Promise.all([rest.sweeps(project), rest.states(project)]);
     if (get().project !== project) return;
     const { shown } = get();
-    // One that somebody deleted meanwhile is shown no longer.
+    // The shown sweep was deleted by somebody meanwhile: the page shows the list instead.
     const gone = shown.view === "sweep" && !list.some(({ id }) => id === shown.id);
     set({ list, states, ...(gone ? { shown: LIST, sweep: null } : {}) });
     await loadShown();
@@ -151,18 +151,18 @@ async function loadShown(): Promise<void> {
   });
 }
 
-/** Cells may have come by the socket while the whole was on its way. */
+/** Cells may have come by the socket while the whole sweep was being fetched. */
 function takeWhole(sweep: Sweep): void {
   const known = get().sweep;
   set({ sweep: known?.id === sweep.id ? merged(sweep, known.done > sweep.done ? known : sweep, known.cells) : sweep });
 }
 
-/** The connection is back: what the socket did not tell meanwhile is asked for. */
+/** After a reconnection: fetches what the socket missed. */
 export function onSweepHello(): void {
   void refreshSweeps();
 }
 
-/** A sweep of this project began, went on or ended. */
+/** A sweep of this project began, continued or ended. */
 export function onSweep({ sweep, now, cells }: SweepProgress): void {
   if (get().project !== sweep.project) return;
   noteSummary(sweep);
@@ -181,7 +181,7 @@ function noteSummary(summary: SweepSummary): void {
   set(({ sweep }) => (sweep?.id === summary.id ? { sweep: merged(sweep, summary, []) } : {}));
 }
 
-/** Carries something out; what was refused is shown on the page. */
+/** Performs an action; a refusal is shown on the page. */
 async function guarded(deed: () => Promise<void>): Promise<void> {
   try {
     set({ trouble: null });
@@ -191,9 +191,9 @@ async function guarded(deed: () => Promise<void>): Promise<void> {
   }
 }
 
-// ---- deeds -----------------------------------------------------------------------------------------------------
+// ---- actions ---------------------------------------------------------------------------------------------------
 
-/** Begins a sweep and shows it. Throws what the server said when it refuses, so that the dialog can show it. */
+/** Begins a sweep and shows it. Throws the server's refusal, so that the dialog can show it. */
 export async function beginSweep(wanted: NewSweep): Promise<void> {
   const { instance } = useBench.getState();
   if (!instance) throw new Error(t("sweep.noplc"));
@@ -203,7 +203,7 @@ export async function beginSweep(wanted: NewSweep): Promise<void> {
   showSweep(made.id);
 }
 
-/** Throws what the server said when it refuses. */
+/** Throws the server's refusal. */
 export async function keepStateAs(name: string, scan: number | null): Promise<ProgramState> {
   const { instance } = useBench.getState();
   if (!instance) throw new Error(t("sweep.noplc"));
@@ -227,10 +227,10 @@ export async function deleteSweep(id: number): Promise<void> {
   if (shown.view === "sweep" && shown.id === id) show(LIST);
 }
 
-/** All that was found out about one cell. */
+/** The complete result of one cell. */
 export const reactionOf = (id: number, cell: CellRef): Promise<Reaction> => rest.sweepReaction(id, cell);
 
-/** Throws what the server said when it refuses. */
+/** Throws the server's refusal. */
 export async function acceptFinding(id: number, cell: CellRef, reason: string): Promise<void> {
   const accepted = await rest.acceptFinding(id, cell, reason);
   set(({ sweep }) => ({ sweep: sweep?.id === id ? withAccepted(sweep, cell, accepted) : sweep }));
@@ -242,7 +242,7 @@ export const withdrawFinding = (id: number, cell: CellRef) =>
     set(({ sweep }) => ({ sweep: sweep?.id === id ? withAccepted(sweep, cell, null) : sweep }));
   });
 
-/** A new PLC in the state and with the error of a cell, paused; the page goes there. */
+/** Makes a new PLC with the state and the error of a cell, paused, and shows it. */
 export const openCell = (id: number, cell: CellRef) =>
   guarded(async () => {
     const taken = (useBench.getState().app?.instances ?? []).map(({ name }) => name);

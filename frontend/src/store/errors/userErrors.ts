@@ -1,4 +1,4 @@
-/** The errors that the project defines itself, while somebody edits them: what was read, what is typed, what is wrong with it. */
+/** The errors that the project defines itself, while somebody edits them: the stored version, the edited one, and its problems. */
 
 import { create } from "zustand";
 import { duplicate, freeId, idOf, newError, textOf, USER_ERRORS, withText } from "../../logic/errors/userErrors";
@@ -13,7 +13,7 @@ import { onSaved, refreshFiles } from "../project/documents";
 
 interface State extends UserErrorsDraft {
   project: number | null;
-  /** What is stored, as JSON; null while it is on its way. */
+  /** The stored errors, as JSON; null while they are being fetched. */
   stored: string | null;
   version: number;
   readable: boolean;
@@ -21,11 +21,11 @@ interface State extends UserErrorsDraft {
   selected: number | null;
   /** The last request that failed. */
   trouble: string | null;
-  /** Somebody saved first: theirs. */
+  /** The version of somebody else who saved first. */
   conflict: FileText | null;
   /** Saved here and not built since. */
   unbuilt: boolean;
-  /** The fields of a new error that nobody has filled in yet: nothing is wrong with them until it is to be saved. */
+  /** The empty fields of a new error: their problems are not shown until it is saved. */
   untouched: readonly string[];
 }
 
@@ -55,10 +55,10 @@ interface Draft extends UserErrorsDraft {
 const draftKey = (project: number) => `usererrors.${project}`;
 const asStored = ({ errors, groups }: UserErrorsDraft) => JSON.stringify({ errors, groups });
 
-/** Whether something is typed that is stored nowhere else. */
+/** Whether the page has edits that are stored nowhere else. */
 export const isEdited = (state: State) => state.stored !== null && asStored(state) !== state.stored;
 
-/** Opens the page, or comes back to it; with an id it shows that error. */
+/** Opens the page, or returns to it; with an id it selects that error. */
 export function openUserErrors(id?: string): void {
   openPage("usererrors");
   wanted = id ?? null;
@@ -74,7 +74,7 @@ function select(): void {
   set({ selected: index });
 }
 
-/** Reads the project's errors, unless they are being edited; what was typed and not saved last time is taken up again. */
+/** Reads the project's errors, unless they are being edited; unsaved edits of the last visit are restored. */
 export async function loadUserErrors(project: number | null): Promise<void> {
   if (project !== get().project) set({ project, ...nothing });
   if (project === null || isEdited(get())) return;
@@ -112,7 +112,7 @@ function change(draft: Partial<UserErrorsDraft>, selected = get().selected): voi
 
 export const selectUserError = (selected: number) => set({ selected, untouched: [] });
 
-/** What there is to complain about. */
+/** The problems to show. */
 export const complaints = ({ problems, untouched }: Pick<State, "problems" | "untouched">): readonly UserProblem[] =>
   problems.filter(({ path }) => !untouched.includes(path));
 
@@ -125,7 +125,7 @@ export function edit(index: number, changed: Partial<UserError>): void {
   change({ errors: get().errors.map((error, at) => (at === index ? { ...error, ...changed } : error)) });
 }
 
-/** A new name; the id follows it as long as nobody gave another one. */
+/** Sets the name; the id follows it as long as nobody entered an id. */
 export function rename(index: number, name: string): void {
   const { errors } = get();
   const error = errors[index];
@@ -161,13 +161,13 @@ export function deleteError(index: number): void {
   change({ errors }, errors.length === 0 ? null : Math.min(index, errors.length - 1));
 }
 
-/** An example that works on the model: for somebody who has none yet. */
+/** Adds an example that works on the model, for a project without errors. */
 export function addExample(example: UserError): void {
   const { errors } = get();
   change({ errors: [...errors, example] }, errors.length);
 }
 
-// ---- what is wrong with it ----
+// ---- problems ----
 
 const CHECK_DELAY = 150;
 let timer: ReturnType<typeof setTimeout> | undefined;
@@ -178,7 +178,7 @@ function scheduleCheck(): void {
   timer = setTimeout(() => void check(), CHECK_DELAY);
 }
 
-/** Asks the server about what is typed; an answer that was overtaken is dropped. */
+/** Asks the server about the edited errors; an outdated answer is dropped. */
 async function check(): Promise<void> {
   const { project, errors, groups } = get();
   if (project === null) return;
@@ -192,9 +192,9 @@ async function check(): Promise<void> {
   }
 }
 
-// ---- storing it ----
+// ---- storing ----
 
-/** Writes errors.xml. What was refused, or saved by somebody else first, is shown; what is typed stays. */
+/** Writes errors.xml. A refusal, or the version of somebody who saved first, is shown; the edits stay. */
 export async function saveUserErrors(): Promise<void> {
   const { project, errors, groups, version } = get();
   if (project === null) return;
@@ -203,7 +203,7 @@ export async function saveUserErrors(): Promise<void> {
   await storing(project, () => rest.saveUserErrors(project, { errors, groups, version }));
 }
 
-/** Takes the errors of a file, instead of those that there are or in addition. True when they are stored. */
+/** Imports the errors of a file, replacing the existing ones or in addition. True when they are stored. */
 export async function importUserErrors(file: Blob, how: "replace" | "add"): Promise<string | null> {
   const { project, version } = get();
   if (project === null) return null;
@@ -247,7 +247,7 @@ async function stored(project: number, saved: UserErrors): Promise<void> {
   await onSaved({ path: USER_ERRORS, version: saved.version, author: "" });
 }
 
-/** Ends a conflict: mine is saved over theirs, or theirs is read. */
+/** Ends a conflict: saves one's own version over the other one, or reads the other one. */
 export async function resolveUserConflict(choice: "mine" | "theirs"): Promise<void> {
   const { project, conflict } = get();
   if (project === null || !conflict) return;
@@ -256,7 +256,7 @@ export async function resolveUserConflict(choice: "mine" | "theirs"): Promise<vo
   else await discard();
 }
 
-/** Back to what is stored. */
+/** Discards the edits. */
 export async function discard(): Promise<void> {
   const { project } = get();
   if (project === null) return;
@@ -265,7 +265,7 @@ export async function discard(): Promise<void> {
   await loadUserErrors(project);
 }
 
-/** Somebody saved a file: what is not being edited follows; what is will show a conflict when it is saved. */
+/** Somebody saved a file: an unedited page follows; an edited one shows a conflict when it is saved. */
 export function onFileSaved({ path, version }: FileInfo): void {
   const state = get();
   if (path === USER_ERRORS && version > state.version && !isEdited(state)) void loadUserErrors(state.project);

@@ -1,4 +1,4 @@
-/** Something into the browser's downloads. */
+/** Downloads a file in the browser. */
 export function saveFile(body: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(body);

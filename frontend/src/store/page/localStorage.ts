@@ -1,4 +1,4 @@
-/** What a browser remembers: small JSON entries in localStorage, which may be missing, full, or broken. */
+/** What a browser stores: small JSON entries in localStorage, which may be missing, full, or broken. */
 
 const PREFIX = "scanbench.";
 
@@ -25,6 +25,6 @@ export function forget(key: string): void {
   try {
     localStorage.removeItem(PREFIX + key);
   } catch {
-    // Nothing was kept, so there is nothing to forget.
+    // Nothing could be stored, so there is nothing to remove.
   }
 }

@@ -1,7 +1,7 @@
-/** Going to places: panels ask, the shell (which knows the docking) does it. */
+/** Going to places: panels request it, the shell (which knows the dock) does it. */
 import { create } from "zustand";
 
-/** What stands at the bottom and at the right, and cannot be closed. */
+/** Panels at the bottom and at the right, which cannot be closed. */
 const PANELS = [
   "console",
   "diagnostics",
@@ -17,7 +17,7 @@ const PANELS = [
 ] as const;
 type PanelName = (typeof PANELS)[number];
 export const isPanel = (name: string): name is PanelName => PANELS.some((known) => known === name);
-/** What stands among the files in the centre without being one: opened when asked for, closed like a file. */
+/** Pages in the centre, among the files: opened on request, closed like a file. */
 const PAGES = ["sweep", "usererrors", "record", "compare"] as const;
 export type PageName = (typeof PAGES)[number];
 
@@ -32,7 +32,7 @@ interface Place {
 }
 
 interface Navigation {
-  /** Where the editor of a file shall put the caret. */
+  /** The place for the caret in the editor of a file. */
   place: Place | null;
 }
 

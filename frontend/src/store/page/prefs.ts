@@ -1,4 +1,4 @@
-/** What this browser prefers: theme and language. `public/theme.js` reads the same entry before the first paint. */
+/** The preferences of this browser: theme and language. `public/theme.js` reads the same entry before the first paint. */
 import { create } from "zustand";
 import { type Language, languages, setLanguage } from "../../text";
 import { keep, recall } from "./localStorage";
@@ -11,7 +11,7 @@ interface Prefs {
   language: Language;
   /** Show in the editor where the compiler embedded subrange checks. */
   checks: boolean;
-  /** Show live values behind the lines of the editor. */
+  /** Show live values at the ends of the lines in the editor. */
   inline: boolean;
 }
 
@@ -35,7 +35,7 @@ export const usePrefs = create<Prefs>(initial);
 
 function apply({ theme, language }: Prefs): void {
   const root = document.documentElement;
-  // Colours change at once: a value that fades over from the old theme would look like one that has just changed.
+  // Colours change without a transition: a value that fades from the old theme would look as if it had just changed.
   root.classList.add("switching");
   root.dataset.theme = theme;
   root.lang = language;

@@ -1,4 +1,4 @@
-/** What changed between two scans: asked of the run, shown in a dialog. */
+/** What changed between two scans: a query about the run, shown in a dialog. */
 import { past } from "../../wire/past";
 import { query } from "../plc/query";
 

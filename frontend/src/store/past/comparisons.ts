@@ -1,4 +1,4 @@
-/** Comparisons of this run with others: what was asked for, how far they are, what came of them. */
+/** Comparisons of this run with others: the requests, their progress, and their results. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -9,9 +9,9 @@ import { openPage } from "../page/navigate";
 import { useBench } from "../plc/bench";
 
 interface Comparisons {
-  /** Of the instance that is looked at, the newest first. */
+  /** Those of the selected instance, the newest first. */
   list: readonly Comparison[];
-  /** Id of the one that is shown. */
+  /** Id of the shown one. */
   shown: number | null;
   /** The instance that is chosen to compare with. */
   other: number | null;
@@ -24,7 +24,7 @@ export const useComparisons = create<Comparisons>(() => nothing);
 const get = useComparisons.getState;
 const set = useComparisons.setState;
 
-/** The page "Compare runs", with an instance chosen to compare with. */
+/** Opens the page "Compare runs", with an instance chosen to compare with. */
 export function showCompare(other: number | null = null): void {
   set({ other: other ?? get().other, trouble: null });
   openPage("compare");
@@ -33,7 +33,7 @@ export function showCompare(other: number | null = null): void {
 export const chooseOther = (other: number) => set({ other, trouble: null });
 export const showComparison = (shown: number) => set({ shown, trouble: null });
 
-/** Begins a comparison with another instance, and shows it. */
+/** Begins a comparison with the given instance, and shows it. */
 export async function compareWithOther(other: number): Promise<void> {
   await guarded(async (instance) => {
     onComparison(await past.compare(instance, other));
@@ -41,7 +41,7 @@ export async function compareWithOther(other: number): Promise<void> {
   });
 }
 
-/** Cancels one that is under way, forgets one that is done. */
+/** Cancels a running comparison, deletes a finished one. */
 export async function forgetComparison(id: number): Promise<void> {
   await guarded(async () => {
     await past.forget(id);
@@ -52,7 +52,7 @@ export async function forgetComparison(id: number): Promise<void> {
   });
 }
 
-/** After each connection: what the socket did not tell. */
+/** After each connection: fetches what the socket missed. */
 export async function refreshComparisons(): Promise<void> {
   await guarded(async (instance) => {
     const list = await past.comparisons(instance);
@@ -60,7 +60,7 @@ export async function refreshComparisons(): Promise<void> {
   });
 }
 
-/** How far one is; of the instance that is looked at. */
+/** The progress of a comparison of the selected instance. */
 export function onComparison(comparison: Comparison): void {
   if (comparison.a !== useBench.getState().instance?.id) return;
   set(({ list }) => ({ list: withNewest(list, comparison) }));
@@ -77,7 +77,7 @@ async function guarded(deed: (instance: number) => Promise<void>): Promise<void>
   }
 }
 
-/** The comparison that is shown: the chosen one, else the newest. */
+/** The shown comparison: the chosen one, else the newest. */
 export const shownComparison = ({ list, shown }: Comparisons): Comparison | null =>
   list.find(({ id }) => id === shown) ?? list[0] ?? null;
 

@@ -1,4 +1,4 @@
-/** Where verifications and the comparison that is shown found differences: marks of the timeline beside those of the journal. */
+/** The differences found by verifications and by the shown comparison: marks of the timeline besides those of the journal. */
 import { useMemo } from "react";
 import { create } from "zustand";
 import { type ShownMark, withDifferences } from "../../logic/plc/timeline";
@@ -11,7 +11,7 @@ import { useVerify } from "../verify/verify";
 import { shownComparison, useComparisons } from "./comparisons";
 
 interface Found {
-  /** How it stood when it was asked for: so many rows, of this generation. */
+  /** The version of the verification's rows at the request: generation and number of differing rows. */
   at: string;
   marks: readonly ShownMark[];
 }
@@ -25,13 +25,13 @@ const useDifferences = create<Differences>(() => ({ of: new Map() }));
 const get = useDifferences.getState;
 const set = useDifferences.setState;
 
-/** So many rows of a verification are marked. */
+/** At most this many rows of a verification are marked. */
 const MOST = 200;
-/** Rows come by the hundred: they are asked for once a second at most. */
+/** Rows come by the hundred: they are requested at most once a second. */
 const PERIOD = 1000;
 
 const stand = ({ differing, generation }: VerificationInfo) => `${generation} ${differing}`;
-// Scans of a trace are those of another controller.
+// Scans of a controller log are those of a different controller.
 const ofThisRun = ({ source }: VerificationInfo) => source !== "trace";
 
 let timer: ReturnType<typeof setTimeout> | undefined;
@@ -52,7 +52,7 @@ function isBehind(info: VerificationInfo): boolean {
   if (!ofThisRun(info)) return false;
   const known = get().of.get(info.id);
   if (!known) return info.differing > 0;
-  // What was found first is marked; later ones change nothing once there are enough.
+  // The first differences are marked; later ones change nothing once there are enough.
   return known.at !== stand(info) && !(known.marks.length >= MOST && known.at.split(" ")[0] === `${info.generation}`);
 }
 
@@ -69,7 +69,7 @@ async function load(info: VerificationInfo): Promise<void> {
     if (useVerify.getState().verifications.some((known) => known.id === id))
       set(({ of }) => ({ of: new Map(of).set(id, { at: stand(info), marks }) }));
   } catch {
-    // It went away meanwhile, or the connection did: its next word asks again.
+    // The verification was deleted meanwhile, or the connection was lost: its next message requests the rows again.
   }
   follow();
 }
@@ -78,7 +78,7 @@ useVerify.subscribe((now, before) => {
   if (now.verifications !== before.verifications) follow();
 });
 
-/** The marks of the timeline, those of differences among them. */
+/** The marks of the timeline, including those of differences. */
 export function useAllMarks(): readonly ShownMark[] {
   const marks = useTimeline((timeline) => timeline.marks);
   const { of } = useDifferences();

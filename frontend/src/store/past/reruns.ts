@@ -1,4 +1,4 @@
-/** Replays of a run with one error another: the dialog, how far they are, the instance that came of them. */
+/** Replays of a run with one error changed: the dialog, the progress, the instance that each produces. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -8,9 +8,9 @@ import type { NewRerun, Rerun } from "../../wire/types";
 import { chooseInstance, refreshApp, useBench } from "../plc/bench";
 import { showCompare } from "./comparisons";
 
-/** What somebody wants to be another, before the dialog is filled in. */
+/** The change that the dialog begins with. */
 export interface RerunWish {
-  /** In front of which the error was raised. */
+  /** The scan before which the error was raised. */
   scan: number;
   error: string;
   by: number;
@@ -18,9 +18,9 @@ export interface RerunWish {
 }
 
 interface Reruns {
-  /** The dialog is open with it. */
+  /** The change for which the dialog is open; null while it is closed. */
   wish: RerunWish | null;
-  /** Of the instance that is looked at: under way, or done and not put away. */
+  /** The replays of the selected instance: running, or done and not dismissed. */
   list: readonly Rerun[];
   trouble: string | null;
 }
@@ -30,14 +30,14 @@ const nothing: Reruns = { wish: null, list: [], trouble: null };
 export const useReruns = create<Reruns>(() => nothing);
 const set = useReruns.setState;
 
-/** Opens the dialog for an error that was raised in front of a scan. */
+/** Opens the dialog for an error that was raised before a scan. */
 export function showRerun(of: { scan: number; error: string }, wish: Partial<RerunWish> = {}): void {
   set({ wish: { by: 0, how: "same", ...wish, ...of } });
 }
 
 export const closeRerun = () => set({ wish: null });
 
-/** Throws what the server said when it refuses. */
+/** Throws the server's refusal. */
 export async function beginRerun(wanted: NewRerun): Promise<void> {
   const instance = useBench.getState().instance?.id;
   if (instance === undefined) return;
@@ -46,7 +46,7 @@ export async function beginRerun(wanted: NewRerun): Promise<void> {
 
 export function onRerun(rerun: Rerun): void {
   set(({ list }) => ({ list: withNewest(list, rerun), trouble: null }));
-  // Its end is told to the pages of this instance only; the picker is to know the new one.
+  // The end of a replay is reported only to pages of this instance; the picker needs the new instance.
   if (rerun.instance !== null) refreshApp().catch(() => undefined);
 }
 
@@ -61,7 +61,7 @@ export async function cancelRerun(id: number): Promise<void> {
 
 export const putAwayRerun = (id: number) => set(({ list }) => ({ list: list.filter((known) => known.id !== id) }));
 
-/** The instance that came of a replay. */
+/** Opens the instance that a replay produced. */
 export async function openRerun({ id, instance }: Rerun): Promise<void> {
   await refreshApp();
   const made = useBench.getState().app?.instances.find((known) => known.id === instance);
@@ -69,7 +69,7 @@ export async function openRerun({ id, instance }: Rerun): Promise<void> {
   if (made) await chooseInstance(made);
 }
 
-/** The original beside what came of the replay. */
+/** Compares the original with the result of the replay. */
 export async function compareRerun({ instance }: Rerun): Promise<void> {
   await refreshApp();
   showCompare(instance);

@@ -1,4 +1,4 @@
-/** Who last wrote a variable: asked of the run, answered by a statement, a command, or the PLC itself. */
+/** Who last wrote a variable: a query about the run. The answer is a statement, a command, or the PLC itself. */
 import { past } from "../../wire/past";
 import type { LastWriter } from "../../wire/types";
 import { openFile } from "../page/navigate";
@@ -17,10 +17,10 @@ export function showWriter(path: string, scan: number | null = null): void {
   void writer.ask({ path, scan });
 }
 
-/** There was nothing to ask about: the dialog says why. */
+/** There is no variable to ask about: the dialog says why. */
 export const refuseWriter = (why: string) => writer.refuse({ path: "…", scan: null }, why);
 
-/** To the moment before the write, with its statement in sight. */
+/** Goes to the moment before the write, and shows its statement. */
 export function goToWriter({ scan, count, place }: LastWriter): void {
   closeWriter();
   if (place) openFile(place.file, place.line);

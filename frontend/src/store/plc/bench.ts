@@ -1,4 +1,4 @@
-/** What there is on this server, and what this browser looks at: project, instance, model. */
+/** The projects and instances of this server, and the project, instance and model that this browser shows. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -31,7 +31,7 @@ export const useBench = create<Bench>(() => ({
 const get = useBench.getState;
 const set = useBench.setState;
 
-/** First thing on the page: what is here, then what the address names, what was looked at last time, else the first instance. */
+/** At the start: loads the server's projects, then selects the instance of the address, else that of the last visit, else the first. */
 export async function start(): Promise<void> {
   try {
     const app = await rest.app();
@@ -48,7 +48,7 @@ export async function start(): Promise<void> {
 
 const isLocked = (error: unknown) => error instanceof Refused && error.status === 401;
 
-/** The server may be back with another key, or this browser has forgotten its own: then no try gets through, and the key is asked for. */
+/** The server may have a new token, or this browser has lost its token: then no reconnection can succeed, and the page asks for the token. */
 async function checkKey(): Promise<void> {
   try {
     await rest.app(AbortSignal.timeout(KEY_PATIENCE));
@@ -85,7 +85,7 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
   await Promise.all([ready, loadModel()]);
 }
 
-/** The model as the PLC has it, with the errors that its program's project added; a project without a PLC has the model alone. */
+/** The model as the PLC has it, with the errors that its program's project added; a project without a PLC has the plain model. */
 async function loadModel(): Promise<void> {
   const { project, instance } = get();
   if (!project) return;
@@ -94,13 +94,13 @@ async function loadModel(): Promise<void> {
   if (now.project?.id === project.id && now.instance?.id === instance?.id) set({ model });
 }
 
-/** The model file of a project may be gone; the project can be looked at and deleted all the same. */
+/** The model file of a project may be missing; the project can still be shown and deleted. */
 function noSuchModel(error: unknown): null {
   if (error instanceof Refused && error.status === 422) return null;
   throw error;
 }
 
-// Another program of the project may have other errors of its own.
+// A different program of the project may define different errors.
 usePlc.subscribe(({ state: now }, { state: before }) => {
   if (now && before && now.program_version !== before.program_version) loadModel().catch(() => undefined);
 });
@@ -115,7 +115,7 @@ export async function refreshApp(): Promise<void> {
   set({ app: await rest.app() });
 }
 
-/** A build was accepted: the version in the top bar moves on. */
+/** A build was accepted: updates the version in the top bar. */
 export function onProject(project: Project): void {
   if (get().project?.id === project.id) set({ project });
 }

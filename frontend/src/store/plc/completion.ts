@@ -1,4 +1,4 @@
-/** Paths that begin with what is typed. An answer that fails is no offer; the entry itself will say why. */
+/** Paths that begin with the typed text. A failed request offers nothing; entering the path will show the reason. */
 import { rest } from "../../wire/rest";
 import type { PlcSymbol } from "../../wire/types";
 import { useBench } from "./bench";
@@ -14,7 +14,7 @@ export async function complete(text: string): Promise<readonly PlcSymbol[]> {
   }
 }
 
-/** The members of what is typed before a point; none when it is no variable of the program that runs. */
+/** The members of the typed text before a point; none when it is not a variable of the running program. */
 export async function offeredMembers(path: string): Promise<readonly PlcSymbol[]> {
   const { instance, of } = useMembers.getState();
   const known = of.get(path);
@@ -26,7 +26,7 @@ export async function offeredMembers(path: string): Promise<readonly PlcSymbol[]
   }
 }
 
-/** Every variable of the programs and the globals: what one wants to see first; or why they cannot be told. */
+/** Every variable of the programs and the globals, for an empty field; or why they are not available. */
 export async function topVariables(): Promise<{ paths: string[]; refused: string | undefined }> {
   const top = await loadMembers("");
   const paths: string[] = [];

@@ -15,7 +15,7 @@ beforeEach(() => {
   vi.spyOn(rest, "app").mockResolvedValue({ instances: [], projects: [] } as unknown as AppInfo);
 });
 
-it("says what is wrong with a run file that was imported, until the next import or the end of the list", async () => {
+it("reports the damage of an imported run file, until the next import or until the list is closed", async () => {
   imports("the file is damaged at byte 9");
   await importInstance("line", new File([], "line.scanrun"));
   expect(damaged()).toBe("the file is damaged at byte 9");

@@ -1,4 +1,4 @@
-/** Every instance of this server with its load, while somebody looks at the list. */
+/** Every instance of this server with its load, while the list is open. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -10,7 +10,7 @@ import { chooseInstance, chooseProject, refreshApp, useBench } from "./bench";
 
 const PERIOD = 2000;
 
-/** A run file on its way: what, and how far; null is not known. */
+/** The transfer of a run file: which, and its progress; null is unknown. */
 export interface Transfer {
   text: "import" | "export";
   name: string;
@@ -21,9 +21,9 @@ export interface Transfer {
 interface Instances {
   open: boolean;
   all: readonly Instance[];
-  /** Null before the first answer, then what is wrong or empty. */
+  /** Null before the first answer, then the problem or an empty text. */
   trouble: string | null;
-  /** What was imported last, where something was wrong with its file. */
+  /** The last import, if its file was damaged. */
   damaged: ImportedInstance | null;
   selected: number | null;
   transfer: Transfer | null;
@@ -52,7 +52,7 @@ export function showInstances(open: boolean): void {
 
 export const selectInstance = (selected: number | null) => set({ selected, trouble: null });
 
-/** Asks again and again until the returned function is called. */
+/** Requests the list repeatedly until the returned function is called. */
 export function pollInstances(): () => void {
   let stopped = false;
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -75,7 +75,7 @@ async function refreshInstances(): Promise<void> {
   }
 }
 
-/** Carries something out on an instance; what was refused is shown above the buttons. */
+/** Performs an action on an instance; a refusal is shown above the buttons. */
 async function carryOut(deed: () => Promise<unknown>): Promise<void> {
   try {
     set({ trouble: null });
@@ -91,19 +91,19 @@ export function openInstance(instance: Instance): void {
   void chooseInstance(instance);
 }
 
-/** Power off ends the process, power on starts it where it was. */
+/** Power off ends the process, power on starts it with the state it had. */
 export function setPower(instance: Instance, power: boolean): Promise<void> {
   return carryOut(() => rest.changeInstance(instance.id, { power }));
 }
 
-/** Throws what the server said when it refuses, so that a dialog can show it. */
+/** Throws the server's refusal, so that a dialog can show it. */
 export async function changeInstance(instance: Instance, change: Partial<ChangeInstance>): Promise<void> {
   const changed = await rest.changeInstance(instance.id, change);
   if (useBench.getState().instance?.id === changed.id) useBench.setState({ instance: changed });
   await Promise.all([refreshInstances(), refreshApp()]);
 }
 
-/** A new instance from a scan of another one (null: from now). Throws what the server said when it refuses. */
+/** Makes a new instance from a scan of an existing one (null: from now). Throws the server's refusal. */
 export async function branch(instance: Instance, name: string, scan: number | null): Promise<Instance> {
   const made = await rest.branch(instance.id, name, scan);
   await Promise.all([refreshInstances(), refreshApp()]);
@@ -122,7 +122,7 @@ export async function deleteInstance(instance: Instance): Promise<void> {
   else await chooseProject(instance.project);
 }
 
-/** The whole run as one file, into the browser's downloads. */
+/** Downloads the whole run as one file. */
 export function exportInstance(instance: Instance): Promise<void> {
   const given = new AbortController();
   const moving: Transfer = { text: "export", name: instance.name, share: null, cancel: () => given.abort() };
@@ -135,7 +135,7 @@ export function exportInstance(instance: Instance): Promise<void> {
   );
 }
 
-/** A new instance from a run file. Throws what the server said when it refuses, so that the dialog can show it. */
+/** Makes a new instance from a run file. Throws the server's refusal, so that the dialog can show it. */
 export async function importInstance(name: string, file: File): Promise<void> {
   const given = new AbortController();
   set({ damaged: null });
@@ -146,7 +146,7 @@ export async function importInstance(name: string, file: File): Promise<void> {
   });
 }
 
-/** What was given up is no failure. */
+/** A cancelled transfer is not a failure. */
 async function transferring(transfer: Transfer, deed: () => Promise<void>): Promise<void> {
   set({ transfer, trouble: null });
   try {

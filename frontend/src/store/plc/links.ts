@@ -1,4 +1,4 @@
-/** The address of what is shown, and what an address that was opened asks for. */
+/** The address of the shown scan, and the request of an address that was opened. */
 import { create } from "zustand";
 import { grouped } from "../../logic/format/numbers";
 import { isBrokenLink, isOwnComputer, type Link, linkPath, readLink, wayTo } from "../../logic/plc/links";
@@ -9,9 +9,9 @@ import { usePlc } from "./plc";
 import { liveScan, travel, useTimeline } from "./timeline";
 
 interface Links {
-  /** What the page was opened with, as long as it was not followed. */
+  /** The address with which the page was opened, until it has been followed. */
   opened: Link | null;
-  /** The scan that is asked about: others look at this PLC. */
+  /** The scan of the question: others use this PLC. */
   question: number | null;
   /** Why a link could not be followed. */
   trouble: string | null;
@@ -25,7 +25,7 @@ export const useLinks = create<Links>(() => ({
 const get = useLinks.getState;
 const set = useLinks.setState;
 
-/** After each connection: the first one follows the link that the page was opened with. */
+/** After each connection: the first one follows the link with which the page was opened. */
 export function followLink(): void {
   const { opened } = get();
   const instance = useBench.getState().instance?.id;
@@ -61,16 +61,16 @@ export function answerLink(go: boolean): void {
 
 export const putAwayLinkTrouble = () => set({ trouble: null });
 
-/** The absolute address of a scan of the instance that is looked at; empty without one. */
+/** The absolute address of a scan of the selected instance; empty without an instance. */
 export function scanLink(scan: number | null, panel: string | null = null): string {
   const instance = useBench.getState().instance?.id;
   return instance === undefined ? "" : linkOrigin() + linkPath({ instance, scan, panel });
 }
 
-/** What links that are passed on begin with: the public address of the server, else that of this page. */
+/** The beginning of shared links: the public address of the server, else that of this page. */
 const linkOrigin = () => useBench.getState().app?.public_url || location.origin;
 
-/** What a button that copies a link says before and after: for whom the link works. */
+/** The labels of a button that copies a link, before and after the click: they say for whom the link works. */
 export function linkWords(): { title: string; done: string } {
   const host = new URL(linkOrigin()).hostname;
   return isOwnComputer(host)
@@ -81,7 +81,7 @@ export function linkWords(): { title: string; done: string } {
 const QUIET = 300;
 let later: ReturnType<typeof setTimeout> | undefined;
 
-/** The address bar names the instance, and the scan while it is the past: it can be copied as it stands. */
+/** The address bar contains the instance, and the scan while the page shows the past: it can be copied at any time. */
 function writeAddress(): void {
   clearTimeout(later);
   later = setTimeout(() => {
@@ -111,7 +111,7 @@ useBench.subscribe((now, before) => {
 });
 usePlc.subscribe(({ state: now }, { state: before }) => {
   if (now?.past !== before?.past || now?.scan !== before?.scan) {
-    // Somebody else went to the scan that is asked about.
+    // Somebody else went to the scan of the question.
     if (now?.past && now.scan === get().question) set({ question: null });
     if (now?.past || before?.past) writeAddress();
   }

@@ -5,7 +5,7 @@ import { resetPlc, usePlc } from "./plc";
 
 afterEach(resetPlc);
 
-it("asks nothing of a PLC that waits for space without a process, and goes on asking one that has a process", () => {
+it("asks no PLC that waits for disk space without a process, but asks one that has a process", () => {
   const waiting = { state: "no_space", pid: null } as InstanceState;
   usePlc.setState({ state: waiting });
   expect(isAway()).toBe(true);

@@ -1,4 +1,4 @@
-/** The members of structures, arrays and blocks of the running program, fetched when something is unfolded. */
+/** The members of structures, arrays and blocks of the running program, fetched when one is unfolded. */
 
 import { create } from "zustand";
 import { waitsForSpace } from "../../logic/plc/plcstate";
@@ -16,19 +16,19 @@ interface Members {
 
 export const useMembers = create<Members>(() => ({ instance: null, of: new Map(), refused: new Map() }));
 
-/** Another instance, or another program in it: nothing that was fetched holds any more. */
+/** A different instance, or a different program in it: all fetched members are invalid. */
 export function resetMembers(instance: number | null): void {
   useMembers.setState({ instance, of: new Map(), refused: new Map() });
 }
 
 onInstanceChange(({ instance }) => resetMembers(instance?.id ?? null));
 
-// Also when the past is shown: what was fetched are the variables of another program.
+// Also when the past is shown: the fetched members may belong to a different program.
 usePlc.subscribe(({ state: now }, { state: before }) => {
   if (now && before && now.program_version !== before.program_version) resetMembers(useMembers.getState().instance);
 });
 
-/** Whether the PLC cannot tell its variables now: before it runs, and while it has no process or does not answer. */
+/** Whether the PLC cannot list its variables now: before it runs, and while it has no process or does not answer. */
 export function isAway(): boolean {
   const { state } = usePlc.getState();
   if (state === null || waitsForSpace(state)) return true;
@@ -53,7 +53,7 @@ export async function loadMembers(path: string): Promise<readonly PlcSymbol[]> {
     return symbols;
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
-    // Whoever looks at this store asks again when it changes: the same refusal once more is no news.
+    // Users of this store ask again when it changes, so the same refusal must not change it.
     if (useMembers.getState().refused.get(path) === message) return [];
     useMembers.setState((state) => ({ refused: new Map(state.refused).set(path, message) }));
     return [];

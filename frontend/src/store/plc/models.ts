@@ -1,4 +1,4 @@
-/** The PLC models that this server knows; asked once. */
+/** The PLC models that this server knows; fetched once. */
 import { rest } from "../../wire/rest";
 import type { ModelInfo, ModelSummary } from "../../wire/types";
 
@@ -14,7 +14,7 @@ export function listModels(): Promise<ModelSummary[]> {
 
 const details = new Map<string, Promise<ModelInfo>>();
 
-/** Everything about one model; asked once, too. */
+/** Everything about one model; fetched once, too. */
 export function modelDetails(name: string): Promise<ModelInfo> {
   let asked = details.get(name);
   if (!asked) {

@@ -1,4 +1,4 @@
-/** The virtual PLC this browser is connected to: state, users, errors and log, as the server last told. */
+/** The virtual PLC this browser is connected to: state, users, errors and log, as the server last reported them. */
 import { create } from "zustand";
 import { type Deed, forbidden } from "../../logic/plc/permits";
 import { t } from "../../text";
@@ -16,10 +16,10 @@ export interface Plc {
   you: User | null;
   users: User[];
   errors: ReadonlyMap<string, ErrorHistoryRow>;
-  /** Faults with a shape that are not over. */
+  /** Scheduled and recurring faults that are not over. */
   armed: readonly ArmedFault[];
   log: readonly LogLine[];
-  /** What the compiler's embedded checks found while the program ran. */
+  /** Violations that the compiler's embedded checks found while the program ran. */
   diagnostics: Diagnostics;
 }
 
@@ -38,13 +38,13 @@ const nothing: Plc = {
 
 export const usePlc = create<Plc>(() => nothing);
 
-/** True when commands can be given. */
+/** True when commands can be sent. */
 export const useOnline = () => usePlc((plc) => plc.link.state === "open");
 
-/** True when there was a connection and it went away; a project without an instance has none to lose. */
+/** True when a connection existed and was lost; a project without an instance has no connection. */
 export const useLost = () => usePlc((plc) => plc.link.state === "lost");
 
-/** Why something cannot be done to the PLC now, in words; null when it can. */
+/** Why something cannot be done to the PLC now, as a text; null when it can be done. */
 export function useForbidden(deed: Deed): string | null {
   const key = usePlc((plc) => forbidden(plc.state, plc.link.state === "open", deed));
   return key === null ? null : t(key);

@@ -14,7 +14,7 @@ beforeEach(() => {
   useBench.setState({ instance: { id: 3 } as never });
 });
 
-it("takes the answer to the last question only", async () => {
+it("uses only the answer to the last query", async () => {
   const first = question.ask("a");
   const second = question.ask("b");
   answers.get("3 b")?.resolve("of b");
@@ -23,14 +23,14 @@ it("takes the answer to the last question only", async () => {
   expect(question.use.getState()).toEqual({ asked: "b", found: "of b", refused: null });
 });
 
-it("says why it was refused", async () => {
+it("keeps the reason of a refusal", async () => {
   const asked = question.ask("a");
   answers.get("3 a")?.reject(new Error("no"));
   await asked;
   expect(question.use.getState()).toEqual({ asked: "a", found: null, refused: "no" });
 });
 
-it("is closed by another instance, and an answer that comes then is dropped", async () => {
+it("is closed by a change of the instance, and a late answer is dropped", async () => {
   const asked = question.ask("a");
   await instanceChanged({ project: {} as never, instance: null, otherProject: false });
   answers.get("3 a")?.resolve("late");

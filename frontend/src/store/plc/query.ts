@@ -1,23 +1,23 @@
-/** Something asked of the server about the instance that is looked at: what a dialog shows while it is open. */
+/** A query about the selected instance: the content of a dialog while it is open. */
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { useBench } from "./bench";
 import { onInstanceChange } from "./reset";
 
 interface Asked<K, T> {
-  /** As it was asked for; null while nothing is. */
+  /** The query itself; null while there is none. */
   asked: K | null;
   found: T | null;
-  /** Why nothing was found. */
+  /** Why there is no result. */
   refused: string | null;
 }
 
 interface Options {
-  /** What was found before stays in sight until the new answer is here. */
+  /** The previous result stays until the new answer arrives. */
   keeps?: boolean;
 }
 
-/** A question of its own: a later one, another instance or `close` drop the answer of the one before. */
+/** The answer is dropped after a later query, a change of the instance, or `close`. */
 export function query<K, T>(fetch: (instance: number, asked: K) => Promise<T>, { keeps = false }: Options = {}) {
   const nothing: Asked<K, T> = { asked: null, found: null, refused: null };
   const use = create<Asked<K, T>>(() => nothing);
@@ -37,7 +37,7 @@ export function query<K, T>(fetch: (instance: number, asked: K) => Promise<T>, {
     }
   }
 
-  /** There is nothing to ask: says why. */
+  /** Shows why there is nothing to query. */
   function refuse(asked: K, refused: string): void {
     turn += 1;
     use.setState({ asked, found: null, refused });

@@ -1,4 +1,4 @@
-/** The user does not want to wait for the next turn of the back-off. */
+/** Reconnects now, without waiting for the next turn of the back-off. */
 import { link } from "../../wire/socket";
 
 export function reconnectNow(): void {

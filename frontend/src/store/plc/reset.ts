@@ -1,11 +1,11 @@
-/** Another instance is looked at, or another project: who holds something of the one before forgets it. */
+/** The page shows a different instance or project: stores that hold data of the old one reset themselves here. */
 import type { Instance, Project } from "../../wire/types";
 
 interface Chosen {
   project: Project;
-  /** Null for a project without an instance, or while none is looked at. */
+  /** Null for a project without an instance, or while no instance is shown. */
   instance: Instance | null;
-  /** The project is another one, too. */
+  /** The project changes, too. */
   otherProject: boolean;
 }
 
@@ -14,8 +14,8 @@ type Callback = (chosen: Chosen) => unknown;
 const callbacks: Callback[] = [];
 
 /**
- * Runs with each choice, before the socket connects; a promise that it returns is waited for. What a store builds on is imported by it,
- * and so runs before it.
+ * Runs at each change, before the socket connects; a returned promise is awaited. A store imports the stores that it builds on,
+ * so those run first.
  */
 export function onInstanceChange(callback: Callback): void {
   callbacks.push(callback);

@@ -1,8 +1,8 @@
-/** The tasks of the program that runs: the threads of the debugger. */
+/** The tasks of the running program: the threads of the debugger. */
 import { useEffect, useState } from "react";
 import { type DebugProtocol, dap } from "../../wire/dap";
 
-/** Asked for when somebody looks; none while the PLC is away. */
+/** Requested when somebody needs them; none while the PLC cannot answer. */
 export function useTasks(): readonly string[] {
   const [tasks, setTasks] = useState<readonly string[]>([]);
   useEffect(() => {

@@ -13,7 +13,7 @@ afterEach(() => {
   useTimeline.setState({ aim: null, refused: null });
 });
 
-test("the playhead stays where one goes until the state is there, though the answer came before it", async () => {
+test("the playhead stays at the target until the state arrives, though the answer came first", async () => {
   usePlc.setState({ state: past(82) });
   send.mockResolvedValue({ ok: true, message: "" });
   await travel(81);

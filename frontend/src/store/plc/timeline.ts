@@ -1,4 +1,4 @@
-/** The run from its first scan to the live one, and the way back into it. */
+/** The run from its first scan to the live one, and going back in it. */
 
 import { create } from "zustand";
 import { type Axis, including } from "../../logic/plc/timeline";
@@ -13,16 +13,16 @@ const MARK_LIMIT = 5000;
 interface Run {
   info: TimelineInfo | null;
   marks: readonly Mark[];
-  /** What is shown of the run; null is all of it. */
+  /** The visible part of the run; null is all of it. */
   view: Axis | null;
   /** The view moves along with the live end. */
   follows: boolean;
-  /** Where one is on the way to, until the PLC is there. */
+  /** The scan that the page is going to, until the PLC is there. */
   aim: number | null;
   refused: string | null;
   /** The scans that are selected, both included; null while none are. */
   selection: Axis | null;
-  /** The damage report that was read and put away. */
+  /** The damage report that was dismissed. */
   read: string;
 }
 
@@ -47,12 +47,12 @@ export function onTimeline({ info, marks, fresh }: Timeline): void {
   set((run) => ({ info, marks: fresh ? marks : [...run.marks, ...marks].slice(-MARK_LIMIT) }));
 }
 
-/** Shows a part of the run, all of it with null. A view that ends at the live scan moves along with it. */
+/** Shows a part of the run, or all of it with null. A view that ends at the live scan moves along with it. */
 export function setView(view: Axis | null, whole: Axis): void {
   set({ view, follows: view === null || view.to >= whole.to });
 }
 
-/** A view that stands still is moved to where one goes. */
+/** A view that does not follow the live end is moved so that it contains the target. */
 function inSight(scan: number | null): Partial<Run> {
   const { view, follows, info } = get();
   if (view === null || follows) return {};
@@ -60,7 +60,7 @@ function inSight(scan: number | null): Partial<Run> {
   return { view: including(view, { from: info?.first_scan ?? 0, to: liveScan() }, scan) };
 }
 
-/** Selects a stretch of the run, both scans included, in whatever order; null takes the selection away. */
+/** Selects a stretch of the run, both scans included, in either order; null clears the selection. */
 export function selectStretch(one: number | null, other = one): void {
   if (one === null || other === null) set({ selection: null });
   else set({ selection: { from: Math.min(one, other), to: Math.max(one, other) } });
@@ -68,7 +68,7 @@ export function selectStretch(one: number | null, other = one): void {
 
 export const putAwayDamage = () => set(({ info }) => ({ read: info?.damage ?? "" }));
 
-/** The newest scan there is, whatever is shown. */
+/** The newest scan, whatever the page shows. */
 export function liveScan(): number {
   return usePlc.getState().state?.past?.live_scan ?? readClock().scan;
 }
@@ -77,7 +77,7 @@ let underWay = false;
 let next: { scan: number | null; count: number } | null = null;
 
 /** Shows the PLC as it was before a scan, or before its statement of this `count`; null returns to live. While one
- * request is answered, only the last wish is kept. */
+ * request is running, only the last further request is kept. */
 export async function travel(scan: number | null, count = 0): Promise<void> {
   set({ aim: scan ?? liveScan(), ...inSight(scan) });
   next = { scan, count };
@@ -95,7 +95,7 @@ export async function travel(scan: number | null, count = 0): Promise<void> {
   arrive(last);
 }
 
-/** The playhead stays where one goes until the state says so too: the answer may be here before the state is. */
+/** The playhead stays at the target until the state confirms it: the answer may arrive before the state. */
 function arrive(scan: number | null): void {
   const { state } = usePlc.getState();
   const shown = state?.past ? state.scan : null;
@@ -109,14 +109,14 @@ function arrive(scan: number | null): void {
   }
 }
 
-/** One scan back from what is shown: into the past, or further into it. */
+/** Goes one scan back: into the past, or further into it. */
 export function stepBack(): void {
   const first = useTimeline.getState().info?.first_scan ?? 0;
   const { scan } = readClock();
   if (scan > first) void travel(scan - 1);
 }
 
-/** One scan forward while the past is shown; at its end one is live again. */
+/** Goes one scan forward in the past; at its end the page returns to live. */
 export function stepForward(): void {
   const { scan } = readClock();
   void travel(scan + 1 >= liveScan() ? null : scan + 1);

@@ -28,7 +28,7 @@ const frame = (id: number, value: number) => ({
 
 beforeAll(() => vi.stubGlobal("requestAnimationFrame", () => 0));
 
-test("what others still watch does not show in the place of something else", () => {
+test("a value that others still watch is not shown in the place of a different value", () => {
   assign("Main.a", 7, int);
   apply(frame(7, 11));
   drop("Main.a", 7);
@@ -39,7 +39,7 @@ test("what others still watch does not show in the place of something else", () 
   expect(currentText("Main.b")).toBe("22");
 });
 
-test("watched again, it shows again", () => {
+test("a variable that is watched again shows its value again", () => {
   assign("Main.c", 9, int);
   apply(frame(9, 1));
   drop("Main.c", 9);

@@ -1,6 +1,6 @@
 /**
  * The live values: one typed array, written by frames, read by cells. Cells are functions that write to the page
- * themselves; React does not see twenty frames a second.
+ * directly, so that React does not run twenty times a second.
  */
 import type { Format } from "../../logic/format/formats";
 import { formatString, formatValue, hexWord, lampOf, type SortKey, sortKeyAt } from "../../logic/format/values";
@@ -20,7 +20,7 @@ interface Entry {
   slot: number;
   symbol: PlcSymbol | null;
   string: string | null;
-  /** False until the first value arrives: a first value is no change. */
+  /** False until the first value arrives: a first value is not a change. */
   known: boolean;
   changed: boolean;
   /** The mark of its last change. */
@@ -77,12 +77,12 @@ export function assign(path: string, id: number, symbol: PlcSymbol): void {
   byId.set(id, entry);
 }
 
-/** No id is valid any more: the connection or the program changed. Values stay, they are the last known ones. */
+/** All ids become invalid: the connection or the program changed. The values stay, as the last known ones. */
 export function forgetIds(): void {
   byId.clear();
 }
 
-/** The program that is shown has no such variable: what was read of it before is no value of it. */
+/** The shown program has no such variable: an earlier value does not belong to it. */
 export function forgetValue(path: string): void {
   const entry = entries.get(path);
   if (!entry) return;
@@ -92,7 +92,7 @@ export function forgetValue(path: string): void {
   schedule();
 }
 
-/** Nobody here watches this path any more. Others may: their frames still name its id, and its slot may be another's by then. */
+/** Nobody here watches this path any more. Others may still do so: frames then still contain its id, and its slot may already hold a different value. */
 export function drop(path: string, id: number): void {
   const entry = entries.get(path);
   byId.delete(id);
@@ -134,7 +134,7 @@ function take(entry: Entry, values: Uint8Array, from: number): void {
 function mark(entry: Entry, changed: boolean): void {
   entry.known = true;
   if (changed) entry.changedAt = frames;
-  if (entry.cells.size === 0) return; // nobody sees it
+  if (entry.cells.size === 0) return; // no cell shows it
   entry.changed ||= changed;
   dirty.add(entry);
 }
@@ -177,19 +177,19 @@ export function bindCell(path: string, format: CellFormat, show: (reading: Readi
   };
 }
 
-/** What changes from now on has changed since this mark. */
+/** Values that change from now on have changed since this mark. */
 export const changeMark = () => frames;
 
 export const hasChangedSince = (path: string, mark: number) => (entries.get(path)?.changedAt ?? 0) > mark;
 
-/** What a value is sorted by: a number by its size; null while it is not known. */
+/** The sort key of a value: a number sorts by its size; null while the value is not known. */
 export function sortKey(path: string): SortKey {
   const entry = entries.get(path);
   if (!entry?.known || !entry.symbol) return null;
   return entry.symbol.kind === "string" ? entry.string : sortKeyAt(entry.symbol, view, entry.slot * 8);
 }
 
-/** The text of a value as last seen, for copying and for forcing what stands there. */
+/** The last known text of a value, for copying and for forcing the current value. */
 export function currentText(path: string, format: Format = "default"): string {
   const entry = entries.get(path);
   return entry ? read(entry, format).text : "";

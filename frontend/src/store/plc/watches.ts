@@ -1,4 +1,4 @@
-/** Who watches what: counts the watchers of every path, keeps the server's list in step, and holds its answers. */
+/** The watched paths: counts the watchers of each, keeps the server's list in step, and stores its answers. */
 import { create } from "zustand";
 import { newRef } from "../../wire/send";
 import { link } from "../../wire/socket";
@@ -17,7 +17,7 @@ const ids = new Map<string, number>();
 const toWatch = new Set<string>();
 let scheduled = false;
 
-/** Watches paths until the returned function is called. Requests of one turn go out as one message. */
+/** Watches paths until the returned function is called. Requests of one turn are sent as one message. */
 export function watch(paths: readonly string[]): () => void {
   for (const path of paths) {
     const count = counts.get(path) ?? 0;
@@ -59,7 +59,7 @@ function exchange(): void {
   else if (link.post({ type: "watch", ref: newRef(), paths: wanted })) toWatch.clear();
 }
 
-/** After a connection: everything is asked for again. */
+/** After a connection: sends the whole watch list again. */
 export function watchAgain(): void {
   ids.clear();
   forgetIds();

@@ -1,4 +1,4 @@
-/** The files of the project being edited: texts, what is not saved yet, live diagnostics and builds. */
+/** The files of the project being edited: texts, unsaved changes, live problems and builds. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -16,12 +16,12 @@ export interface Document {
   path: string;
   text: string;
   savedText: string;
-  /** The stored version that the text began from. */
+  /** The stored version on which the text is based. */
   version: number;
   savedAt: number | null;
-  /** Somebody saved meanwhile: theirs, to be shown beside mine. */
+  /** The version of somebody who saved meanwhile, to be shown beside one's own. */
   conflict: FileText | null;
-  /** The file is gone, but the text was edited and stays: who deleted it, empty when that is not known. */
+  /** The file was deleted, but its edited text stays: who deleted it; empty when that is not known. */
   deletedBy: string | null;
 }
 
@@ -43,14 +43,14 @@ interface Documents {
   cursor: { line: number; column: number } | null;
   pous: readonly Pou[];
   problems: readonly Problem[];
-  /** Subrange checks of the texts as they stand; the last good ones while there are errors. */
+  /** Subrange checks of the edited texts; the last good ones while there are errors. */
   checks: readonly EmbeddedCheck[];
   build: BuildState;
-  /** A build that waits for a yes: variables of running PLCs would be reinitialized. */
+  /** A build that waits for confirmation: variables of running PLCs would be reinitialized. */
   asking: BuildResult | null;
-  /** What the last swap of the program did to the running PLCs; null when it was rolled back, or there was none. */
+  /** What the last online change did to the running PLCs; null when it was rolled back, or there was none. */
   change: readonly OnlineChange[] | null;
-  /** Something that failed and is not about one line: shown at the top of the problem list. */
+  /** A failure that is not about one line: shown at the top of the problem list. */
   trouble: string | null;
 }
 
@@ -76,7 +76,7 @@ const set = useDocuments.setState;
 export const isDirty = (document: Document | undefined) =>
   document !== undefined && document.text !== document.savedText;
 
-/** True when this browser holds a text of the file that is stored nowhere else. */
+/** True when this browser has a text of the file that is stored nowhere else. */
 export function holdsUnsaved(path: string): boolean {
   const { project, open } = get();
   if (open[path]) return isDirty(open[path]);
@@ -92,7 +92,7 @@ function patch(path: string, change: Partial<Document>): void {
   });
 }
 
-/** Shows another project: its files, and what the compiler says about them. */
+/** Shows a different project: its files, and the compiler's problems with them. */
 async function loadProject(project: number): Promise<void> {
   set({ project, ...nothing });
   await refreshFiles();
@@ -108,7 +108,7 @@ export async function refreshFiles(): Promise<void> {
   if (get().project === project) set({ files });
 }
 
-/** Fetches a file for editing; an unsaved text of last time is taken up again. */
+/** Fetches a file for editing; an unsaved text of the last visit is restored. */
 export async function openDocument(path: string): Promise<void> {
   const { project, open } = get();
   if (project === null || open[path]) return;
@@ -128,7 +128,7 @@ export async function openDocument(path: string): Promise<void> {
   if (draft) scheduleCheck();
 }
 
-/** Null when there is no such file, which is no failure for a browser that still holds a text of it. */
+/** Null when there is no such file; that is not a failure if the browser still has a text of it. */
 async function storedFile(project: number, path: string, mayBeGone: boolean): Promise<FileText | null> {
   const known = get().files.some((file) => file.path === path);
   if (!known && !(await rest.files(project)).some((file) => file.path === path)) {
@@ -138,7 +138,7 @@ async function storedFile(project: number, path: string, mayBeGone: boolean): Pr
   return rest.file(project, path);
 }
 
-/** An unsaved text stays in the browser and comes back when the file is opened again. */
+/** Stores an unsaved text in the browser; it is restored when the file is opened again. */
 export function closeDocument(path: string): void {
   if (isDirty(get().open[path])) scheduleCheck();
   set(({ open, active }) => {
@@ -147,13 +147,13 @@ export function closeDocument(path: string): void {
   });
 }
 
-/** Whether this browser really holds the unsaved text: its storage may be full or switched off. */
+/** Whether this browser really stored the unsaved text: its storage may be full or switched off. */
 export function isKept(path: string): boolean {
   const { project, open } = get();
   return project !== null && recall<Draft | null>(draftKey(project, path), null)?.text === open[path]?.text;
 }
 
-/** Takes the unsaved text away, here and in the browser's storage. */
+/** Discards the unsaved text, here and in the browser's storage. */
 export function discardEdits(path: string): void {
   const { project, open } = get();
   const document = open[path];
@@ -196,7 +196,7 @@ export async function save(path: string): Promise<boolean> {
   }
 }
 
-/** Without a connection a request would wait for ever, and the save would come as a surprise later. */
+/** Without a connection a request would wait for ever, and would save unexpectedly later. */
 function isCutOff(): boolean {
   const lost = usePlc.getState().link.state === "lost";
   if (lost) set({ trouble: t("lost.nosave") });
@@ -211,7 +211,7 @@ function stored(path: string, text: string, file: FileInfo): void {
   set({ files: [...others, file].sort((a, b) => a.path.localeCompare(b.path)) });
 }
 
-/** Ends a conflict: mine is based on theirs and saved again, or theirs replaces mine. */
+/** Ends a conflict: saves one's own text based on the other version, or takes the other version. */
 export async function resolveConflict(path: string, choice: "mine" | "theirs"): Promise<void> {
   const { project, open } = get();
   const theirs = open[path]?.conflict;
@@ -233,8 +233,8 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
 }
 
 /**
- * Saves what is not saved, then builds; the running PLCs, or those `chosen`, get the new program in their seams, once `agreed` if
- * values are lost.
+ * Saves all unsaved files, then builds; the running PLCs, or those `chosen`, get the new program in a seam. If values would be
+ * lost, this happens only if `agreed`.
  */
 export async function build(agreed = false, chosen: readonly number[] | null = null): Promise<void> {
   const { project, open } = get();
@@ -277,7 +277,7 @@ export function onBuilt(result: BuildResult, author: string | null): void {
     const swapped = result.ok && result.changes.some((change) => change.refusal === "");
     const { ok, message, changes } = result;
     set({ build: { phase: "done", ok, message, author, changes } });
-    // A build that found nothing to do leaves the last change to be taken back.
+    // A build that found nothing to do keeps the last change, so that it can still be rolled back.
     if (swapped) set({ change: result.changes });
   }
   const dirty = Object.values(get().open).some(isDirty);
@@ -285,7 +285,7 @@ export function onBuilt(result: BuildResult, author: string | null): void {
   else set({ problems: result.problems, ...(result.pous.length > 0 ? { pous: result.pous } : {}) });
 }
 
-/** What the last build said is about the PLC as it is now: not about its past, and no more once its program was rolled back. */
+/** The result of the last build is shown only for the present: not in the past, and not after the program was rolled back. */
 usePlc.subscribe(({ state }, { state: before }) => {
   if (!state || !before || get().build.phase !== "done") return;
   const shown = state.past !== null && before.past === null;
@@ -294,7 +294,7 @@ usePlc.subscribe(({ state }, { state: before }) => {
   if (older) set({ build: { phase: "idle" }, change: null });
 });
 
-/** Somebody (perhaps this browser) saved: a clean text follows, an edited one waits for its own save to show both. */
+/** Somebody (perhaps this browser) saved: an unedited text follows; an edited one shows the conflict when it is saved. */
 export async function onSaved(file: FileInfo): Promise<void> {
   const { project, open, files } = get();
   const document = open[file.path];
@@ -314,7 +314,7 @@ export async function onSaved(file: FileInfo): Promise<void> {
 
 const deleting = new Set<string>();
 
-/** Somebody deleted a file: its tab closes with the list of files, unless it holds a text that was edited. */
+/** Somebody deleted a file: its tab closes with the list of files, unless its text was edited. */
 export async function onDeleted(path: string, author: string): Promise<void> {
   if (deleting.has(path)) return;
   const { project, open } = get();
@@ -327,7 +327,7 @@ export async function onDeleted(path: string, author: string): Promise<void> {
   scheduleCheck();
 }
 
-/** After a connection: what was saved and deleted meanwhile was told to nobody here. */
+/** After a connection: catches up on files that others saved and deleted meanwhile. */
 export async function catchUp(): Promise<void> {
   const { project } = get();
   if (project === null) return;
@@ -335,7 +335,7 @@ export async function catchUp(): Promise<void> {
   try {
     files = await rest.files(project);
   } catch {
-    return; // The connection went away again: the next one catches up.
+    return; // The connection was lost again: the next one catches up.
   }
   if (get().project !== project) return;
   const known = new Map(files.map((file) => [file.path, file]));
@@ -347,7 +347,7 @@ export async function catchUp(): Promise<void> {
   if (get().project === project) set({ files });
 }
 
-/** Makes a new file, with the frame of what its name promises unless there is a text. Throws what the server said when it refuses. */
+/** Makes a new file, with a text that fits its name unless one is given. Throws the server's refusal. */
 export async function createFile(path: string, text = skeleton(path)): Promise<void> {
   const { project } = get();
   if (project === null) return;
@@ -372,7 +372,7 @@ export async function deleteFile(path: string): Promise<void> {
   scheduleCheck();
 }
 
-/** A check takes the server some 15 ms: a problem is to be seen while the finger leaves the key. */
+/** A check takes the server some 15 ms: a problem should be visible while the finger leaves the key. */
 const CHECK_DELAY = 50;
 let checkTimer: ReturnType<typeof setTimeout> | undefined;
 let checkTurn = 0;
@@ -382,7 +382,7 @@ function scheduleCheck(): void {
   checkTimer = setTimeout(() => void check(), CHECK_DELAY);
 }
 
-/** Asks the compiler about the texts as they stand; an answer that was overtaken is dropped. */
+/** Asks the compiler about the edited texts; an outdated answer is dropped. */
 async function check(): Promise<void> {
   const { project, open } = get();
   if (project === null) return;

@@ -1,9 +1,9 @@
-/** A new project with all that makes it run. */
+/** A new project that runs at once. */
 import { skeleton } from "../../logic/project/explorer";
 import { rest } from "../../wire/rest";
 import { chooseProject, createInstance, refreshApp } from "../plc/bench";
 
-/** Makes a project with a first program and an instance that runs it. Throws what the server said when it refuses. */
+/** Makes a project with a first program and an instance that runs it. Throws the server's refusal. */
 export async function createProject(name: string, model: string, instanceName: string): Promise<void> {
   const project = await rest.createProject(name, model);
   if ((await rest.files(project.id)).length === 0) await rest.save(project.id, "Main.st", skeleton("Main.st"), 0);

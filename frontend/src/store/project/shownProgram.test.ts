@@ -15,7 +15,7 @@ const ran = (version: number, text: string): ProgramText => ({ version, files: {
 let instance = 0;
 
 beforeEach(() => {
-  instance += 1; // what an instance ran is fetched once
+  instance += 1; // the program of an instance is fetched once
   usePlc.setState({ link: connected, state: live });
   useBench.setState({ instance: { id: instance } as Instance, project: { id: 1, version: 2 } as Project });
 });
@@ -28,7 +28,7 @@ afterEach(() => {
 
 const shown = () => useShownProgram.getState();
 
-it("asks again for the text that ran once the PLC is in another state", async () => {
+it("requests the program that ran again once the state of the PLC changes", async () => {
   const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("the PLC does not answer"));
   usePlc.setState({ state: { ...past(1), state: "silent" } });
   await vi.waitFor(() => expect(shown().refused).toBe("the PLC does not answer"));
@@ -38,7 +38,7 @@ it("asks again for the text that ran once the PLC is in another state", async ()
   await vi.waitFor(() => expect(shown().program?.files).toEqual({ "Main.st": "old" }));
 });
 
-it("asks again for it once there is a connection", async () => {
+it("requests it again once there is a connection", async () => {
   const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("no connection"));
   usePlc.setState({ state: past(1) });
   usePlc.setState({ link: { ...connected, state: "lost" } });
@@ -48,7 +48,7 @@ it("asks again for it once there is a connection", async () => {
   await vi.waitFor(() => expect(shown().program?.version).toBe(1));
 });
 
-it("asks again for it when the refusal comes after the connection", async () => {
+it("requests it again when the refusal comes after the connection", async () => {
   let refuse: (error: Error) => void = () => {};
   const asked = vi.spyOn(rest, "programText").mockReturnValueOnce(
     new Promise((_, reject) => {
@@ -66,7 +66,7 @@ it("asks again for it when the refusal comes after the connection", async () => 
 const open = (text: string, savedText = text) =>
   useDocuments.setState({ open: { "Main.st": { path: "Main.st", text, savedText } as Document } });
 
-it("shows what ran where the text was saved but not built since", async () => {
+it("shows the text that ran if the text was saved but not built since", async () => {
   vi.spyOn(rest, "programText").mockResolvedValue(ran(2, "built"));
   open("saved");
   expect(showsRan("Main.st")).toBe(false);
@@ -77,7 +77,7 @@ it("shows what ran where the text was saved but not built since", async () => {
   expect(shownText("Main.st").text).toBe("saved");
 });
 
-it("goes on with the edited text in the past where what is saved is what ran, or that is not known", async () => {
+it("continues with the edited text in the past if the saved text is the one that ran, or that is not known", async () => {
   const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("the PLC does not answer"));
   open("edited", "built");
   usePlc.setState({ state: past(2) });
@@ -89,7 +89,7 @@ it("goes on with the edited text in the past where what is saved is what ran, or
   expect(shownText("Main.st")).toMatchObject({ text: "edited", built: "built" });
 });
 
-it("shows what ran of an older version at once, and also when the project is built meanwhile", async () => {
+it("shows the text of an older version at once, and also when the project is built meanwhile", async () => {
   vi.spyOn(rest, "programText").mockResolvedValue(ran(2, "built"));
   open("built");
   usePlc.setState({ state: past(2) });
@@ -99,7 +99,7 @@ it("shows what ran of an older version at once, and also when the project is bui
   expect(showsRan("Main.st")).toBe(true);
 });
 
-it("tells which version ran where the project is not that any more: built since, or saved", async () => {
+it("says which version ran if the project is no longer that version: built since, or saved", async () => {
   vi.spyOn(rest, "programText").mockImplementation(async (_, version) => ran(version, "old"));
   expect(ranApart()).toBeNull();
   usePlc.setState({ state: past(1) });

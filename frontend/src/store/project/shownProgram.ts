@@ -1,4 +1,4 @@
-/** The text of the program that is shown: in the past as it ran, where that is not what is saved; else what is edited. */
+/** The text of the shown program: in the past the text that ran, if it differs from the saved one; else the edited text. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -9,11 +9,11 @@ import { type Plc, usePlc } from "../plc/plc";
 import { useDocuments } from "./documents";
 
 interface ShownProgram {
-  /** The version that ran in the past that is shown; null while it is live. */
+  /** The version that ran at the shown scan of the past; null while the page is live. */
   version: number | null;
-  /** Whether the project was built since: then no text of it is what ran. */
+  /** Whether the project was built since: then none of its texts is what ran. */
   older: boolean;
-  /** Null until it has come. */
+  /** Null until it has been fetched. */
   program: ProgramText | null;
   refused: string | null;
 }
@@ -22,7 +22,7 @@ const edited: ShownProgram = { version: null, older: false, program: null, refus
 
 export const useShownProgram = create<ShownProgram>(() => edited);
 
-/** What ran does not change any more: each version is fetched once. */
+/** A version that ran never changes: each is fetched once. */
 const fetched = new Map<string, ProgramText>();
 
 function follow(): void {
@@ -45,7 +45,7 @@ function follow(): void {
   if (program === null) void load(instance.id, version, key);
 }
 
-/** A PLC that could not be asked may be asked again: there is a connection once more, or it is in another state. */
+/** A PLC that could not answer is asked again: the connection is back, or its state has changed. */
 const isBack = (now: Plc, before: Plc) =>
   now.link.state === "open" && (before.link.state !== "open" || now.state?.state !== before.state?.state);
 
@@ -88,7 +88,7 @@ useBench.subscribe((now, before) => {
   follow();
 });
 
-/** Whether the editor of a file shows what ran, to be read only, and not what is edited. */
+/** Whether the editor of a file shows the text that ran, read-only, and not the edited text. */
 export function showsRan(path: string): boolean {
   const { version, older, program } = useShownProgram.getState();
   if (version === null || older) return version !== null;
@@ -101,13 +101,13 @@ export function useShowsRan(path: string): boolean {
   return useShownProgram(() => showsRan(path));
 }
 
-/** The version that ran in the past that is shown, where the project is not that any more; else null. */
+/** The version that ran at the shown scan of the past, if the project is no longer that version; else null. */
 export function ranApart(): number | null {
   const { version, older } = useShownProgram.getState();
   return older || Object.keys(useDocuments.getState().open).some(showsRan) ? version : null;
 }
 
-/** For panels that tell of the project also then; with the scan that is shown. */
+/** For panels that continue to show the project: the version, with the shown scan. */
 export function useRanApart(): { version: number; scan: number } | null {
   useDocuments(ranApart);
   const version = useShownProgram(ranApart);
@@ -117,7 +117,7 @@ export function useRanApart(): { version: number; scan: number } | null {
 
 interface ShownText {
   text: string;
-  /** What the program that is shown was built from; lines that the PLC names are lines of it. */
+  /** The text that the shown program was built from; line numbers of the PLC refer to it. */
   built: string;
   pous: readonly Pou[];
 }

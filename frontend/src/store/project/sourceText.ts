@@ -1,9 +1,9 @@
-/** The text of a file as it was saved last, for panels that show lines of it without opening it. */
+/** The last saved text of a file, for panels that show lines of it without opening it. */
 import { rest } from "../../wire/rest";
 import { useBench } from "../plc/bench";
 import { useDocuments } from "./documents";
 
-/** Null: there is no such file (any more), or nobody answers. */
+/** Null: the file does not exist (any more), or nobody answers. */
 export async function savedText(path: string): Promise<string | null> {
   const open = useDocuments.getState().open[path];
   if (open) return open.savedText;

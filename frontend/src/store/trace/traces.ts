@@ -1,4 +1,4 @@
-/** Traces of the PLC: which there are, which one is shown, what of it, and the cursors on it. */
+/** Traces of the PLC: which exist, which one is shown, its visible part, and its cursors. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -19,7 +19,7 @@ export type Cursor = "a" | "b";
 export interface Compared {
   record: TraceRecordInfo;
   samples: Samples;
-  /** How far its scans are moved. */
+  /** The number of scans by which it is shifted. */
   shift: number;
   by: "trigger" | "first";
 }
@@ -28,7 +28,7 @@ interface Traces {
   traces: readonly TraceInfo[];
   records: readonly TraceRecordInfo[];
   source: Source | null;
-  /** What is shown of it; null is all. */
+  /** The visible part; null is all. */
   view: Range | null;
   /** The view moves along with the newest sample. */
   follows: boolean;
@@ -36,7 +36,7 @@ interface Traces {
   b: number | null;
   compared: Compared | null;
   flights: readonly Flight[];
-  /** Signals that were dragged to another plot: text -> key of the plot. */
+  /** Signals that were dragged to a different plot: text -> key of the plot. */
   moved: ReadonlyMap<string, string>;
   trouble: { message: string; near: readonly string[]; add?: string } | null;
 }
@@ -59,10 +59,10 @@ export const useTraces = create<Traces>(() => nothing);
 const get = useTraces.getState;
 const set = useTraces.setState;
 
-/** Scans that a view that follows begins with. */
+/** The initial width, in scans, of a view that follows. */
 const FOLLOWED = 1000;
 
-/** What is shown, whether it is a trace or a record of one. */
+/** The shown trace, or the shown record of a trace. */
 export interface Shown {
   source: Source;
   name: string;
@@ -104,11 +104,11 @@ export const isRecording = (trace: TraceInfo | null): boolean =>
 
 const instanceId = () => useBench.getState().instance?.id ?? null;
 
-// ---- what comes ---------------------------------------------------------------------------------------------------
+// ---- messages of the server --------------------------------------------------------------------------------------
 
 onInstanceChange(() => set({ ...nothing, moved: new Map(recall<[string, string][]>("trace.moved", [])) }));
 
-/** On the first look and after a lost connection. */
+/** When the panel is shown first and after a lost connection. */
 export async function refreshTraces(): Promise<void> {
   const { instance, project } = useBench.getState();
   if (!instance || !project) return;
@@ -140,13 +140,13 @@ export function onTraces(traces: readonly TraceInfo[]): void {
   else if (now && !before) rewind(now);
 }
 
-/** Other signals of the same record: what is looked at stays. */
+/** The signals of the same record changed: the view stays. */
 function goesOn(before: Shown, now: Shown): boolean {
   const texts = (shown: Shown) => shown.signals.map(({ text }) => text).join("\n");
   return texts(now) !== texts(before) && now.first < Math.min(before.end, now.end);
 }
 
-/** Another record is shown: a live one is followed, of one that is complete all is shown. */
+/** A different record is shown: a live one is followed, a complete one is shown as a whole. */
 function rewind(now: Shown): void {
   const follows = isRecording(now.trace) && now.trace?.definition.trigger === null;
   set({ view: null, follows, a: null, b: null });
@@ -169,7 +169,7 @@ async function showRecord(id: number): Promise<void> {
   choose({ kind: "record", id });
 }
 
-// ---- what people want ---------------------------------------------------------------------------------------------
+// ---- actions ------------------------------------------------------------------------------------------------------
 
 function fail(error: unknown, add?: string): void {
   const near = error instanceof Refused ? (error.refusal.near ?? []) : [];
@@ -222,12 +222,12 @@ function freshName(): string {
   }
 }
 
-/** A new trace of these signals, which is recorded from now on. */
+/** Makes a new trace of these signals; recording begins now. */
 export function newTrace(signals: readonly string[]): Promise<boolean> {
   return define(null, { ...PLAIN, name: freshName(), signals: [...signals], start: true }, signals[0]);
 }
 
-/** Records paths, too: in the trace that is shown, or in a first one. */
+/** Adds paths to the shown trace, or to a new first one. */
 export async function addAllToTrace(paths: readonly string[]): Promise<boolean> {
   const shown = shownOf(get());
   const trace = shown?.trace ?? null;
@@ -237,7 +237,7 @@ export async function addAllToTrace(paths: readonly string[]): Promise<boolean> 
   return change({ signals: [...trace.definition.signals, ...fresh] }, fresh[0]);
 }
 
-/** From other panels: shows the trace, too. */
+/** From other panels: also opens the trace panel. */
 export function addToTrace(path: string): void {
   showPanel("trace");
   void addAllToTrace([path]);
@@ -251,11 +251,11 @@ export function removeSignal(text: string): void {
   else void change({ signals });
 }
 
-/** Another definition for the trace that is shown. */
+/** Changes the definition of the shown trace. */
 export async function change(part: Partial<TraceDefinition>, add?: string): Promise<boolean> {
   const trace = shownOf(get())?.trace;
   if (!trace) return false;
-  // Another name, other signals: what was recorded stays, and a trace that is recorded goes on.
+  // A different name or different signals keep the recorded samples, and a recording trace continues.
   const keeps = Object.keys(part).every((key) => key === "name" || key === "signals");
   return define(trace.id, { ...trace.definition, ...part, start: !keeps }, add);
 }
@@ -292,7 +292,7 @@ export async function deleteShown(): Promise<void> {
   }
 }
 
-/** Keeps what is recorded in the project. Throws what was refused. */
+/** Keeps the recorded samples in the project. Throws the refusal. */
 export async function keepShown(name: string): Promise<void> {
   const instance = instanceId();
   const shown = shownOf(get());
@@ -301,7 +301,7 @@ export async function keepShown(name: string): Promise<void> {
   set(({ records }) => ({ records: [record, ...records] }));
 }
 
-/** Draws a kept record beside what is shown: by their triggers where both have one, else by their first scans. */
+/** Draws a kept record beside the shown one: aligned by their triggers if both have one, else by their first scans. */
 export async function compare(record: TraceRecordInfo | null, samples: Samples | null): Promise<void> {
   const shown = shownOf(get());
   if (!record || !samples || !shown) {
@@ -313,7 +313,7 @@ export async function compare(record: TraceRecordInfo | null, samples: Samples |
   set({ compared: { record, samples, shift, by: byTrigger ? "trigger" : "first" } });
 }
 
-/** Records the last scans afterwards. */
+/** Makes a retrospective trace of the last scans. */
 export async function fly(signals: readonly string[], scans: number, every: number): Promise<void> {
   const instance = instanceId();
   if (instance === null) return;
@@ -341,14 +341,14 @@ export function moveTo(text: string, plot: string): void {
   keep("trace.moved", [...get().moved]);
 }
 
-// ---- looking ------------------------------------------------------------------------------------------------------
+// ---- the view -----------------------------------------------------------------------------------------------------
 
-/** Scans that there are; one that has just begun has some room. */
+/** The existing scans; a record that has just begun gets some extra room. */
 export function wholeOf({ first, end, every }: Shown): Range {
   return { from: first, to: Math.max(end - 1, first + 10 * every) };
 }
 
-/** What is to be shown now. */
+/** The part to show now. */
 export function viewOf({ view, follows }: Pick<Traces, "view" | "follows">, shown: Shown, end = shown.end): Range {
   const whole = wholeOf({ ...shown, end: Math.max(end, shown.end) });
   if (!follows) return view ?? whole;
@@ -356,7 +356,7 @@ export function viewOf({ view, follows }: Pick<Traces, "view" | "follows">, show
   return { from: whole.to - width, to: whole.to };
 }
 
-/** Shows a part; one that ends at the newest sample of a trace that is recorded moves along. */
+/** Shows a part; one that ends at the newest sample of a recording trace moves along. */
 export function look(view: Range | null): void {
   const shown = shownOf(get());
   if (!shown) return;
@@ -379,7 +379,7 @@ export function setCursor(cursor: Cursor, scan: number | null): void {
   set(cursor === "a" ? { a: scan } : { b: scan });
 }
 
-/** Samples of what is shown, straight from where they are. */
+/** Samples of the view, fetched directly from the server. */
 export async function readSamples(
   source: Source,
   first: number,
@@ -391,6 +391,6 @@ export async function readSamples(
   try {
     return await wire.samples(instance, source, Math.max(0, Math.floor(first)), last, points);
   } catch {
-    return null; // the next turn asks again; that the connection is lost is said elsewhere
+    return null; // the next turn tries again; the lost connection is reported elsewhere
   }
 }

@@ -1,4 +1,4 @@
-/** Disturbances of the PLC: which there are, the next one as it is typed, and what became of it. */
+/** Disturbances of the PLC: the active ones, the form for a new one, and the result of the last request. */
 
 import { useSyncExternalStore } from "react";
 import { create } from "zustand";
@@ -17,7 +17,7 @@ import { onInstanceChange } from "../plc/reset";
 interface Outcome {
   ok: boolean;
   message: string;
-  /** Names that come near one that the PLC did not know. */
+  /** Known names that are similar to the unknown one. */
   near: readonly string[];
 }
 
@@ -25,9 +25,9 @@ interface Disturb {
   /** Those that are not over. */
   disturbances: readonly DisturbanceInfo[];
   form: DisturbForm;
-  /** What became of the last order: stands in the form, or over the list. */
+  /** The result of the last request: shown in the form, or above the list. */
   outcome: Outcome | null;
-  /** The form was sent and not taken: what is missing is red from then on. */
+  /** The form was sent and refused: missing entries are red from then on. */
   tried: boolean;
   busy: boolean;
 }
@@ -51,7 +51,7 @@ export const onDisturbances = (disturbances: readonly DisturbanceInfo[]) => set(
 export const setDisturbance = (change: Partial<DisturbForm>) =>
   set(({ form }) => ({ form: { ...form, ...change }, outcome: null }));
 
-/** What is wrong with the form; a scan that was still to come is over some time, without a key being pressed. */
+/** The problems of the form; a future scan becomes a past one some time, without a key press. */
 export function useTroubles(): ReturnType<typeof readDisturbance>["troubles"] {
   const form = useDisturb((state) => state.form);
   return JSON.parse(
@@ -59,19 +59,19 @@ export function useTroubles(): ReturnType<typeof readDisturbance>["troubles"] {
   );
 }
 
-/** Shows the tab with the form about something; what else stands in the form stays. */
+/** Opens the tab with the given fields filled in; other fields of the form stay. */
 export function askDisturb(about: Partial<Pick<DisturbForm, "kind" | "path" | "site">>): void {
   const bit = about.path === undefined && about.site === undefined ? get().form.bit : "";
   set(({ form }) => ({ form: { ...form, ...about, bit }, outcome: null, tried: false }));
   showPanel("disturb");
 }
 
-/** A name that the PLC did not know becomes one that it does. */
+/** Replaces an unknown name by a known one. */
 export function mendDisturbance(name: string): void {
   setDisturbance(get().form.kind === "result" ? { site: name } : { path: name });
 }
 
-/** Does what the form says, when it says enough. */
+/** Injects the disturbance if the form is complete. */
 export async function disturb(): Promise<void> {
   const { wanted, troubles } = readDisturbance(get().form, readClock().scan);
   set({ tried: true, outcome: null });
@@ -80,7 +80,7 @@ export async function disturb(): Promise<void> {
   set({ tried: false });
 }
 
-/** Takes one back; null is all of them. */
+/** Takes back one disturbance; null takes back all of them. */
 export async function calm(id: number | null): Promise<void> {
   await ordered((instance) => wire.takeBack(instance, id));
 }

@@ -1,4 +1,4 @@
-/** Bringing in the trace of a real controller: the file, how its columns are meant, what the server says about it. */
+/** The import of a controller log: the file, the mapping of its columns, and the server's check of it. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -15,18 +15,18 @@ interface TraceImport {
   open: boolean;
   /** The file that is being read. */
   reading: string | null;
-  /** A file that was not taken: why, and where. */
+  /** A file that was refused: why, and where. */
   refused: { name: string; message: string; problems: readonly TraceProblem[] } | null;
   trace: UploadedTrace | null;
-  /** As it is edited. */
+  /** The mapping as it is edited. */
   mapping: TraceMapping | null;
-  /** Name of the POU that is compared; empty: the whole program. */
+  /** Name of the compared POU; empty: the whole program. */
   pou: string;
-  /** What the server says about the mapping as it stands; null while it is asked. */
+  /** The server's check of the current mapping; null while it is running. */
   checked: TraceMappingChecked | null;
   saved: readonly SavedMapping[];
   busy: boolean;
-  /** What was refused, or said of the mapping. */
+  /** The last refusal, or the problems of the mapping. */
   trouble: string | null;
   told: string | null;
 }
@@ -49,7 +49,7 @@ export const useTraceImport = create<TraceImport>(() => nothing);
 const get = useTraceImport.getState;
 const set = useTraceImport.setState;
 
-// Another project: what was being brought in does not belong to it.
+// A different project: the imported log does not belong to it.
 onInstanceChange(({ otherProject }) => otherProject && set(nothing));
 
 /** Opens the dialog as it was left. */
@@ -62,7 +62,7 @@ export function openTraceImport(file?: File): void {
 
 export const closeTraceImport = () => set({ open: false });
 
-/** Reads a file. One that is refused leaves what was there before. */
+/** Reads a file. After a refusal the previous file stays. */
 export async function readTrace(file: File): Promise<void> {
   const project = useBench.getState().project;
   if (!project || get().reading !== null) return;
@@ -88,7 +88,7 @@ class BadFile extends Error {
   }
 }
 
-/** An edit of the mapping; the server judges it when no other follows at once. */
+/** An edit of the mapping; the server checks it if no further edit follows at once. */
 export function editMapping(mapping: TraceMapping): void {
   set({ mapping, checked: null, trouble: null, told: null });
   schedule();
@@ -104,7 +104,7 @@ function schedule(): void {
   timer = setTimeout(() => void check(), PAUSE);
 }
 
-/** Asks whether the file can be verified with the mapping as it stands. */
+/** Asks the server whether the file can be verified with the current mapping. */
 async function check(): Promise<void> {
   clearTimeout(timer);
   const instance = useBench.getState().instance;
@@ -118,7 +118,7 @@ async function check(): Promise<void> {
   }
 }
 
-/** Verifies the trace. The dialog stays when it is refused. */
+/** Verifies the log. The dialog stays open after a refusal. */
 export async function beginTrace(): Promise<void> {
   const instance = useBench.getState().instance;
   const { trace, mapping, pou, busy } = get();
@@ -135,7 +135,7 @@ export async function beginTrace(): Promise<void> {
   }
 }
 
-/** Uses of variables that are recorded of a scan. */
+/** The number of used variables that are recorded for each scan. */
 const LIMIT = 4096;
 
 // ---- saved mappings -------------------------------------------------------------------------------------------------
@@ -151,7 +151,7 @@ async function loadSaved(): Promise<void> {
   }
 }
 
-/** Throws what was refused. */
+/** Throws the refusal. */
 export async function saveMapping(name: string): Promise<void> {
   const project = useBench.getState().project;
   const { mapping } = get();

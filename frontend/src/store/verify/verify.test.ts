@@ -32,7 +32,7 @@ const info = (memory: VerificationInfo["memory"], compared: number): Verificatio
   generation: 0,
 });
 
-/** An answer that comes when it is told to. */
+/** An answer that arrives when the test says so. */
 function slow(on: "drive" | "setCells"): (answer: VerificationInfo) => void {
   let come: (answer: VerificationInfo) => void = () => {};
   vi.spyOn(wire, on).mockReturnValue(
@@ -44,7 +44,7 @@ function slow(on: "drive" | "setCells"): (answer: VerificationInfo) => void {
 }
 
 beforeEach(() => {
-  // The rows that are in sight are not what this is about.
+  // The visible rows are not part of this test.
   vi.spyOn(wire, "rows").mockResolvedValue({ columns: [], rows: [], first: 0, count: 0, differing: [] });
   resetVerify();
   onVerifications([info("recorded", 1)]);
@@ -53,7 +53,7 @@ afterEach(() => vi.restoreAllMocks());
 
 const known = () => useVerify.getState().verifications.map(({ memory, compared }) => [memory, compared]);
 
-it("takes an answer over as long as nothing newer was told", async () => {
+it("uses an answer if nothing newer was reported", async () => {
   const answer = slow("drive");
   const driven = drive({ memory: "set" });
   answer(info("set", 1));
@@ -61,7 +61,7 @@ it("takes an answer over as long as nothing newer was told", async () => {
   expect(known()).toEqual([["set", 1]]);
 });
 
-it("does not take an answer over what was told meanwhile", async () => {
+it("ignores an answer if the socket reported something meanwhile", async () => {
   const answer = slow("drive");
   const driven = drive({ memory: "set" });
   onVerifications([info("set", 7)]);
@@ -70,7 +70,7 @@ it("does not take an answer over what was told meanwhile", async () => {
   expect(known()).toEqual([["set", 7]]);
 });
 
-it("neither for edited inputs", async () => {
+it("does the same for edited inputs", async () => {
   onVerifications([info("set", 2)]);
   const answer = slow("setCells");
   const edited = setCell(100, 1, "position", "7");
@@ -80,7 +80,7 @@ it("neither for edited inputs", async () => {
   expect(known()).toEqual([["set", 9]]);
 });
 
-it("what was ended meanwhile does not come back by an answer", async () => {
+it("does not bring back by an answer what was ended meanwhile", async () => {
   const answer = slow("drive");
   const driven = drive({ action: "stop" });
   onVerifications([]);

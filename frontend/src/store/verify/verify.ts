@@ -1,4 +1,4 @@
-/** Verifications of the PLC: which there are, which one is shown, and what people want of them. */
+/** Verifications of the PLC: which exist, which one is shown, and the requests about them. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -23,7 +23,7 @@ export interface VerifyWish {
 
 interface Verify {
   verifications: readonly VerificationInfo[];
-  /** The one that is shown, while no record is. */
+  /** The shown verification, unless a record is shown. */
   id: number | null;
   record: VerificationRecord | null;
   asking: VerifyWish | null;
@@ -42,7 +42,7 @@ export interface ShownVerification {
   record: VerificationRecord | null;
 }
 
-/** What is shown, whether it is a verification or a record of one. */
+/** The shown verification, or the shown record of one. */
 export function shownOf({ verifications, id, record }: Pick<Verify, "verifications" | "id" | "record">) {
   if (record) return { source: { kind: "record", id: record.id }, info: record.info, record } as ShownVerification;
   const info = verifications.find((known) => known.id === id);
@@ -53,7 +53,7 @@ export const shownNow = () => shownOf(get());
 
 const instanceId = () => useBench.getState().instance?.id ?? null;
 
-// ---- what comes ---------------------------------------------------------------------------------------------------
+// ---- messages of the server --------------------------------------------------------------------------------------
 
 export function resetVerify(): void {
   set(nothing);
@@ -61,10 +61,10 @@ export function resetVerify(): void {
 
 onInstanceChange(resetVerify);
 
-/** How often the socket has told: what it told since a request was sent is newer than the answer. */
+/** Counts the messages of the socket: one that came after a request was sent is newer than the answer. */
 let told = 0;
 
-/** On the first look and after a lost connection. */
+/** When the panel is shown first and after a lost connection. */
 export async function refreshVerifications(): Promise<void> {
   const instance = instanceId();
   if (instance === null) return;
@@ -82,7 +82,7 @@ export function onVerifications(verifications: readonly VerificationInfo[]): voi
   take(verifications);
 }
 
-/** The first one that there is, is shown; later ones only when somebody here began them. */
+/** The first verification is shown automatically; later ones only if this browser began them. */
 function take(verifications: readonly VerificationInfo[]): void {
   set(({ id }) => ({
     verifications,
@@ -98,28 +98,28 @@ function put(info: VerificationInfo): void {
   }));
 }
 
-/** Sends what changes one; its answer counts as long as the socket has told nothing since. */
+/** Sends a change; its answer is used only if the socket has reported nothing since. */
 async function changed(request: Promise<VerificationInfo>): Promise<void> {
   const before = told;
   const info = await request;
   if (told === before && get().verifications.some(({ id }) => id === info.id)) put(info);
 }
 
-// ---- looking ------------------------------------------------------------------------------------------------------
+// ---- the view -----------------------------------------------------------------------------------------------------
 
 export function chooseVerification(id: number): void {
   set({ id, record: null, trouble: null });
 }
 
-/** From other panels: shows the tab, too. */
+/** From other panels: also opens the tab. */
 function showVerification(id: number): void {
   showPanel("verify");
   chooseVerification(id);
 }
 
-/** One that a request answered; it is shown. */
+/** Takes and shows a verification from the answer to a request. */
 export function addVerification(info: VerificationInfo): void {
-  // What the socket told of it meanwhile is newer than the answer.
+  // A message of the socket that came meanwhile is newer than the answer.
   if (!get().verifications.some(({ id }) => id === info.id)) put(info);
   showVerification(info.id);
 }
@@ -129,7 +129,7 @@ export function showVerifyRecord(record: VerificationRecord): void {
   set({ record, trouble: null });
 }
 
-/** Back from a record to the verifications of this PLC. */
+/** Returns from a record to the verifications of this PLC. */
 export const leaveRecord = () => set({ record: null });
 
 // ---- beginning ----------------------------------------------------------------------------------------------------
@@ -141,21 +141,21 @@ export function askVerification(wish: VerifyWish): void {
 
 export const stopAsking = () => set({ asking: null });
 
-/** A stretch of the program: the dialog opens with it. */
+/** Opens the dialog with a range of the program. */
 const verifyRange = (range: RangeWish) => askVerification({ range, stretch: null });
 export const verifyPou = (pou: string) => verifyRange({ pou });
 
-/** Lines of an edited text, as the built one has them. */
+/** Lines of an edited text, as line numbers of the built one. */
 export function verifyLines(path: string, first: number, last: number): void {
   const document = useDocuments.getState().open[path];
   const built = (line: number) => (document ? lineIn(document.text, document.savedText, line) : line);
   verifyRange({ file: path, first: built(first), last: built(last) });
 }
 
-/** A past stretch, as picked on the timeline. */
+/** Opens the dialog with past scans, as selected on the timeline. */
 export const verifyStretch = (first: number, last: number) => askVerification({ range: {}, stretch: { first, last } });
 
-/** Throws what was refused. */
+/** Throws the refusal. */
 export async function beginVerification(wanted: NewVerification): Promise<void> {
   const instance = instanceId();
   if (instance === null) return;
@@ -165,7 +165,7 @@ export async function beginVerification(wanted: NewVerification): Promise<void> 
 
 const WHOLE_SCAN = { pou: "", file: "", first: 0, last: 0, instance: "" };
 
-/** The whole program from now on, without a question. */
+/** Verifies the whole program from now on, without a dialog. */
 export async function verifyWholeProgram(): Promise<void> {
   try {
     await beginVerification({ range: WHOLE_SCAN, pace: "free", first: null, last: null, limit: 4096 });
@@ -180,7 +180,7 @@ export function fail(error: unknown): void {
   set({ trouble: { message: messageOf(error), near: error instanceof Refused ? (error.refusal.near ?? []) : [] } });
 }
 
-/** Why something was refused, with what was perhaps meant. */
+/** Why a request was refused, with similar names. */
 export function reasonOf(error: unknown): string {
   const near = error instanceof Refused ? (error.refusal.near ?? []) : [];
   return near.length > 0 ? `${messageOf(error)} ${t("verify.near", { near: near.join(", ") })}` : messageOf(error);
@@ -201,7 +201,7 @@ export async function drive(how: Partial<DriveVerification>): Promise<boolean> {
   }
 }
 
-/** Edits inputs of the set data; the monitor then runs on them. Null: it was taken; else why not. */
+/** Edits inputs of the set data; the monitor then runs on them. Null: accepted; else the refusal. */
 export async function setCell(scan: number, call: number, column: string, value: string): Promise<string | null> {
   const shown = shownNow();
   if (shown?.source.kind !== "verification") return null;
@@ -226,7 +226,7 @@ export async function deleteVerification(): Promise<void> {
   }
 }
 
-/** Keeps it in the project. Throws what was refused. */
+/** Keeps it in the project. Throws the refusal. */
 export async function keepVerification(name: string): Promise<void> {
   const shown = shownNow();
   if (shown?.source.kind === "verification") await wire.keep(shown.source.id, name);

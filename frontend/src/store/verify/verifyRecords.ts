@@ -1,4 +1,4 @@
-/** Verifications that were kept in the project: read when somebody looks, for they are made here and elsewhere. */
+/** Verifications that were kept in the project: fetched when the list is opened, because others keep some, too. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -11,7 +11,7 @@ import { showVerifyRecord } from "./verify";
 
 interface VerifyRecords {
   open: boolean;
-  /** The newest first; null while they are read. */
+  /** The newest first; null while they are being fetched. */
   list: readonly VerificationRecord[] | null;
   trouble: string | null;
 }
@@ -38,7 +38,7 @@ async function read(): Promise<void> {
   }
 }
 
-/** Its rows, in the Verification panel. */
+/** Shows its rows in the Verification panel. */
 export function openRecord(record: VerificationRecord): void {
   set({ open: false });
   showVerifyRecord(record);
@@ -53,7 +53,7 @@ export async function exportRecord({ id, name }: VerificationRecord, format: Exp
   }
 }
 
-/** Throws what was refused. */
+/** Throws the refusal. */
 export async function deleteRecord({ id }: VerificationRecord): Promise<void> {
   await wire.delete(id);
   await read();

@@ -81,7 +81,7 @@ afterEach(() => vi.restoreAllMocks());
 const settled = () => vi.waitFor(() => expect(useVerifyRows.getState().count).toBe(server.count));
 
 describe("rows of a verification", () => {
-  it("differences that were forgotten do not stand in the way of rows in sight", async () => {
+  it("are fetched for the visible lines although earlier differences were dropped", async () => {
     server = { first: 600, count: 1000, differing: [] };
     onVerifications([info({ rows: 1000, forgotten: 600, differing: 3 })]);
     seeLines(0, 30);
@@ -90,7 +90,7 @@ describe("rows of a verification", () => {
     await vi.waitFor(() => expect(useVerifyRows.getState().byIndex.has(929)).toBe(true));
   });
 
-  it("those in sight are fetched, and those one scrolls to", async () => {
+  it("are fetched for the visible lines, and after scrolling", async () => {
     server = { first: 0, count: 1000, differing: [400] };
     onVerifications([info({ rows: 1000, differing: 1 })]);
     seeLines(0, 30);
@@ -101,7 +101,7 @@ describe("rows of a verification", () => {
     expect(useVerifyRows.getState().byIndex.has(300)).toBe(false);
   });
 
-  it("while it goes on without anything new in sight, only the numbers are asked for", async () => {
+  it("are not fetched if nothing visible is new: then only the counts are requested", async () => {
     server = { first: 0, count: 200, differing: [] };
     onVerifications([info({ rows: 200 })]);
     seeLines(0, 30);
@@ -113,7 +113,7 @@ describe("rows of a verification", () => {
     expect(asked.slice(before).map(([, count]) => count)).toEqual([0]);
   });
 
-  it("of another generation the rows in sight are fetched again", async () => {
+  it("of a new generation are fetched again", async () => {
     server = { first: 0, count: 50, differing: [] };
     onVerifications([info({ rows: 50 })]);
     seeLines(0, 30);
@@ -123,7 +123,7 @@ describe("rows of a verification", () => {
     await vi.waitFor(() => expect(useVerifyRows.getState().byIndex.get(5)?.outputs.a?.control).toBe("01"));
   });
 
-  it("forgotten rows go, and lines count from the first that is kept", async () => {
+  it("are dropped when the server drops them, and lines count from the first one that is kept", async () => {
     server = { first: 0, count: 50, differing: [] };
     onVerifications([info({ rows: 50 })]);
     seeLines(0, 30);
@@ -136,7 +136,7 @@ describe("rows of a verification", () => {
     expect([lineCount(rows), indexAt(rows, 0), lineOfRow(rows, 20), lineOfRow(rows, 5)]).toEqual([50, 20, 0, -1]);
   });
 
-  it("only those that differ, and the way from one to the next", async () => {
+  it("can be filtered to those that differ, with a step from each to the next", async () => {
     server = { first: 0, count: 900, differing: [40, 700] };
     onVerifications([info({ rows: 900, differing: 2 })]);
     seeLines(0, 30);

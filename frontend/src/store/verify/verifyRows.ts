@@ -1,4 +1,4 @@
-/** Rows of the verification that is shown: those in sight, fetched as one scrolls and as it goes on. */
+/** Rows of the shown verification: the visible ones, fetched during scrolling and as the verification continues. */
 import { create } from "zustand";
 import { nextDifferent } from "../../logic/verify/verify";
 import type { VerifyColumn, VerifyRow, VerifyUse } from "../../wire/types";
@@ -6,26 +6,26 @@ import { type VerifySource, verify as wire } from "../../wire/verify";
 import { fail, type ShownVerification, shownNow, useVerify } from "./verify";
 
 interface Rows {
-  /** Of what, as text; another one begins anew. */
+  /** The key of the source; a different source begins again. */
   of: string;
   generation: number;
   columns: readonly VerifyColumn[];
   byIndex: ReadonlyMap<number, VerifyRow>;
   /** Index of the first row that is kept. */
   first: number;
-  /** Rows that there were; the last one has index `count` - 1. */
+  /** Rows so far; the last one has index `count` - 1. */
   count: number;
   differing: readonly number[];
-  /** Rows that differed until then, those that were forgotten included. */
+  /** Rows that differed until then, including dropped ones. */
   differed: number;
   onlyDiffering: boolean;
-  /** The row that is looked at, by its index. */
+  /** The selected row, by its index. */
   selected: number | null;
-  /** Of the column of cells that has the keys. */
+  /** The selected column of cells. */
   track: string | null;
-  /** The row that was jumped to, until the table shows what differs in it. */
+  /** The row of a jump, until the table has selected the differing cell. */
   sought: number | null;
-  /** The cell that shall be edited, until the table does it. */
+  /** The cell to edit, until the table does it. */
   wanted: { index: number; track: string } | null;
 }
 
@@ -48,12 +48,12 @@ export const useVerifyRows = create<Rows>(() => ({ ...nothing, onlyDiffering: fa
 const get = useVerifyRows.getState;
 const set = useVerifyRows.setState;
 
-/** Asked for at once; more than fit a screen, so that scrolling finds them there. */
+/** The size of a request; more than a screen, so that scrolling finds rows already there. */
 const PAGE = 120;
-/** Kept around what is in sight. */
+/** The number of rows kept around the visible ones. */
 const KEPT = 4000;
 
-/** How many lines the table has. */
+/** The number of lines of the table. */
 export const lineCount = ({ onlyDiffering, differing, first, count }: Rows) =>
   onlyDiffering ? differing.length : count - first;
 
@@ -61,7 +61,7 @@ export const lineCount = ({ onlyDiffering, differing, first, count }: Rows) =>
 export const indexAt = ({ onlyDiffering, differing, first }: Rows, line: number) =>
   onlyDiffering ? (differing[line] ?? -1) : first + line;
 
-/** The line of a row; -1: not among those that are shown. */
+/** The line of a row; -1: it is not shown. */
 export const lineOfRow = ({ onlyDiffering, differing, first, count }: Rows, index: number) =>
   onlyDiffering ? differing.indexOf(index) : index >= first && index < count ? index - first : -1;
 
@@ -70,7 +70,7 @@ const keyOf = ({ kind, id }: VerifySource) => `${kind} ${id}`;
 let sight = { from: 0, to: PAGE };
 let underWay = false;
 
-/** The lines in sight. */
+/** The visible lines. */
 export function seeLines(from: number, to: number): void {
   sight = { from, to };
   void fetchMissing();
@@ -101,33 +101,33 @@ function missing(): { first: number; count: number } | null {
   return null;
 }
 
-/** Nothing that is kept is of what is shown now. */
+/** The kept rows do not belong to the shown verification. */
 function isOther(): boolean {
   const shown = shownNow();
   const rows = get();
   return shown !== null && (rows.of !== keyOf(shown.source) || rows.generation !== shown.info.generation);
 }
 
-/** What the table knows of the whole is old, though its rows need not be. */
+/** The counts and the columns are outdated, though the rows may not be. */
 function wantsNews(): { first: number; count: number } | null {
   const shown = shownNow();
   if (!shown || !isStale()) return null;
   const rows = get();
   const other = isOther();
-  // At the end of the table the new rows come along with the news that there are some.
+  // At the end of the table, new rows come with the same request as the counts.
   if (!other && !rows.onlyDiffering && sight.to >= lineCount(rows) && shown.info.rows > rows.count)
     return { first: Math.max(rows.count, shown.info.rows - PAGE / 2), count: PAGE };
   return { first: firstInSight(), count: other ? PAGE : 0 };
 }
 
-/** One request at a time: what is in sight when it is answered is asked for next. */
+/** One request at a time: the lines that are visible at its answer are requested next. */
 async function fetchMissing(): Promise<void> {
   if (underWay) return;
   underWay = true;
   try {
     for (let goesOn = true; goesOn; ) {
       const shown = shownNow();
-      // Rows in sight come first, and bring the news along: on a busy machine there is always some.
+      // Visible rows are requested first, and the answer has the counts, too: during fast verification there are always new counts.
       const wanted = (isOther() ? null : missing()) ?? wantsNews();
       if (!shown || !wanted) return;
       const answer = await wire.rows(shown.source, wanted.first, wanted.count, get().onlyDiffering);
@@ -149,7 +149,7 @@ function firstInSight(): number {
 
 type Answer = Awaited<ReturnType<typeof wire.rows>>;
 
-/** False when nothing came that was not there: asking again at once is no use, the next news of the server leads on. */
+/** False when the answer contained nothing new: do not request again at once, the next message of the server does. */
 function take({ source, info }: ShownVerification, answer: Answer, asked: number): boolean {
   const before = get();
   const { generation } = info;
@@ -167,7 +167,7 @@ function take({ source, info }: ShownVerification, answer: Answer, asked: number
   for (const index of byIndex.keys()) if (index < answer.first) byIndex.delete(index);
   if (byIndex.size > KEPT)
     for (const index of [...byIndex.keys()]) if (Math.abs(index - asked) > KEPT / 2) byIndex.delete(index);
-  // Who stands at the newest row of one that is driven scan by scan goes along.
+  // In a verification that is driven scan by scan, a selection of the newest row moves along.
   const paced = shownNow()?.info.pace !== "free" && answer.count > before.count;
   const goesAlong = paced && before.selected !== null && before.selected === before.count - 1;
   const selected = anew ? null : goesAlong ? answer.count - 1 : before.selected;
@@ -175,7 +175,7 @@ function take({ source, info }: ShownVerification, answer: Answer, asked: number
     of,
     generation,
     byIndex,
-    // A new array would move all cells of a table in which nothing is new.
+    // A new array would draw all cells of the table again, although nothing is new.
     columns: sameColumns(before.columns, answer.columns) && !anew ? before.columns : answer.columns,
     first: answer.first,
     count: answer.count,
@@ -194,7 +194,7 @@ const sameColumns = (a: readonly VerifyColumn[], b: readonly VerifyColumn[]) =>
     return column.name === other?.name && column.input === other.input && column.output === other.output;
   });
 
-// Another verification, another generation, or more rows: what is in sight comes along.
+// A different verification, a different generation, or more rows: the visible rows are updated.
 useVerify.subscribe((now, before) => {
   if (now.verifications === before.verifications && now.id === before.id && now.record === before.record) return;
   const shown = shownNow();
@@ -205,7 +205,7 @@ useVerify.subscribe((now, before) => {
   }
 });
 
-// ---- what people do -----------------------------------------------------------------------------------------------
+// ---- actions ------------------------------------------------------------------------------------------------------
 
 export function showOnlyDiffering(onlyDiffering: boolean): void {
   set({ onlyDiffering });
@@ -216,13 +216,13 @@ export function selectRow(index: number | null, track?: string | null): void {
   set({ selected: index, ...(track === undefined ? {} : { track }) });
 }
 
-/** The next one is selected as it comes. */
+/** The next row is selected when it arrives. */
 export function selectNewest(): void {
   const { count } = get();
   if (count > 0) set({ selected: count - 1 });
 }
 
-/** Lets somebody type into an input of a row. */
+/** Opens an input of a row for editing. */
 export function editInput(row: VerifyRow, name: string): void {
   set({ selected: row.index, track: `input:${name}`, wanted: { index: row.index, track: `input:${name}` } });
 }
@@ -231,7 +231,7 @@ export const soughtFound = () => set({ sought: null });
 
 export const editBegun = () => set({ wanted: null });
 
-/** To the first, next or previous row that differs, from the one that is looked at. Null: there is none. */
+/** Goes to the first, next or previous row that differs from the selected one on. Null: there is none. */
 export function goToDifference(which: "first" | "next" | "previous"): number | null {
   const { differing, selected } = get();
   const from = which === "first" ? null : selected;
@@ -240,7 +240,7 @@ export function goToDifference(which: "first" | "next" | "previous"): number | n
   return found;
 }
 
-/** The used-variable record of a row. Throws what was refused. */
+/** The record of used variables of a row. Throws the refusal. */
 export async function usesOf(row: VerifyRow): Promise<readonly VerifyUse[]> {
   const shown = shownNow();
   return shown?.source.kind === "verification" ? wire.uses(shown.source.id, row.scan, row.call) : [];

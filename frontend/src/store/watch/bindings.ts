@@ -1,4 +1,4 @@
-/** What in-outs are bound to, asked for as long as somebody looks: again each two seconds, and when one was written. */
+/** What in-outs are bound to, requested while somebody looks: every two seconds, and when one was written. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -18,12 +18,12 @@ interface Bindings {
 export const useBindings = create<Bindings>(() => ({ of: new Map() }));
 
 const looking = new Map<string, number>();
-/** Asked one after the other: the browser has few connections, and others need them more. */
+/** Requested one after the other: a browser has few connections, and other requests need them more. */
 const waiting = new Set<string>();
 let asking = false;
 let timer: ReturnType<typeof setInterval> | undefined;
 
-/** Looks at a binding until the returned function is called. */
+/** Watches a binding until the returned function is called. */
 export function lookAtBinding(path: string): () => void {
   looking.set(path, (looking.get(path) ?? 0) + 1);
   want([path]);
@@ -56,7 +56,7 @@ async function askAll(): Promise<void> {
 
 async function ask(path: string): Promise<void> {
   const instance = useBench.getState().instance?.id;
-  // A PLC without a process cannot tell: it is asked again when it is back.
+  // A PLC without a process cannot answer: the binding is requested again when it is back.
   if (instance === undefined || isAway()) return;
   let found: Binding;
   try {
@@ -74,7 +74,7 @@ useBench.subscribe((now, before) => {
   if (now.instance?.id !== before.instance?.id) useBindings.setState({ of: new Map() });
 });
 
-// In the past each scan has bindings of its own.
+// In the past each scan has its own bindings.
 usePlc.subscribe(({ state: now }, { state: before }) => {
   if (now?.program_version !== before?.program_version) useBindings.setState({ of: new Map() });
   const moved = now?.past ? now.scan !== before?.scan : before?.past;

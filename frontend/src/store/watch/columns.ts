@@ -1,4 +1,4 @@
-/** Widths of the watch table's columns that somebody dragged; the others share the room as usual. */
+/** Widths of the watch table's columns that somebody dragged; the other columns share the rest. */
 import { create } from "zustand";
 import { keep, recall } from "../page/localStorage";
 
@@ -9,7 +9,7 @@ type Widths = Partial<Record<WatchColumn, number>>;
 
 export const useColumns = create<Widths>(() => recall<Widths>("columns", {}));
 
-/** Null gives a column its usual width back. */
+/** Null restores the default width of a column. */
 export function setColumn(column: WatchColumn, width: number | null): void {
   const { [column]: _before, ...others } = useColumns.getState();
   const next: Widths = width === null ? others : { ...others, [column]: width };

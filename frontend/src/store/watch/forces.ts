@@ -1,4 +1,4 @@
-/** Which variables are forced, by whom, and who wrote last. Paths are compared as the PLC does: case does not matter. */
+/** Which variables are forced, by whom, and who wrote last. Paths are compared as in the PLC: case does not matter. */
 
 import { create } from "zustand";
 import type { ForceInfo } from "../../wire/types";
@@ -9,7 +9,7 @@ interface WrittenBy {
   scan: number;
 }
 
-/** What a force did in the scan that ran last: it changes all the time, so it is kept apart. */
+/** What a force did in the last scan: it changes all the time, so it is stored separately. */
 type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
 
 interface Forces {
@@ -23,7 +23,7 @@ export function forceOf(forces: Forces, path: string): ForceInfo | undefined {
   return forces.held.get(path.toUpperCase());
 }
 
-/** The force that holds this variable or address, for whoever shows it. */
+/** The active force of this variable or address. */
 export const forcedAt = (path: string): ForceInfo | undefined => forceOf(useForces.getState(), path);
 
 export const useForcedAt = (path: string): ForceInfo | undefined => useForces((forces) => forceOf(forces, path));
@@ -32,14 +32,14 @@ export const useForceValues = create<{ of: ReadonlyMap<string, ForceValues> }>((
 
 const identity = ({ path, through, value, author, scan }: ForceInfo) => [path, through, value, author, scan].join("\n");
 
-/** All forces that hold now, as the PLC tells them. */
+/** All active forces, as the PLC reports them. */
 export function onForces(forces: readonly ForceInfo[]): void {
   useForceValues.setState({ of: new Map(forces.map((force) => [force.path, force])) });
   const before = new Set(useForces.getState().held.values());
   if ([...before].map(identity).join("\r") === forces.map(identity).join("\r")) return;
   const held = new Map<string, ForceInfo>();
   for (const force of forces) {
-    // A force on an in-out holds what was passed: both rows are marked.
+    // A force on an in-out holds the variable that was passed: both rows are marked.
     for (const path of [force.through, force.path]) if (path) held.set(path.toUpperCase(), force);
   }
   useForces.setState({ held });

@@ -21,14 +21,14 @@ beforeEach(async () => {
   expect(notes()).toEqual(["c unsent", "a refused"]);
 });
 
-it("a refusal goes while the same row is written again", async () => {
+it("a refusal disappears while the same row is written again", async () => {
   const again = write("a", "a", "8");
   expect(notes()).toEqual(["c unsent"]);
   await again;
   expect(notes()).toEqual(["c unsent", "a refused"]);
 });
 
-it("a refusal goes once something else is done: written, forced, released", async () => {
+it("a refusal disappears after a later action: written, forced, released", async () => {
   for (const done of [() => write("b", "b", "1"), () => force("b", "b", "1"), () => releaseForce("b")]) {
     await write("a", "a", "9");
     expect(notes()).toEqual(["c unsent", "a refused"]);
@@ -37,7 +37,7 @@ it("a refusal goes once something else is done: written, forced, released", asyn
   }
 });
 
-it("a refusal stays while something else is refused, too, and goes when it is dismissed", async () => {
+it("a refusal stays while a further action is refused, and disappears when it is dismissed", async () => {
   answers.set("b", refused);
   await write("b", "b", "1");
   expect(notes()).toEqual(["c unsent", "a refused", "b refused"]);

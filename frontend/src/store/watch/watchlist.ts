@@ -1,4 +1,4 @@
-/** What this browser shows of its watch list: what is unfolded and in sight, how it is sorted and filtered, what was typed, what was refused. */
+/** How this browser shows its watch list: what is unfolded and visible, the sort and the filter, typed values, refusals. */
 
 import { create } from "zustand";
 import { type Format, literalOf } from "../../logic/format/formats";
@@ -24,14 +24,14 @@ interface WatchView {
   shown: ReadonlyMap<string, number>;
   notes: ReadonlyMap<string, WatchNote>;
   drafts: ReadonlyMap<string, string>;
-  /** Formats of members; an entry's own stands in the list. */
+  /** Formats of members; the format of an entry is in the list. */
   formats: ReadonlyMap<string, Format>;
-  /** Another call site than the last one that a write of an in-out goes to, `file:line` by path. */
+  /** The call site that a write of an in-out goes to, if it is not the last one: `file:line` by path. */
   sites: ReadonlyMap<string, string>;
   selected: string | null;
   sort: Sort;
   filter: Filter;
-  /** What changed after this mark passes the filter of changed values. */
+  /** Values that changed after this mark pass the filter "changed". */
   since: number;
 }
 
@@ -62,7 +62,7 @@ const set = useWatchList.setState;
 
 const keptKey = (project: number | null) => `watchview.${project}`;
 
-/** Shows the lists of a project; `first` is what its first one begins with. */
+/** Shows the lists of a project; `first` is the content of its first list. */
 function loadWatchList(project: number | null, first: readonly string[]): void {
   if (project !== get().project) {
     const kept = recall<Partial<Kept>>(keptKey(project), {});
@@ -86,7 +86,7 @@ function keepView(): void {
   keep(keptKey(project), { open: [...open], collapsed: [...collapsed], formats: [...formats] } satisfies Kept);
 }
 
-/** Fetches the members of all that is unfolded; after a build they may be others. */
+/** Fetches the members of everything that is unfolded; after a build they may differ. */
 export async function refreshMembers(): Promise<void> {
   const paths = [...get().open].sort((a, b) => a.length - b.length);
   for (const path of paths) await loadMembers(path);
@@ -103,7 +103,7 @@ let sight: () => void = () => undefined;
 let entries: { of: readonly WatchEntry[]; release: () => void } | null = null;
 let waiting: ReturnType<typeof setTimeout> | undefined;
 
-/** Watches what is in sight, and all entries where a sort or a filter looks at them. */
+/** Watches the visible rows, and all entries if a sort or a filter needs them. */
 export function watchInSight(paths: readonly string[]): void {
   clearTimeout(waiting);
   waiting = setTimeout(() => {
@@ -123,7 +123,7 @@ function watchEntries(): void {
   before?.release();
 }
 
-/** Nothing is in sight any more. */
+/** Nothing is visible any more. */
 export function watchNothing(): void {
   clearTimeout(waiting);
   entries?.release();
@@ -138,7 +138,7 @@ export function addToWatch(paths: readonly string[], group = ""): void {
   addAll(paths.map((path) => ({ path, group, format: "default" })));
 }
 
-/** Ranges of addresses are shown as their addresses at once. */
+/** Ranges of addresses are unfolded at once. */
 export function addAll(entries: readonly WatchEntry[]): void {
   editList((content) => addEntries(content, entries));
   const ranges = entries.flatMap(({ path }) => (/:\s*\d+$/.test(path) ? path : []));
@@ -152,7 +152,7 @@ export function removeFromWatch(root: string): void {
   told(t("watch.removed", { name: splitPath(root).name }), undoEdit);
 }
 
-/** Another name for an entry that could not be found. */
+/** Replaces the name of an entry that was not found. */
 export function replaceInWatch(root: string, path: string): void {
   editList((content) => replacePath(content, root, path));
   set({ selected: path });
@@ -185,14 +185,14 @@ export function select(path: string | null): void {
 
 // ---- how it is shown --------------------------------------------------------------------------------------------------
 
-/** An entry's format is that of its members, unless they have one of their own. */
+/** The format of an entry also applies to its members, unless they have their own. */
 export function formatOf(path: string, root: string): Format {
   const own = get().formats.get(path);
   if (own && path !== root) return own;
   return useWatchLists.getState().content.entries.find((entry) => entry.path === root)?.format ?? "default";
 }
 
-/** What a row shows, in its format. */
+/** The value of a row, in its format. */
 export const shownText = ({ path, root }: { path: string; root: string }) => currentText(path, formatOf(path, root));
 
 export function setFormat(path: string, root: string, format: Format): void {
@@ -229,7 +229,7 @@ export function chooseSite(path: string, site: string | null): void {
   set(({ sites }) => ({ sites: site === null ? without(sites, path) : new Map(sites).set(path, site) }));
 }
 
-/** Where a write of this row goes when somebody picked a call: the row's own choice, or that of the in-out that it is in. */
+/** The target of a write if somebody chose a call: for the row itself, or for the in-out that it belongs to. */
 const siteOf = (path: string): string => chosenFor(get().sites, path) ?? "";
 
 export async function write(path: string, root: string, value: string): Promise<void> {
@@ -250,7 +250,7 @@ export async function force(path: string, root: string, value: string): Promise<
   landed("force", path, value, answer);
 }
 
-/** What is typed is meant in the format of its row. */
+/** A typed value is read in the format of its row. */
 function meant(path: string, root: string, value: string): string {
   const symbol = useWatches.getState().symbols.get(path) ?? memberSymbol(path);
   return symbol ? literalOf(symbol, formatOf(path, root), value) : value;
@@ -285,7 +285,7 @@ function forgetNote(path: string): void {
   set(({ notes }) => ({ notes: without(notes, path) }));
 }
 
-/** Why something was refused is over once something else was done. What was never sent waits on. False when there is none. */
+/** Removes the message of a refusal after a later action. An entry that was never sent stays. False when there is none. */
 export function dismissRefusals(): boolean {
   const { notes } = get();
   const left = new Map([...notes].filter(([, note]) => note.kind !== "refused"));

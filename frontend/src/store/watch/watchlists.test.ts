@@ -6,7 +6,7 @@ type WatchList = Told & { project: number };
 const server = vi.hoisted(() => ({
   lists: new Map<number, unknown>(),
   next: 1,
-  /** What holds a save back until it is let go. */
+  /** Holds a save back until the test releases it. */
   held: null as Promise<void> | null,
   fails: false,
 }));
@@ -56,7 +56,7 @@ const onServer = () =>
     [project, name, ...entries.map(({ path }) => path)].join(" "),
   );
 
-/** Lets all go on that waits for nothing but its turn. */
+/** Runs everything that waits only for its turn. */
 const settled = () => new Promise((done) => setTimeout(done));
 
 function hold(): () => Promise<unknown> {
@@ -85,7 +85,7 @@ beforeEach(async () => {
 });
 
 describe("edits of a watch list", () => {
-  it("that come while a new list is made, in a project that is left meanwhile, are saved when it is shown again", async () => {
+  it("during the creation of a list, in a project that is left meanwhile, are saved when the project is shown again", async () => {
     const letGo = hold();
     add("a");
     add("b");
@@ -99,7 +99,7 @@ describe("edits of a watch list", () => {
     expect([...kept.keys()].filter((key) => key.includes("unsaved"))).toEqual([]);
   });
 
-  it("that come while an older one is saved are put together with what others did meanwhile", async () => {
+  it("during a save are merged with the changes of others", async () => {
     add("a");
     await settled();
     const letGo = hold();
@@ -115,7 +115,7 @@ describe("edits of a watch list", () => {
     expect(onServer()[0]?.split(" ").slice(3).sort()).toEqual(["a", "b", "c", "theirs"]);
   });
 
-  it("are saved at once in the next project, while the one that was left is still being saved", async () => {
+  it("are saved at once in the next project, while the save of the previous project is still running", async () => {
     const letGo = hold();
     add("a");
     await store.loadWatchLists(2, []);
@@ -149,7 +149,7 @@ describe("edits of a watch list", () => {
     },
   );
 
-  it("that are typed while another list is fetched are saved first", async () => {
+  it("while a different list is being fetched are saved first", async () => {
     add("a");
     await settled();
     await store.newList();
@@ -163,7 +163,7 @@ describe("edits of a watch list", () => {
     expect(onServer()).toEqual(["1 New list a", "1 New list 2 b late"]);
   });
 
-  it("do not make a list anew that is deleted while they are saved", async () => {
+  it("do not create a list again that is deleted while they are saved", async () => {
     const letGo = hold();
     add("a");
     const deleted = store.deleteList();

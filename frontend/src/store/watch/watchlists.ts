@@ -1,5 +1,5 @@
-/** The watch lists of a project, and the one that is shown: kept on the server, shared with everybody or one's own. What
- * two people change at once is put together; nobody's change is lost. */
+/** The watch lists of a project, and the shown one: stored on the server, shared with everybody or private. Simultaneous
+ * edits of two people are merged; nobody's edit is lost. */
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
@@ -21,11 +21,11 @@ interface Shown {
 interface WatchLists extends Shown {
   project: number | null;
   lists: readonly WatchListInfo[];
-  /** Why what is shown could not be saved; it is kept in this browser, and tried again. */
+  /** Why the shown list could not be saved; this browser keeps it, and tries again. */
   trouble: string | null;
-  /** Who deleted the list that is shown. */
+  /** Who deleted the shown list. */
   deletedBy: string | null;
-  /** Something that was done and can be undone. */
+  /** An action that can be undone. */
   done: { text: string; undo: () => void } | null;
 }
 
@@ -49,9 +49,9 @@ const set = useWatchLists.setState;
 const HISTORY = 100;
 let history: ListContent[] = [];
 let first: readonly string[] = [];
-/** What is being saved, by project: one that was left is saved to its end beside the one that is shown. */
+/** Running saves, by project: the save of a project that was left ends beside that of the shown one. */
 const saving = new Map<number, Promise<void>>();
-/** The newest version of the list that is shown, as far as anybody told. */
+/** The newest reported version of the shown list. */
 let newest = 0;
 
 const chosenKey = (project: number | null) => `watchlist.${project}`;
@@ -59,7 +59,7 @@ const pendingKey = (project: number | null) => `watchlist.unsaved.${project}`;
 const isSaving = () => saving.has(get().project ?? -1);
 const isEdited = () => !sameContent(get().base, get().content);
 
-/** Another project: the list that was shown last, else a shared one, else a new one with what the project begins with. */
+/** On a change of project: shows the list of the last visit, else a shared one, else a new one with the project's default content. */
 export async function loadWatchLists(project: number | null, begin: readonly string[]): Promise<void> {
   if (project === get().project) return;
   first = begin;
@@ -82,7 +82,7 @@ async function chooseKept(project: number): Promise<void> {
   if (known && !isEdited()) await chooseList(known.id);
 }
 
-/** A list that nobody has: with what the project begins with, or empty. */
+/** A new private list: with the project's default content, or empty. */
 function fresh(paths: readonly string[] = first): Shown {
   const entries = paths.map((path) => ({ path, group: "", format: "default" as const }));
   const content: ListContent = { name: freeName(t("watch.list.new")), shared: false, groups: [], entries };
@@ -123,26 +123,26 @@ export async function chooseList(id: number): Promise<void> {
   if (!(await saved(project))) return;
   try {
     const list = await rest.watchList(id);
-    if (await saved(project)) take(list); // what was typed meanwhile, too
+    if (await saved(project)) take(list); // edits made meanwhile are saved, too
   } catch (error) {
     if (get().project === project) set({ trouble: messageOf(error) });
   }
 }
 
-/** Whether another list may take the place of the one that is shown: nothing of it would be lost. */
+/** Whether a different list may replace the shown one: nothing would be lost. */
 async function saved(project: number | null): Promise<boolean> {
   if (get().project === project && isEdited()) await save();
   return get().project === project && !isEdited();
 }
 
-/** An empty list of one's own; it is stored with its first entry. */
+/** Makes an empty private list; it is stored with its first entry. */
 export async function newList(): Promise<void> {
   if (!(await saved(get().project))) return;
   history = [];
   set({ ...fresh([]), trouble: null, deletedBy: null });
 }
 
-/** Changes the list that is shown; it is saved by itself. */
+/** Changes the shown list; it is saved automatically. */
 export function editList(change: (content: ListContent) => ListContent): void {
   const { content } = get();
   const next = change(content);
@@ -152,7 +152,7 @@ export function editList(change: (content: ListContent) => ListContent): void {
   void save();
 }
 
-/** Takes the last change back. */
+/** Undoes the last change. */
 export function undoEdit(): void {
   const before = history.pop();
   if (!before) return;
@@ -164,7 +164,7 @@ export function told(text: string, undo: () => void): void {
   set({ done: { text, undo } });
 }
 
-/** Saves until there is nothing to save; whoever was first is put together with what is here. */
+/** Saves until there is nothing to save; a version that somebody saved first is merged with the one here. */
 function save(): Promise<void> {
   const { project, id, version, base, content } = get();
   if (project === null) return Promise.resolve();
@@ -183,7 +183,7 @@ async function saveAll(project: number): Promise<void> {
       forget(pendingKey(project));
     }
   } catch (error) {
-    if (get().project !== project) return; // it is kept, and tried again when the project is shown
+    if (get().project !== project) return; // the content is kept, and saved when the project is shown again
     if (error instanceof Refused && error.status === 404 && get().id !== null) onGone("");
     else set({ trouble: messageOf(error) });
   } finally {
@@ -195,7 +195,7 @@ async function saveAll(project: number): Promise<void> {
   void refreshLists();
 }
 
-/** A list was saved whose project was left meanwhile: what was changed since goes on from there when it is shown again. */
+/** A list was saved whose project was left meanwhile: later changes continue from this version when it is shown again. */
 function settle(project: number, sent: ListContent, now: WatchList): void {
   const kept = recall<Shown | null>(pendingKey(project), null);
   if (kept === null || (kept.id !== null && kept.id !== now.id)) return;
@@ -235,7 +235,7 @@ async function saveOnce(project: number): Promise<void> {
   else takeTheirs(answer.theirs);
 }
 
-/** Under its name, or the next one that is free. */
+/** Saves it under its name, or with the next free number. */
 async function created(project: number, content: ListContent): Promise<WatchList> {
   for (let number = 2, name = content.name; ; number += 1) {
     try {
@@ -254,7 +254,7 @@ function takeTheirs(theirs: WatchList): void {
   newest = Math.max(newest, theirs.version);
 }
 
-/** Somebody, perhaps here, changed a list. */
+/** A list was changed, by this browser or by somebody else. */
 export async function onWatchList({ id, version, author }: WatchListChanged): Promise<void> {
   if (id === get().id && version === 0) onGone(author);
   else if (id === get().id) {
@@ -273,7 +273,7 @@ async function pull(id: number): Promise<void> {
   }
 }
 
-/** What is shown stays until something else is chosen. */
+/** The shown list stays until a different one is chosen. */
 function onGone(author: string): void {
   forget(pendingKey(get().project));
   set(({ content }) => {
@@ -282,7 +282,7 @@ function onGone(author: string): void {
   });
 }
 
-/** After a connection was lost: what others did meanwhile, and what could not be saved. */
+/** After a connection was lost: fetches what others did, and saves what could not be saved. */
 export async function catchUpLists(): Promise<void> {
   await refreshLists();
   const { id, version, lists } = get();
@@ -290,7 +290,7 @@ export async function catchUpLists(): Promise<void> {
   else if (id !== null && (lists.find((list) => list.id === id)?.version ?? version) > version) await pull(id);
 }
 
-/** Has a list that somebody deleted as one's own. */
+/** Makes a private list out of one that somebody deleted. */
 export const keepAsOwn = () => save();
 
 export function renameList(name: string): void {
@@ -303,18 +303,18 @@ export async function duplicateList(): Promise<void> {
   await begin({ ...content, shared: false, name: freeName(t("watch.list.copy", content)) });
 }
 
-/** With everybody at the project, from now on: others may use it, so it does not become private again. */
+/** Shares the list with everybody at the project. Others may use it from then on, so it cannot become private again. */
 export function shareList(): void {
   editList((content) => ({ ...content, shared: true }));
   history = [];
 }
 
-/** Deletes the list that is shown. It can be taken back: the same list, under another number. */
+/** Deletes the shown list. This can be undone: the same list gets a different id. */
 export async function deleteList(): Promise<void> {
-  await saving.get(get().project ?? -1); // else what is on its way would make it anew
+  await saving.get(get().project ?? -1); // otherwise a running save would create it again
   const { id, content, project } = get();
   try {
-    set({ id: null }); // what is told of it is no news
+    set({ id: null }); // messages about it are ignored
     if (id !== null) await rest.deleteWatchList(id);
   } catch (error) {
     set({ id, trouble: messageOf(error) });

@@ -1,4 +1,4 @@
-/** English: what several panels say, and the frame of the page. */
+/** English: texts of several panels, and of the frame of the page. */
 export const common = {
   cancel: "Cancel",
   "copy.path": "Copy path",

@@ -1,4 +1,4 @@
-/** English: disturbances, controller logs, and verifications that were kept. */
+/** English: disturbances, controller logs, and kept verifications. */
 export const disturb = {
   "panel.disturb": "Disturbances",
   "disturb.action": "Corrupt this result…",

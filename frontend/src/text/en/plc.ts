@@ -1,4 +1,4 @@
-/** English: PLCs, their state and their running. */
+/** English: PLCs, their states and the run controls. */
 export const plc = {
   "area.access": "{words} words · program: {program} · tools: {tool} · engine: {engine}",
   "fatal.before": "Scan before",

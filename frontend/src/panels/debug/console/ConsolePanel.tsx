@@ -16,12 +16,12 @@ const LOOK: Record<ConsoleLine["kind"], { icon: IconName; tone: string }> = {
   log: { icon: "bp-log", tone: "log" },
 };
 
-/** Expressions and what they are worth; and what logpoints say. */
+/** Expressions with their values, and the messages of logpoints. */
 export function ConsolePanel() {
   const lines = useConsole((state) => state.lines);
   const list = useRef<HTMLDivElement>(null);
   const atEnd = useRef(true);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: a new line is what there is to follow
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs when a line is added
   useEffect(() => {
     if (list.current && atEnd.current) list.current.scrollTop = list.current.scrollHeight;
   }, [lines]);
@@ -79,7 +79,7 @@ function Line({ line }: { line: ConsoleLine }) {
   );
 }
 
-/** Enter evaluates, the arrows go through what was typed before. */
+/** Enter evaluates, the arrow keys go through earlier entries. */
 function Entry() {
   const online = useOnline();
   const history = useConsole((state) => state.history);

@@ -6,7 +6,7 @@ import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
 import { EditBreakpoint } from "./EditBreakpoint";
 
-/** Breakpoints that stand at no line: at a variable, an error, a scan, and what goes wrong. */
+/** Breakpoints that belong to no line: at a variable, an error, a scan, run-time errors and subrange violations. */
 export function AddBreakpoint() {
   const [asking, setAsking] = useState<Wanted["kind"] | null>(null);
   return (

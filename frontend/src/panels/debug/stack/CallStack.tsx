@@ -8,7 +8,7 @@ import { Tree, type TreeRow } from "../../../ui/Tree";
 import type { HaltInfo } from "../../../wire/types";
 import { Section } from "./Section";
 
-/** Who called whom, the statement that is next first; a click shows the place and the instance. */
+/** The frames, the one with the next statement first; a click shows the place and the instance. */
 export function CallStack({ halt }: { halt: HaltInfo }) {
   const { frames, frame } = useStack();
   const you = usePlc((plc) => plc.you?.name);
@@ -29,7 +29,7 @@ export function CallStack({ halt }: { halt: HaltInfo }) {
   );
 }
 
-/** Somebody else made it halt: nobody's text is taken away, but the way there is one click. */
+/** Somebody else halted the PLC: the open text stays, and one click leads to the place of the halt. */
 function ByOther({ halt }: { halt: HaltInfo }) {
   return (
     <p className="sectnote" title={halt.text}>

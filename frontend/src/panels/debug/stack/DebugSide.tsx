@@ -4,7 +4,7 @@ import { CallStack } from "./CallStack";
 import "./debug.css";
 import { Variables } from "./Variables";
 
-/** Below the explorer: where the program stands, what its variables are worth there, and the breakpoints. */
+/** Below the explorer: the call stack, the variables of the selected frame, and the breakpoints. */
 export function DebugSide() {
   const halt = usePlc((plc) => plc.state?.halt ?? null);
   return (

@@ -9,14 +9,14 @@ import { FormDialog } from "../../../ui/FormDialog";
 import type { BreakpointInfo } from "../../../wire/types";
 
 interface Props {
-  /** One that is there has an id. */
+  /** An existing breakpoint has an id. */
   known: Wanted | BreakpointInfo;
   onClose: () => void;
 }
 
 const ACCESS = ["change", "write", "read", "access"] as const;
 
-/** A breakpoint that stands at no line: what it watches, and when it holds. */
+/** The form of a breakpoint that belongs to no line: what it watches, and when it halts. */
 export function EditBreakpoint({ known, onClose }: Props) {
   const id = "id" in known ? known.id : null;
   const [wanted, setWanted] = useState<Wanted>("id" in known ? wantedOf(known) : known);
@@ -30,7 +30,7 @@ export function EditBreakpoint({ known, onClose }: Props) {
       (error: unknown) => Promise.reject(new Error(reasonOf(error))),
     );
     if (answer.trouble === null) return;
-    // A new one that can never hold stands nowhere else than here: there is no line at which it could be mended.
+    // A new one that can never halt is removed again: only this dialog shows it, so nobody could correct it later.
     if (id === null && answer.id !== null) await removeBreakpoints([answer.id]);
     throw new Error(answer.trouble);
   }

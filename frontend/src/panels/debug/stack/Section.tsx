@@ -3,7 +3,7 @@ import { keep, recall } from "../../../store/page/localStorage";
 import { Icon } from "../../../ui/Icon";
 
 interface Props {
-  /** Under which this browser keeps whether it is folded. */
+  /** The key under which this browser stores whether the section is folded. */
   id: string;
   title: string;
   meta?: ReactNode;
@@ -11,7 +11,7 @@ interface Props {
   children: ReactNode;
 }
 
-/** A part of the left side that folds. */
+/** A section of the left side that can be folded. */
 export function Section({ id, title, meta, actions, children }: Props) {
   const [open, setOpen] = useState(() => recall(`section.${id}`, true));
   function toggle(): void {

@@ -22,15 +22,15 @@ import { Tree, type TreeRow } from "../../../ui/Tree";
 import { Section } from "./Section";
 
 interface Doing {
-  /** Key of the variable that gets another value. */
+  /** Key of the variable whose value is being edited. */
   edited: string | null;
   edit: (key: string | null) => void;
   openMenu: (items: readonly MenuItem[], at: { x: number; y: number }) => void;
-  /** Nothing can be written to the past. */
+  /** In the past nothing can be written. */
   past: boolean;
 }
 
-/** The variables of the frame, by their sections; values are changed in place. */
+/** The variables of the frame, by their sections; values are edited in place. */
 export function Variables() {
   const stack = useStack();
   const past = usePlc((plc) => plc.state?.past != null);
@@ -169,7 +169,7 @@ function Line({ keyName, variable, changed, editing, onDone }: LineProps) {
         </span>
       )}
       {alias && !editing && (
-        // What it ends in tells one binding from another, so the beginning is what gives way.
+        // The end of the text distinguishes one binding from the next, so the beginning is cut off.
         <span className="varalias faint mono" title={alias} data-testid={`alias:${variable.name}`}>
           <bdi>{alias}</bdi>
         </span>

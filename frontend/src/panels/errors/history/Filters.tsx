@@ -21,7 +21,7 @@ interface Props {
   onView: (view: Partial<HistoryView>) => void;
 }
 
-/** A line of text, and a menu for each of state, severity and reaction; what is left out stands on its button. */
+/** A text field, and a menu for each of state, severity and reaction; the button of a menu says what it filters. */
 export function Filters({ view, onView }: Props) {
   return (
     <>

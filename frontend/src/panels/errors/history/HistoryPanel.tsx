@@ -13,12 +13,12 @@ import { HistoryTable } from "./HistoryTable";
 import "./history.css";
 import { RecordMenu } from "./RecordMenu";
 
-/** One row for each error of the catalogue: was the program ever tested against it, and did it react? */
+/** One row for each error of the catalogue: was the program tested against it, and did the program react? */
 export function HistoryPanel() {
   const instance = useBench((bench) => bench.instance?.id ?? null);
   const project = useBench((bench) => bench.project?.id ?? null);
   const running = usePlc((plc) => plc.state?.program_version ?? null);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another PLC, another program, a connection that is back
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs again for a different PLC, a different program and a restored connection
   useEffect(() => void refreshRecords(), [instance, project, running]);
   const { old, view, trouble } = useRecords();
   const lines = useLines();
@@ -62,7 +62,7 @@ export function HistoryPanel() {
   );
 }
 
-/** The rows that are looked at, in the order of the catalogue and with its names. */
+/** The rows of the shown version, in the order of the catalogue and with its names. */
 function useLines(): readonly HistoryLine[] {
   const live = usePlc((plc) => plc.errors);
   const old = useRecords((records) => records.old);
@@ -70,7 +70,7 @@ function useLines(): readonly HistoryLine[] {
   return useMemo(() => {
     const rows = old ? new Map(old.rows.map((row) => [row.id, row])) : live;
     const names = new Map(errors.map(({ id, name }) => [id, name]));
-    // What the catalogue of the program that runs does not know belongs to another one: it stands behind.
+    // Errors that are not in the catalogue of the running program come last: they belong to a different version.
     const others = old ? old.rows.filter(({ id }) => !names.has(id)) : [];
     const known = errors.flatMap(({ id }) => rows.get(id) ?? []);
     return [...known, ...others].map((row) => ({ ...row, name: names.get(row.id) ?? row.name }));

@@ -16,7 +16,7 @@ interface Props {
   view: HistoryView;
   onView: (view: Partial<HistoryView>) => void;
   label: string;
-  /** Moments of another day or of another PLC: with the day. */
+  /** Times from a different day or a different PLC are shown with the date. */
   dated: boolean;
 }
 
@@ -34,7 +34,7 @@ const COLUMNS: readonly { column: Column | "details"; word: () => string; classN
   { column: "count", word: () => t("history.count"), className: "num" },
 ];
 
-/** One row for each error; a click on a head sorts, a second one the other way round, a third one as in the catalogue. */
+/** One row for each error; a click on a column head sorts, a second one reverses the order, a third one restores the order of the catalogue. */
 export function HistoryTable({ lines, view, onView, label, dated }: Props) {
   const shown = useMemo(() => historyLines(lines, view), [lines, view]);
   if (shown.length === 0 && isFiltered(view)) return <p className="lonely faint">{t("history.nomatch")}</p>;

@@ -11,7 +11,7 @@ import { ReactionWord } from "../../../ui/ReactionWord";
 import { StateWord } from "../../../ui/StateWord";
 import { STATUS_ICONS } from "../../../ui/statuses";
 
-/** One error: what was done with it, and what the program did about it. */
+/** One error: how often it was raised, and how the program reacted. */
 export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
   const details = detailsInWords(useCatalogue().byId.get(line.id), line.details);
   const fatal = line.severity === "fatal";
@@ -69,7 +69,7 @@ interface MomentProps {
   at: string | null;
   scan: number | null;
   dated: boolean;
-  /** What was raised then, in the run that is looked at; null: nothing that could be replayed. */
+  /** The error that was raised at this time in the selected run; null: it cannot be replayed. */
   error: string | null;
 }
 
@@ -95,7 +95,7 @@ function Moment({ at, scan, dated, error }: MomentProps) {
   );
 }
 
-/** To the scan in front of which it was raised, and the run once more with it another. */
+/** Goes to the scan before which the error was raised, or replays the run with a change of this error. */
 function thenItems(scan: number, error: string): MenuItem[] {
   const of = { scan, error };
   return [

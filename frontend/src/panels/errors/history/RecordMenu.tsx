@@ -7,7 +7,7 @@ import { MenuButton, type MenuItem } from "../../../ui/Menu";
 
 const LISTED = 8;
 
-/** The test record out and in: printed, as files, from elsewhere. */
+/** Exports and imports the test record: as a printable page, as files. */
 export function RecordMenu() {
   const { instance, list } = useRecords();
   const online = useOnline();
@@ -47,7 +47,7 @@ export function RecordMenu() {
         accept=".xml,application/xml,text/xml"
         onChange={(event) => {
           const chosen = event.target.files?.[0];
-          event.target.value = ""; // the same file again is a choice too
+          event.target.value = ""; // choosing the same file again counts as a change, too
           if (chosen) void importRecord(chosen);
         }}
       />
@@ -55,13 +55,13 @@ export function RecordMenu() {
   );
 }
 
-/** The record of the version that is looked at. */
+/** The record of the shown version. */
 function open(format: "html" | "xml" | "csv"): void {
   const { instance, old } = useRecords.getState();
   if (instance !== null) openAddress(recordAddress(instance, format, old?.version), format === "html");
 }
 
-/** A document in a new tab, or a file to keep. */
+/** Opens a document in a new tab, or downloads a file. */
 export function openAddress(address: string, tab: boolean): void {
   const link = document.createElement("a");
   link.href = address;

@@ -17,10 +17,10 @@ import { HistoryTable } from "./HistoryTable";
 import "./history.css";
 import { openAddress } from "./RecordMenu";
 
-/** A test record from elsewhere: what somebody else's PLC was tested against. Nothing here can be changed. */
+/** An imported test record: what a different PLC was tested against. Nothing on this page can be changed. */
 export function RecordPage() {
   const project = useBench((bench) => bench.project?.id ?? null);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another project has other records
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs again for a different project, which has its own records
   useEffect(() => void loadRecord(), [project]);
   const { record, list, trouble } = useRecords();
   return (

@@ -11,7 +11,7 @@ interface Props {
   onClose: () => void;
 }
 
-/** Asks why a finding is all right as it is. */
+/** Asks why a finding is acceptable. */
 export function Accept({ sweep, cell, name, onClose }: Props) {
   return (
     <AskName

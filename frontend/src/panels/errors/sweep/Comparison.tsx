@@ -21,7 +21,7 @@ const LOOK: Record<SweepChange["change"], { icon: IconName; tone: string }> = {
   same: { icon: "equal", tone: "never" },
 };
 
-/** Two sweeps: what each cell was and is, and whether that is better. */
+/** Two sweeps: the old and the new result of each cell, and whether it became better. */
 export function Comparison({ comparison }: { comparison: SweepComparison }) {
   const { before, after, changes } = comparison;
   const [only, setOnly] = useState(true);
@@ -55,7 +55,7 @@ export function Comparison({ comparison }: { comparison: SweepComparison }) {
       {rows.length === 0 ? (
         <p className="lonely faint">{t("sweep.compare.same")}</p>
       ) : (
-        // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by the keyboard
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
         <div className="grid scroll swcmp" role="table" aria-label={t("sweep.compare.table")} tabIndex={0}>
           <div className="gr h" role="row">
             {(["error", "state", "before", "after", "change"] as const).map((column) => (

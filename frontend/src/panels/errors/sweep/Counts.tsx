@@ -11,7 +11,7 @@ interface Props {
   onView: (view: MatrixView) => void;
 }
 
-/** How many cells there are of each kind. A click shows only the rows that have one; a second click all again. */
+/** The number of cells of each kind. A click shows only the rows with such a cell; a second click shows all rows again. */
 export function Counts({ sweep, view, onView }: Props) {
   const counts = countCells(sweep);
   const left = sweep.status === "running" ? "waiting" : "missing";

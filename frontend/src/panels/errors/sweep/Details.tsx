@@ -14,7 +14,7 @@ import type { CellRef, Reaction, Sweep, SweepCell, SweepError, Verdict } from ".
 import { Accept } from "./Accept";
 import { Facts, Found } from "./Found";
 
-/** Who runs along a row with the arrow keys asks for nothing on the way. */
+/** The selection must stay this long before its details are fetched: moving along a row with the arrow keys fetches nothing. */
 const PAUSE = 120;
 
 interface Props {
@@ -25,7 +25,7 @@ interface Props {
   cell: SweepCell | null;
 }
 
-/** What is behind a cell: in a sentence, in numbers, in lines of the program; and what can be done about it. */
+/** The details of a cell: a sentence, numbers, lines of the program; and the actions for it. */
 export function Details({ sweep, error, state, cell }: Props) {
   return (
     <>
@@ -122,7 +122,7 @@ function Deeds({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: 
   );
 }
 
-/** Asked for when a cell is looked at; the second is why there is none. */
+/** Fetches the reaction of the selected cell; the second value says why there is none. */
 function useReaction(sweep: number, { error, state, verdict }: SweepCell): [Reaction | null, string | null] {
   const [reaction, setReaction] = useState<Reaction | null>(null);
   const [refused, setRefused] = useState<string | null>(null);

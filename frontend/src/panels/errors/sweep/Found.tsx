@@ -6,7 +6,7 @@ import { openFile } from "../../../store/page/navigate";
 import { t } from "../../../text";
 import type { Reaction } from "../../../wire/types";
 
-/** So many of a kind are listed; the rest is a number. */
+/** At most this many of a kind are listed; the rest is given as a number. */
 const MOST = 20;
 
 interface Props {
@@ -37,7 +37,7 @@ export function Facts({ reaction, raised, flag, codeWord, code }: Props) {
   );
 }
 
-/** Who read what, what changed, which lines ran only with the error. */
+/** Who read the error, what changed, which lines ran only because of it. */
 export function Found({ reaction }: { reaction: Reaction }) {
   const { readers, lines } = reaction;
   const { outputs, variables, hidden } = changesOf(reaction);

@@ -4,7 +4,7 @@ import { keepStateAs, shownScan } from "../../../store/errors/sweeps";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
-/** One line in the dialog of a sweep: the PLC as it is shown becomes a kept state. Enter keeps, too. */
+/** One line in the dialog of a sweep: keeps the shown state of the PLC. Enter in the field does the same. */
 export function KeepHere({ taken }: { taken: readonly string[] }) {
   const [name, setName] = useState("");
   const [refused, setRefused] = useState<string | null>(null);

@@ -4,7 +4,7 @@ import { useBench } from "../../../store/plc/bench";
 import { t } from "../../../text";
 import { AskName } from "../../../ui/AskName";
 
-/** Asks what a kept state is to be called. */
+/** Asks for the name of a kept state. */
 export function KeepState({ scan }: { scan: number | null }) {
   const name = useBench((bench) => bench.instance?.name ?? "");
   return (

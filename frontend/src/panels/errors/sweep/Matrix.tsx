@@ -12,11 +12,11 @@ interface Props {
   rows: readonly MatrixRow[];
   selected: CellRef | null;
   onSelect: (cell: CellRef) => void;
-  /** Enter: on to what can be done with the cell. */
+  /** Enter: moves the focus to the actions for the cell. */
   onEnter: () => void;
 }
 
-/** Errors by states; only the rows in sight exist in the page. Arrow keys move, Home and End lead along a row, with Ctrl to the corners. */
+/** Errors by states; only the visible rows are in the page. Arrow keys move, Home and End move along a row, with Ctrl to the corners. */
 export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
   const { states } = sweep;
   const row = rows.findIndex((known) => known.kind === "error" && known.error.id === selected?.error);
@@ -29,18 +29,18 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
   });
   const grid = lines.scroll;
 
-  // Another view has other rows at other heights.
+  // A different view has different rows, with different heights.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the rows are the reason
   useEffect(() => virtual.measure(), [rows.length]);
-  // At first sight, and where a key leads; progress never moves what one looks at.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: as said
+  // Scrolls when the matrix opens and when a key moves the selection; progress never moves the view.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs once, see above
   useEffect(() => {
     if (place) virtual.scrollToIndex(row);
   }, []);
 
   function bringIntoSight(to: Place): void {
     virtual.scrollToIndex(to.row);
-    // The columns of names and codes cover what lies below them.
+    // The sticky columns of names and codes cover the cells below them.
     const [names, , ...heads] = grid.current?.querySelectorAll<HTMLElement>("[role=columnheader]") ?? [];
     const head = heads[to.column];
     if (!grid.current || !names || !head) return;

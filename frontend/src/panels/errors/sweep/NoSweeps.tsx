@@ -1,7 +1,7 @@
 import { t } from "../../../text";
 import { Empty } from "../../../ui/Empty";
 
-/** No sweep yet: what one is for, and how to come to one. */
+/** No sweep yet: what a sweep is for, and how to begin one. */
 export function NoSweeps() {
   return (
     <Empty

@@ -12,7 +12,7 @@ import { StateWord } from "../../../ui/StateWord";
 import type { Sweep } from "../../../wire/types";
 import { STATUS } from "./statusWords";
 
-/** How many runs are done, how long the rest takes, what is tried now; and what can be done with the whole sweep. */
+/** How many runs are done, how long the rest takes, what runs now; and the actions for the whole sweep. */
 export function Progress({ sweep }: { sweep: Sweep }) {
   const { id, done, total, status, instance_id: plc } = sweep;
   const share = total === 0 ? 1 : done / total;

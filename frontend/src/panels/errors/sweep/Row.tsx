@@ -14,12 +14,12 @@ interface Props {
   index: number;
   top: number;
   states: readonly string[];
-  /** Which of its cells is selected; null when none is. */
+  /** The index of its selected cell; null when none is selected. */
   column: number | null;
   onSelect: (cell: CellRef) => void;
 }
 
-/** A group's name, or an error with its cells. It is drawn again only when something of it changed: progress comes often. */
+/** A group's name, or an error with its cells. It is drawn again only when it changed, because progress comes often. */
 export const Row = memo(function Row({ sweep, row, index, top, states, column, onSelect }: Props) {
   if (row.kind === "group") {
     return (
@@ -80,14 +80,14 @@ function sameRow(before: Props, after: Props): boolean {
   const [one, other] = [before.row, after.row];
   if (one.kind === "group" || other.kind === "group")
     return one.kind === "group" && other.kind === "group" && one.name === other.name;
-  // The names follow when the catalogue comes.
+  // The names are updated when the catalogue arrives.
   if (one.error.name !== other.error.name) return false;
   return one.slots.length === other.slots.length && one.slots.every((slot, at) => slot === other.slots[at]);
 }
 
 interface Look {
   icon: IconName;
-  /** Class: the verdict, or what stands in its place. */
+  /** Class: the verdict, or what the cell shows instead. */
   tone: string;
   word: string;
   title?: string;
@@ -141,7 +141,7 @@ function wordOf({ verdict, first_effect: effect }: SweepCell): string {
   return verdict === null ? "" : t(`verdict.${verdict}`);
 }
 
-/** Why an error could not be raised: where there is room for it, in the server's words. */
+/** Why an error could not be raised, in the server's words, where there is room. */
 function notRaised(note: string, words = ""): string {
   return isPresent(note) ? t("sweep.present") : words || t("sweep.none");
 }

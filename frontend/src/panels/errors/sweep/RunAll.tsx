@@ -28,7 +28,7 @@ export function RunAll() {
   const [from, setFrom] = useState<"now" | "states">(states.length > 0 ? "states" : "now");
   const [left, setLeft] = useState<ReadonlySet<number>>(new Set());
   const [window, setWindow] = useState(String(WINDOW));
-  // The states of the project may come after the dialog.
+  // The states of the project may arrive after the dialog has opened.
   useEffect(() => setFrom(states.length > 0 ? "states" : "now"), [states.length]);
 
   const chosen: Record<Which, string[] | null> = {
@@ -135,7 +135,7 @@ interface OutlookProps {
   points: number;
 }
 
-/** How much work it will be, or why it cannot be begun. */
+/** How many runs it will take, or why the sweep cannot begin. */
 function Outlook({ refused, why, count, points }: OutlookProps) {
   if (refused)
     return (

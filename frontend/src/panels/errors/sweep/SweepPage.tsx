@@ -11,7 +11,7 @@ import { SweepView } from "./SweepView";
 /** The page of the error sweeps: their list, one of them, or two side by side. */
 export function SweepPage() {
   const project = useBench((bench) => bench.project?.id ?? null);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another project has other sweeps
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs again for a different project, which has its own sweeps
   useEffect(() => void refreshSweeps(), [project]);
   const { shown, sweep, comparison, list, trouble } = useSweeps();
   const waiting = shown.view === "list" ? list === null : shown.view === "sweep" ? sweep === null : comparison === null;

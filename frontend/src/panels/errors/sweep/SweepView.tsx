@@ -8,7 +8,7 @@ import { Details } from "./Details";
 import { Matrix } from "./Matrix";
 import { Progress } from "./Progress";
 
-/** One sweep: how far it is, what it found, and what is behind each cell. */
+/** One sweep: its progress, its findings, and the details of the selected cell. */
 export function SweepView({ sweep }: { sweep: Sweep }) {
   const [view, setView] = useState<MatrixView>({ findings: false, verdict: null });
   const [chosen, setChosen] = useState<CellRef | null>(null);

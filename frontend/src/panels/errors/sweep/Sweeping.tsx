@@ -3,7 +3,7 @@ import { KeepState } from "./KeepState";
 import { RunAll } from "./RunAll";
 import "./sweep.css";
 
-/** The dialogs of the sweeps, wherever they were asked for. */
+/** The dialogs of the sweeps, which several panels open. */
 export function Sweeping() {
   const question = useSweeps((sweeps) => sweeps.question);
   if (question?.ask === "run") return <RunAll />;

@@ -1,7 +1,7 @@
 import type { IconName } from "../../../ui/Icon";
 import type { SweepSummary } from "../../../wire/types";
 
-/** How the life of a sweep is shown. */
+/** How the status of a sweep is shown. */
 export const STATUS: Record<SweepSummary["status"], { icon: IconName; tone: string }> = {
   running: { icon: "record", tone: "info" },
   done: { icon: "check", tone: "running" },

@@ -9,7 +9,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { WayOn } from "./WayOn";
 
-/** Generate what is ticked (or selected), recover it, or clear everything that is generated. */
+/** Generates the ticked errors (or the selected one), recovers them, or clears all generated errors. */
 export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
   const state = useSimulator(
     useShallow(({ checked, selected, details, outcome }) => ({ checked, selected, details, outcome })),
@@ -68,7 +68,7 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
   );
 }
 
-/** A refusal that is not about one row in sight. */
+/** A refusal that is not about a single visible row. */
 function Refusal() {
   const outcome = useSimulator((state) => state.outcome);
   const { errors } = useCatalogue();

@@ -6,7 +6,7 @@ import { t } from "../../../text";
 import { StateWord } from "../../../ui/StateWord";
 import type { ArmedFault } from "../../../wire/types";
 
-/** Faults that come later or come back: what, when next, how often until now, by whom. */
+/** Scheduled and recurring faults: what, when next, how often so far, by whom. */
 export function ArmedList() {
   const armed = usePlc((plc) => plc.armed);
   const forbidden = useForbidden("errors");

@@ -14,7 +14,7 @@ interface Props {
 
 const MOST = 6;
 
-/** A condition, with the paths of the running program completed where the caret stands; empty it offers those asked for before. */
+/** A field for a condition. It completes paths of the running program at the caret; while empty, it offers earlier conditions. */
 export function ConditionBox({ label, value, onChange, bad = false }: Props) {
   const input = useRef<HTMLInputElement>(null);
   const conditions = useRun((run) => run.conditions);

@@ -14,7 +14,7 @@ import { Preview } from "./Preview";
 import { ReactionView } from "./ReactionView";
 import { ShapeFields } from "./ShapeFields";
 
-/** The selected error: what it means, where it shows, what can be chosen before it is raised, and how the program reacted. */
+/** The selected error: what it means, which flags and words show it, what can be chosen before it is raised, and how the program reacted. */
 export function Details({ error }: { error: ErrorInfo }) {
   const edited = useSimulator((state) => state.details[error.id] !== undefined);
   const plain = useSimulator((state) => isPlain(state.shape));
@@ -22,7 +22,7 @@ export function Details({ error }: { error: ErrorInfo }) {
   const row = usePlc((plc) => plc.errors.get(error.id));
   const entries = entriesOf({ details }, error, row);
   const raised = row?.status === "generated" ? row : null;
-  // One that comes and goes is as good as present: nothing jumps.
+  // A fault that comes and goes is treated as present all the time, so that the layout does not jump.
   const armed = usePlc((plc) => plc.armed.some((fault) => fault.errors.includes(error.id)));
   const present = raised !== null || armed;
   const refused = troubles(error, entries);
@@ -71,7 +71,7 @@ export function Details({ error }: { error: ErrorInfo }) {
   );
 }
 
-/** Nobody raised it here; a sweep did, in a run of its own. */
+/** The error was not raised here, but in a run of a sweep. */
 function Swept({ reaction }: { reaction: ReactionState }) {
   return (
     <section className="reaction" aria-label={t("reaction.label")}>

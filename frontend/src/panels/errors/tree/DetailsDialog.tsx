@@ -18,14 +18,14 @@ import { Preview } from "./Preview";
 import { ShapeFields } from "./ShapeFields";
 import { WayOn } from "./WayOn";
 
-/** Details of several errors, a page for each that needs some; then all in one seam, or one by one. */
+/** Details of several errors, a page for each that needs some; then all are raised in one seam, or one by one. */
 export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   const state = useSimulator(useShallow(({ details }) => ({ details })));
   const shape = useShape();
   const history = usePlc((plc) => plc.errors);
   const forbidden = useForbidden("errors");
   const needing = errors.filter(needsDetails);
-  // Asked for although nothing has to be: every error has its page, to be looked at.
+  // Opened on request although no detail is required: every error has its page.
   const pages = needing.length > 0 ? needing : errors;
   const [page, setPage] = useState(0);
   const [seen, setSeen] = useState<ReadonlySet<string>>(new Set());
@@ -133,7 +133,7 @@ function about(needing: number, total: number): string {
   return total === 1 ? t("dialog.about.one") : t("dialog.about", { count: needing, total });
 }
 
-/** What the PLC refused stays here, with the entries as they are. */
+/** The PLC's refusal is shown here, and the entries stay as they are. */
 function DialogRefusal() {
   const outcome = useSimulator((state) => state.outcome);
   const { errors: known } = useCatalogue();

@@ -7,14 +7,14 @@ import { RoomyControl } from "./controls";
 interface Props {
   error: ErrorInfo;
   entries: Entries;
-  /** Others of the dialog that ask for the same kind of detail. */
+  /** Other errors of the dialog that ask for the same kind of detail. */
   alike: readonly ErrorInfo[];
   same: boolean;
   onEntry: (name: string, entry: Entry) => void;
   onSame: () => void;
 }
 
-/** One error in the dialog: what it is, and what can be chosen. */
+/** One error in the dialog: its description, and its details. */
 export function DetailsPage({ error, entries, alike, same, onEntry, onSame }: Props) {
   const fatal = error.severity === "fatal";
   const refused = troubles(error, entries);

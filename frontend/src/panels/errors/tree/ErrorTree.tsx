@@ -9,12 +9,12 @@ import { Group, Leaf, RefusalRow } from "./rows";
 interface Props {
   rows: readonly CatalogueRow[];
   label: string;
-  /** The error below which the last refusal stands. */
+  /** The error below which the last refusal is shown. */
   refused: string | null;
   onGenerate: () => void;
 }
 
-/** Letters typed with less than this between them, in ms, belong together. */
+/** Letters typed within this time, in ms, belong together. */
 const TOGETHER = 700;
 
 /** The catalogue. Arrows move, fold and unfold; Space ticks; Enter generates; letters jump. */
@@ -26,7 +26,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
   const { open, menu } = useMenu();
   useRowInSight(grid, selected);
 
-  /** By the mouse at the row below it, by the menu key at the one selected. */
+  /** A right-click opens the menu for the row below the pointer, the menu key opens it for the selected row. */
   function onContextMenu(event: MouseEvent): void {
     const below = (event.target as HTMLElement).closest<HTMLElement>("[data-key]")?.dataset.key ?? selected;
     const row = rows.find(({ key }) => key === below);
@@ -59,7 +59,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
     const fresh = event.timeStamp - typed.current.at > TOGETHER;
     const text = (fresh ? "" : typed.current.text) + event.key;
     typed.current = { text, at: event.timeStamp };
-    // The first letter goes on from the row behind; more letters may still mean this one.
+    // The first letter searches from the next row on; with more letters the current row may still match.
     const row = rowFor(rows, text, text.length === 1 ? now + 1 : Math.max(0, now));
     if (row) selectError(row.key);
   }
@@ -92,7 +92,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
       onKeyDown={onKeyDown}
       onContextMenu={onContextMenu}
       onFocus={(event) => {
-        // A click brings the focus, too, and the rows must not move away below the pointer.
+        // A click also moves the focus here, and the rows must not move below the pointer.
         if (now < 0 && event.currentTarget.matches(":focus-visible")) move(0);
       }}
     >
@@ -138,7 +138,7 @@ function Head() {
   );
 }
 
-/** The details of the selected error take room from the tree: it must not push its own row out of sight. */
+/** The details of the selected error take room from the tree: they must not push its row out of view. */
 function useRowInSight(grid: { current: HTMLDivElement | null }, selected: string | null): void {
   useEffect(() => {
     const tree = grid.current;

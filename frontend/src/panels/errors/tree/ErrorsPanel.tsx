@@ -21,7 +21,7 @@ import { FirstSteps } from "./FirstSteps";
 import { refusedRow } from "./refusal";
 import { StatusWords } from "./StatusWords";
 
-/** Every error the model knows, to be raised and recovered without touching the program. */
+/** Every error that the model knows. Raising and recovering them needs no change of the program. */
 export function ErrorsPanel() {
   const model = useBench((bench) => bench.model);
   const instance = useBench((bench) => bench.instance);
@@ -33,7 +33,7 @@ export function ErrorsPanel() {
 }
 
 function Simulator({ model }: { model: ModelInfo }) {
-  // Not the details and the shape: they change with each letter that is typed.
+  // Details and shape are not selected here: they change with each key.
   const { filter, status, severity, reaction, closed, checked, selected, outcome, asking } = useSimulator(
     useShallow(({ details, shape, told, ...rest }) => rest),
   );

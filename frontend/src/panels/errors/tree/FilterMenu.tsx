@@ -19,7 +19,7 @@ function reactionWord(reaction: Reaction): string {
   return t(`verdict.${reaction}`);
 }
 
-/** Which errors are shown: by state, severity and reaction. The button says what is left out. */
+/** Filters the errors by state, severity and reaction. The button says which filter is set. */
 export function FilterMenu() {
   const { status, severity, reaction } = useSimulator(
     useShallow(({ status, severity, reaction }) => ({ status, severity, reaction })),

@@ -1,7 +1,7 @@
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
-/** What to do where nothing was raised yet. */
+/** What to do while no error was raised yet. */
 export function FirstSteps() {
   return (
     <section className="firststeps" aria-label={t("errors.start.title")}>

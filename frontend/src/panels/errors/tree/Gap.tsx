@@ -13,7 +13,7 @@ export interface GapForm {
 
 const taskInterval = () => usePlc.getState().state?.interval_ns ?? 10_000_000;
 
-/** Scans from one error to the next, 0 for all in one; null while it cannot be read. */
+/** Scans from one error to the next, 0 for all in one scan; null while the entry is invalid. */
 export function gapOf({ sequence, text, unit }: GapForm): number | null {
   if (!sequence) return 0;
   const read = readScan(text);
@@ -27,7 +27,7 @@ interface Props {
   onForm: (form: GapForm) => void;
 }
 
-/** All in one scan, or one by one with a distance. */
+/** All in one scan, or one by one at a distance. */
 export function Gap({ form, several, onForm }: Props) {
   const scans = gapOf(form);
   if (!several) return null;

@@ -13,7 +13,7 @@ interface Props {
   onPage: (index: number) => void;
 }
 
-/** The errors of the dialog, each with what became of its page. */
+/** The errors of the dialog, each with the state of its page. */
 export function PageList({ pages, stateOf, now, onPage }: Props) {
   return (
     <ol aria-label={t("dialog.errors")}>

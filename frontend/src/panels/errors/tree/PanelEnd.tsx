@@ -18,7 +18,7 @@ function openRecord(): void {
   window.open(recordAddress(instance.id, "html"), "_blank", "noopener");
 }
 
-/** At the end of the error simulator's tabs: how much of the catalogue was tested, and what else can be done. */
+/** The end of the error simulator's tab strip: how much of the catalogue was tested, and other actions. */
 export function PanelEnd() {
   const { errors } = useCatalogue();
   const history = usePlc((plc) => plc.errors);

@@ -11,24 +11,24 @@ import type { ErrorInfo, PreviewedWrite } from "../../../wire/types";
 
 interface Props {
   errors: readonly ErrorInfo[];
-  /** Of several, the one whose page it is: what it writes stands first. */
+  /** Of several errors, the one whose page is open: its writes come first. */
   of?: string;
-  /** False while an entry is refused: nothing is asked. */
+  /** False while an entry is refused: then nothing is requested. */
   valid: boolean;
   again?: boolean;
-  /** False when it is raised later: what it would write now may be another then. */
+  /** False when it is raised later: by then it may write something else. */
   now?: boolean;
 }
 
 /** What raising these errors would write, address by address. */
 export function Preview({ errors, of, valid, again = false, now = true }: Props) {
-  // Another detail is another question.
+  // Different details need a new preview.
   useSimulator((state) => state.details);
-  // What the PLC would write now says nothing of a moment in the past.
+  // A preview of writes from now on says nothing about a scan in the past.
   const past = usePlc((plc) => Boolean(plc.state?.past));
   const { preview, refused } = usePreview(valid && !past ? asWanted(errors) : null, again);
   const { errors: known } = useCatalogue();
-  // While it runs, the number of the scan would be over before it is read.
+  // While the PLC runs, the scan number is over before anybody reads it.
   const running = usePlc((plc) => plc.state?.state === "running");
   const [all, setAll] = useState(false);
   const several = of !== undefined && errors.length > 1;
@@ -79,7 +79,7 @@ export function Preview({ errors, of, valid, again = false, now = true }: Props)
   );
 }
 
-/** The device's own log takes several words for each error: one line says so, unless somebody wants to see them. */
+/** The device's own log takes several words for each error: they are summed up in one line until somebody unfolds them. */
 function LogWrites({ writes }: { writes: readonly PreviewedWrite[] }) {
   const [open, setOpen] = useState(false);
   const [first] = writes;

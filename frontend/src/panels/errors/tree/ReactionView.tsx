@@ -10,7 +10,7 @@ import type { ErrorInfo, Reaction, ReactionState } from "../../../wire/types";
 
 const FIRST = 20;
 
-/** What the program did about the error: a sentence, who read it, what was reached, what changed, and what to do next. */
+/** The reaction to the error: a sentence, the readers, the executed lines, the changed variables, and what to do next. */
 export function ReactionView({ error, state }: { error: ErrorInfo; state: ReactionState }) {
   const seen = useReaction();
   const reaction = seen.id === error.id ? seen.reaction : null;

@@ -8,7 +8,7 @@ import { ConditionBox } from "./ConditionBox";
 
 type Troubles = ReturnType<typeof readShape>["troubles"];
 
-/** When a fault begins and how it goes on; now and to stay is an ordinary Generate. */
+/** When a fault begins and how it continues; "now" and "stays" is an ordinary Generate. */
 export function ShapeFields() {
   const id = useId();
   const { form, troubles } = useShape();
@@ -186,7 +186,7 @@ function Count({ field, label, form, troubles, placeholder, after, wide, childre
   );
 }
 
-/** What is missing or wrong; only what was typed and is wrong is red. */
+/** The missing or wrong fields; red is used only for a wrong entry. */
 function Complaint({ form, troubles }: FieldsProps) {
   const [field] = Object.keys(troubles) as ShapeField[];
   const key = field && troubles[field];

@@ -4,11 +4,11 @@ import { bindCell } from "../../../store/plc/values";
 import { useWatches, watch } from "../../../store/plc/watches";
 import { t } from "../../../text";
 
-/** The words of the error memory, live: what the program sees. */
+/** The words of the error memory, live, as the program sees them. */
 export function StatusWords({ words, code }: { words: readonly string[]; code: readonly string[] }) {
   const shown = statusWords(words, code);
   const key = shown.flat().join(" ");
-  // biome-ignore lint/correctness/useExhaustiveDependencies: the same words are the same watch
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the same words need no new watch
   useEffect(() => watch(shown.flat()), [key]);
   if (words.length === 0) return null;
   return (
@@ -32,7 +32,7 @@ export function StatusWords({ words, code }: { words: readonly string[]; code: r
 function Word({ word }: { word: string }) {
   const text = useRef<HTMLElement>(null);
   const known = useWatches((state) => state.symbols.has(word));
-  // biome-ignore lint/correctness/useExhaustiveDependencies: when the symbol comes, what stands here is read again
+  // biome-ignore lint/correctness/useExhaustiveDependencies: reads the cell again when the symbol arrives
   useEffect(
     () =>
       bindCell(word, "word", (reading) => {

@@ -2,7 +2,7 @@ import { useCatalogue } from "../../../store/errors/catalogue";
 import { changeDetails, mendCondition, type Outcome, useSimulator } from "../../../store/errors/simulator";
 import { t } from "../../../text";
 
-/** What can be done about a refusal: change the details of what is present, or take a name that the PLC knows. */
+/** What to do after a refusal: change the details of present errors, or take a name that the PLC knows. */
 export function WayOn({ outcome, onDone }: { outcome: Outcome; onDone?: () => void }) {
   const { errors } = useCatalogue();
   const conditional = useSimulator(({ shape }) => shape.when === "condition" || shape.how === "unacknowledged");

@@ -24,7 +24,7 @@ const labelOf = (detail: ErrorDetail) => detail.description || detail.name;
 const hasFormats = (detail: ErrorDetail) => detail.control === "Edit" && !isText(detail);
 const isSpin = (detail: ErrorDetail) => detail.control === "Spin" && detail.base === 10;
 
-/** One detail in place: a list to choose from, or a number beside its name. */
+/** A detail in the panel: a list of choices, or a number field beside its name. */
 export function Control(props: ControlProps) {
   const { detail, entry, trouble, onEntry } = props;
   const id = useId();
@@ -115,7 +115,7 @@ function Refused({ id, trouble }: { id: string; trouble: Trouble }) {
   );
 }
 
-/** One detail on its page of the dialog: a table of choices, or a number with its range. */
+/** A detail on its page of the dialog: a table of choices, or a number field with its range. */
 export function RoomyControl(props: ControlProps) {
   const { detail, entry, trouble, onEntry } = props;
   const id = useId();

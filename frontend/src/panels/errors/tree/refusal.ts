@@ -1,7 +1,7 @@
 import type { CatalogueRow } from "../../../logic/errors/catalogue";
 import type { Outcome } from "../../../store/errors/simulator";
 
-/** The row that a refusal is about, when it is about one that is in sight: the reason stands below it. */
+/** The visible row that a refusal is about, if there is one: the reason is shown below that row. */
 export function refusedRow(rows: readonly CatalogueRow[], outcome: Outcome | null): string | null {
   if (!outcome || outcome.ok) return null;
   const named = outcome.ids.find((id) => outcome.message.startsWith(`${id}:`));

@@ -42,11 +42,11 @@ interface LeafProps {
   row: LeafRow;
   index: number;
   selected: boolean;
-  /** What stands below it. */
+  /** The lines below the row. */
   children: ReactNode;
 }
 
-/** An error. The rows are made anew with whatever happens to one of them; the others are not drawn again. */
+/** An error. All rows are computed again when one of them changes; unchanged ones are not drawn again. */
 export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafProps) {
   const { error } = row;
   const fatal = error.severity === "fatal";
@@ -124,20 +124,20 @@ function Reacted({ reaction, swept }: { reaction: ReactionState; swept: boolean 
   );
 }
 
-/** The reason without the name, which stands in the row above, and with its details in words. */
+/** The reason without the name, which is in the row above, and with the details in words. */
 function refusalOf(error: ErrorInfo, message: string): string {
   const plain = message.startsWith(`${error.id}: `) ? message.slice(error.id.length + 2) : message;
   const worded = plain.replace(/\(([^()]*=[^()]*)\)/, (_, details: string) => `(${detailsInWords(error, details)})`);
   return worded === "" || /[.!?]$/.test(worded) ? worded : `${worded}.`;
 }
 
-/** Why this error was not generated, and the way on. */
+/** Why this error was not generated, and what to do. */
 export function RefusalRow({ error }: { error: ErrorInfo }) {
   const outcome = useSimulator((state) => state.outcome);
   const { errors } = useCatalogue();
   const place = useRef<HTMLDivElement>(null);
-  // The tree may be short: what was refused must not stand below its edge.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another refusal is another reason
+  // The tree may be short: the refusal must not be below its visible part.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs for each new refusal
   useEffect(() => void place.current?.scrollIntoView({ block: "nearest" }), [outcome]);
   if (!outcome) return null;
   const why = refusalOf(error, outcome.message);

@@ -13,7 +13,7 @@ interface Props {
 
 const TYPES = ["Bit", "Word", "Byte", "BCD", "Nibble", "BitArray"];
 
-/** What can be chosen, each with the bit or number that it writes. */
+/** The choices of a List, each with the bit or number that it writes. */
 export function Choices({ detail, found, onChange }: Props) {
   const { name, addresses } = detail;
   const ids = addresses.map(({ id }) => id);

@@ -3,7 +3,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { FileText } from "../../../wire/types";
 
-/** Somebody saved first. Nothing is lost until it is chosen. */
+/** Somebody else saved first. Nothing is lost until the user chooses a version. */
 export function Conflict({ theirs }: { theirs: FileText }) {
   const what = theirs.version === 0 ? t("usererrors.conflict.deleted") : t("usererrors.conflict", theirs);
   return (

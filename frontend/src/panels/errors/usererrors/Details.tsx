@@ -9,12 +9,12 @@ import { NumberFields } from "./NumberFields";
 
 interface Props {
   details: readonly UserDetail[];
-  /** Problems by the rest of their path within the error. */
+  /** The problems of the details, by the rest of their path within the error. */
   found: ReadonlyMap<string, string>;
   onChange: (details: UserDetail[]) => void;
 }
 
-/** What is asked for when the error is raised. */
+/** The details that are asked for when the error is raised. */
 export function Details({ details, found, onChange }: Props) {
   const add = () => {
     const names = details.map(({ name }) => name);

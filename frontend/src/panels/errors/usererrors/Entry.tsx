@@ -4,16 +4,16 @@ import { Icon } from "../../../ui/Icon";
 interface Common {
   label: string;
   value: string;
-  /** What is wrong with it, as the server sees it. */
+  /** The problem with the entry, in the server's words. */
   wrong?: string | undefined;
-  /** Of what is typed, for screen readers and fonts. */
+  /** The language of the entry, for screen readers and fonts. */
   language?: string;
 }
 
 interface EntryProps extends Common {
-  /** With every key. */
+  /** Called with every key. */
   onChange?: (value: string) => void;
-  /** When the field is left; until then it is as typed. */
+  /** Called when the field is left; until then the entry stays as typed. */
   onLeave?: (value: string) => void;
   mono?: boolean;
   placeholder?: string;
@@ -21,7 +21,7 @@ interface EntryProps extends Common {
   offers?: readonly string[];
 }
 
-/** A line of text with its name above and what is wrong with it below. */
+/** A text field with its name above and its problem below. */
 export function Entry({
   label,
   value,
@@ -72,7 +72,7 @@ export function Entry({
   );
 }
 
-/** Several lines of text. */
+/** A text area of several lines. */
 export function Words({ label, value, wrong, language, onChange }: Common & { onChange: (value: string) => void }) {
   const id = useId();
   return (
@@ -98,7 +98,7 @@ interface ChooseProps extends Common {
   wide?: boolean;
 }
 
-/** One of a few; a value that is none of them stands there as it is. */
+/** A choice between a few values; a value that is none of them is shown as it is. */
 export function Choose({ label, value, wrong, options, onChange, wide }: ChooseProps) {
   const id = useId();
   return (
@@ -124,7 +124,7 @@ export function Choose({ label, value, wrong, options, onChange, wide }: ChooseP
   );
 }
 
-/** Said politely: it changes with every key. */
+/** Announced politely, because it changes with every key. */
 export function Wrong({ id, message }: { id?: string; message: string | undefined }) {
   return (
     <span id={id} className="hint bad" aria-live="polite">

@@ -12,7 +12,7 @@ interface Props {
   problems: readonly UserProblem[];
 }
 
-/** One error as a form; what is wrong stands under its field while one types. */
+/** One error as a form; problems are shown below their fields during typing. */
 export function ErrorForm({ index, error, problems }: Props) {
   const found = problemsOf(problems, index);
   const name = textOf(error.texts, "en", "name");
@@ -93,7 +93,7 @@ interface EffectProps {
   change: (changed: Partial<UserError>) => void;
 }
 
-/** What the error does to the PLC. */
+/** The effect of the error on the PLC. */
 function Effect({ error, found, change }: EffectProps) {
   return (
     <div className="uefields ue4">
@@ -148,7 +148,7 @@ function Effect({ error, found, change }: EffectProps) {
   );
 }
 
-/** The group, offered from those that there are. */
+/** The group; the existing groups are offered. */
 function GroupEntry(props: { error: UserError; onChange: (group: string[]) => void; wrong: string | undefined }) {
   const { error, onChange, wrong } = props;
   const errors = useUserErrors((state) => state.errors);

@@ -11,7 +11,7 @@ interface Props {
   selected: number | null;
 }
 
-/** The errors, one a row. The list holds the focus, the chosen row is its active descendant. */
+/** The errors, one a row. The list has the focus, the selected row is its active descendant. */
 export function ErrorList({ errors, problems, selected }: Props) {
   function onKeyDown(event: KeyboardEvent): void {
     const now = selected ?? -1;
@@ -43,7 +43,7 @@ export function ErrorList({ errors, problems, selected }: Props) {
       >
         {errors.map((error, index) => (
           <Row
-            // biome-ignore lint/suspicious/noArrayIndexKey: an error has no other name that stays
+            // biome-ignore lint/suspicious/noArrayIndexKey: no other property of an error stays the same while it is edited
             key={index}
             index={index}
             error={error}

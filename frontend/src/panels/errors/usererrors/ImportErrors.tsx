@@ -4,7 +4,7 @@ import { t } from "../../../text";
 import { FormDialog } from "../../../ui/FormDialog";
 import { Icon } from "../../../ui/Icon";
 
-/** Asks for a file, and what becomes of the errors that are here. It stays open while the file is wrong. */
+/** Asks for a file, and whether it replaces the existing errors. The dialog stays open while the file is wrong. */
 export function ImportErrors({ onClose }: { onClose: () => void }) {
   const state = useUserErrors();
   const count = state.errors.length;

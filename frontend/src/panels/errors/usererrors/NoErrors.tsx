@@ -5,7 +5,7 @@ import { t } from "../../../text";
 import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
 
-/** None yet: what they are for, what one consists of, and one to begin with. */
+/** None yet: what user-defined errors are for, what they consist of, and an example to begin with. */
 export function NoErrors() {
   const model = useBench((bench) => bench.model);
   const example = exampleFor(model);

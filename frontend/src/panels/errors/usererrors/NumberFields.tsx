@@ -11,7 +11,7 @@ interface Props {
   onChange: (address: UserAddress) => void;
 }
 
-/** Where the number of a Spin or an Edit goes, and which numbers it may be. */
+/** The address to which a Spin or an Edit writes its number, and the allowed numbers. */
 export function NumberFields({ control, address, found, onChange }: Props) {
   const field = (name: "address" | "shift" | "width" | "min" | "max" | "default", label: string) => (
     <Entry
@@ -67,7 +67,7 @@ export function NumberFields({ control, address, found, onChange }: Props) {
   );
 }
 
-/** A text has characters: nothing that only numbers have. */
+/** A text has characters and none of the properties of a number. */
 function asText(address: UserAddress): UserAddress {
   const none = { shift: "", width: "", value: "", min: "", default: "", adds: "" };
   return { ...address, ...none, type: "Word", base: "text", max: address.max || "8" };

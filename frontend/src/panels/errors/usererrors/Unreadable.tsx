@@ -4,7 +4,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { UserProblem } from "../../../wire/types";
 
-/** The file is no XML of ours: what is wrong with it, and the way to its text. */
+/** The file cannot be read as errors.xml: what is wrong with it, and a button that opens its text. */
 export function Unreadable({ problems }: { problems: readonly UserProblem[] }) {
   return (
     <div className="empty">

@@ -22,7 +22,7 @@ import { NoErrors } from "./NoErrors";
 import { Unreadable } from "./Unreadable";
 import "./usererrors.css";
 
-/** The page of the errors that the project defines itself: which there are at the left, the chosen one as a form at the right. */
+/** The page of the errors that the project defines itself: the list on the left, the form of the selected error on the right. */
 export function UserErrorsPage() {
   const project = useBench((bench) => bench.project?.id ?? null);
   useEffect(() => void loadUserErrors(project), [project]);
@@ -115,7 +115,7 @@ function Toolbar({ onImport }: { onImport: () => void }) {
   );
 }
 
-/** What the last request led to: refused, or stored and waiting for a build. */
+/** The result of the last request: refused, or stored and waiting for a build. */
 function Notes() {
   const state = useUserErrors();
   if (state.trouble !== null)

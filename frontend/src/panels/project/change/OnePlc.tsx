@@ -11,7 +11,7 @@ interface Props {
   onToggle: () => void;
 }
 
-/** One PLC: whether it is to be changed, what is kept, and what is reinitialized, new, or removed. */
+/** One PLC: whether to change it, and which variables are kept, reinitialized, new, or removed. */
 export function OnePlc({ change, chosen, onToggle }: Props) {
   const sorted = fates(change);
   const lost = sorted.reinitialized.length;

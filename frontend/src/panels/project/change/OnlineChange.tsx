@@ -7,7 +7,7 @@ import type { BuildResult } from "../../../wire/types";
 import { OnePlc } from "./OnePlc";
 import "./change.css";
 
-/** A build waits for a yes: what the swap of the program would do to the variables of every running PLC. */
+/** A build waits for confirmation: the dialog shows what the new program would do to the variables of every running PLC. */
 export function OnlineChange() {
   const asking = useDocuments((documents) => documents.asking);
   return asking && <Agreement key={asking.project.version} result={asking} />;

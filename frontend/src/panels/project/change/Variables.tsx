@@ -9,7 +9,7 @@ interface Props {
   variables: readonly LostVariable[];
 }
 
-/** The variables that share a fate; for those that are reinitialized it says why. Only the rows in sight exist in the page. */
+/** The variables with the same change; reinitialized ones with the reason. Only the visible rows are in the page. */
 export function Variables({ plc, fate, variables }: Props) {
   const grid = useGrid({ count: variables.length });
   const reasons = fate === "reinitialized";

@@ -9,14 +9,14 @@ import { Segments } from "../../../ui/Segments";
 
 interface Props {
   editing: Editing;
-  /** Whose instances can be chosen; undefined outside of a POU. */
+  /** The POU whose instances can be chosen; undefined outside a POU. */
   pou: string | undefined;
   onClose: () => void;
 }
 
 const DOES = ["halt", "log", "assign"] as const;
 
-/** Below its line: when a breakpoint holds, and what it does then. A condition that cannot be taken stays, with the reason. */
+/** The form below the line of a breakpoint: when it halts, and what it does. A refused condition stays, with the reason. */
 export function BreakpointForm({ editing, pou, onClose }: Props) {
   const [wanted, setWanted] = useState(editing.wanted);
   const [does, setDoes] = useState(editing.does);

@@ -29,10 +29,10 @@ import { addWatchAction, dragToWatch } from "./watchAction";
 import { addWriterAction } from "./writerAction";
 import { openZone, type Zone } from "./zone";
 
-/** Where one was in a text before the past took its place. */
+/** The view state of a text before it was replaced by the text of the past. */
 const left = new Map<string, editor.ICodeEditorViewState | null>();
 
-/** The text of one file in Monaco; `past` is its text as it ran, which cannot be edited. */
+/** The text of one file in Monaco; `past` is the text as it ran, which is read-only. */
 export default function CodeView({ path, past }: { path: string; past: string | null }) {
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<editor.IStandaloneCodeEditor | null>(null);
@@ -70,7 +70,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     addDisturbAction(code, path, () => breakpoints);
     const caret = () => {
       const position = code.getPosition();
-      // A text that is exchanged behind another tab moves its caret too.
+      // Replacing the text in a hidden tab moves its caret, too.
       if (position && (code.hasTextFocus() || useDocuments.getState().active === path))
         useDocuments.setState({ cursor: { line: position.lineNumber, column: position.column }, active: path });
     };
@@ -109,7 +109,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
   );
 }
 
-/** The form of a breakpoint, below its line, while one of this file is edited. */
+/** The form of a breakpoint, below its line, while a breakpoint of this file is edited. */
 function Editing({ path, view }: { path: string; view: { current: editor.IStandaloneCodeEditor | null } }) {
   const editing = useDebug((debug) => (debug.editing?.file === path ? debug.editing : null));
   const [zone, setZone] = useState<Zone | null>(null);

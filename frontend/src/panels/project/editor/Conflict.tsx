@@ -6,7 +6,7 @@ import type { FileText } from "../../../wire/types";
 
 const DiffView = lazy(() => import("./DiffView"));
 
-/** Somebody saved first: theirs beside mine, and a choice. Nothing is lost until it is made. */
+/** Somebody else saved first: both texts side by side, and a choice. Nothing is lost until the user chooses. */
 export function Conflict({ path, theirs }: { path: string; theirs: FileText }) {
   return (
     <section className="conflict" aria-label={t("conflict.label")}>

@@ -9,7 +9,7 @@ import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
 import { Switch } from "../../../ui/Switch";
 
-/** Above the text: values behind the lines (for oneself), coverage (for everybody at the PLC). */
+/** Switches above the text: values at the ends of lines (private), coverage (for everybody at the PLC). */
 export function DebugSwitches({ path }: { path: string }) {
   const inline = usePrefs((prefs) => prefs.inline);
   const online = useOnline();

@@ -4,7 +4,7 @@ import { modelOf } from "./models";
 import { editor, monospaceFont, options } from "./monaco";
 import { LANGUAGE } from "./st";
 
-/** Theirs at the left, mine at the right, still editable. */
+/** The other text on the left, one's own on the right, still editable. */
 export default function DiffView({ path, theirs }: { path: string; theirs: string }) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -22,7 +22,7 @@ export default function DiffView({ path, theirs }: { path: string; theirs: strin
     view.setModel(diff);
     return () => {
       view.dispose();
-      // Cancels a comparison that still runs; it would miss the text that goes now.
+      // Cancels a running comparison, which would access the text that is disposed of now.
       diff.dispose();
       original.dispose();
     };

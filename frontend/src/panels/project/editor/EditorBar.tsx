@@ -17,10 +17,10 @@ import { shownLine, useStanding } from "./halt";
 import { SeenAs } from "./SeenAs";
 import { VerifyButton } from "./VerifyButton";
 
-/** What has instances: its values are those of one. */
+/** Kinds of declarations with instances: the text shows the values of one instance. */
 const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"];
 
-/** Above the text: what it declares, what the last build said, save and build. */
+/** The bar above the text: the declaration, the result of the last build, Save and Build. */
 export function EditorBar({ path }: { path: string }) {
   useDocuments((documents) => documents.pous);
   useShownProgram();
@@ -35,7 +35,7 @@ export function EditorBar({ path }: { path: string }) {
   const { text, pous } = shownText(path);
   const line = useLooked(path, cursor);
   const found = pouAt(pous, path, line, text) ?? firstOf(pous, path);
-  // A global variable is one line of the file, not what the file is about.
+  // A global variable is only one line of the file, so it is not shown as the file's declaration.
   const pou = found?.kind === "global" ? { name: path, kind: found.kind } : found;
   return (
     <div className="edbar">
@@ -79,13 +79,13 @@ export function EditorBar({ path }: { path: string }) {
   );
 }
 
-/** What a file begins with, for lines in front of it. */
+/** The first declaration of a file: the bar shows it for the lines before it, too. */
 const firstOf = (pous: readonly Pou[], path: string) =>
   pous.filter(({ file }) => file === path).sort((a, b) => a.line - b.line)[0];
 
 type Cursor = NonNullable<ReturnType<typeof useDocuments.getState>["cursor"]>;
 
-/** Where one looks: where the program stands, until the caret is put somewhere else. */
+/** The line that the bar is about: the line of the halt, until the user moves the caret. */
 function useLooked(path: string, cursor: Cursor | null): number {
   const standing = useStanding(path);
   const key = standing?.key ?? "";
@@ -111,7 +111,7 @@ function ChecksToggle() {
   );
 }
 
-/** What the last online change did to the PLC that is looked at; empty when there was none. */
+/** The note about the last online change of this PLC; empty when there was none. */
 function useChangeNote(): string {
   const instance = useBench((bench) => bench.instance?.id);
   const change = useDocuments((documents) => documents.change?.find((known) => known.instance === instance));
@@ -119,7 +119,7 @@ function useChangeNote(): string {
   return changeNote(change);
 }
 
-/** Stands beside the outcome of a build as long as there is a change to take back. */
+/** A button beside the result of a build while an online change can be rolled back. */
 function RollBack() {
   const note = useChangeNote();
   const forbidden = useForbidden("change");
@@ -139,7 +139,7 @@ function RollBack() {
   );
 }
 
-/** The PLC runs another version than the one that was built last: it was rolled back, or left out. */
+/** The PLC runs a different version than the last build: it was rolled back, or not changed. */
 function OtherVersion() {
   const text = useBench((bench) => bench.project?.version);
   const runs = usePlc(({ state }) => (state && !state.past && state.state !== "off" ? state.program_version : 0));

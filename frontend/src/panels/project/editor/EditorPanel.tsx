@@ -7,7 +7,7 @@ import { Icon } from "../../../ui/Icon";
 import { Conflict } from "./Conflict";
 import { EditorBar } from "./EditorBar";
 
-// Monaco is 4 MB: it comes after the page stands.
+// Monaco is 4 MB: it is loaded after the page is shown.
 const CodeView = lazy(() => import("./CodeView"));
 
 const Code = (props: { path: string; past: string | null }) => (
@@ -16,7 +16,7 @@ const Code = (props: { path: string; past: string | null }) => (
   </Suspense>
 );
 
-/** Which version is shown, and what is kept meanwhile; or why there is nothing to be shown. */
+/** Says which version is shown, and that the edited text is kept; or why there is no text. */
 function PastNote({ path, version }: { path: string; version: number }) {
   const { program, refused } = useShownProgram();
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
@@ -38,7 +38,7 @@ function PastNote({ path, version }: { path: string; version: number }) {
   );
 }
 
-/** It was not built since, so that what is saved is likely what ran; but that could not be seen. */
+/** The text that ran could not be fetched. The project was not built since, so the saved text is probably the one that ran. */
 function UnsureNote({ version, refused }: { version: number; refused: string }) {
   return (
     <p className="trouble st warning" role="status">
@@ -62,8 +62,8 @@ export function EditorPanel({ path }: { path: string }) {
 
   const of = useRef<number | null>(null);
 
-  // A panel that was kept from last time is here before the project is known. One that sees another project come is about
-  // to be closed: the other project does not have its file.
+  // A panel of a kept layout exists before the project is known. A panel whose project changes is about to be closed,
+  // because the new project does not have its file.
   useEffect(() => {
     setRefused(null);
     of.current ??= project;

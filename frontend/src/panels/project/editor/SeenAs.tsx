@@ -5,13 +5,13 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
 
-/** Which instance's values are shown in the text of a block. */
+/** Chooses the instance whose values are shown in the text of a block. */
 export function SeenAs({ pou }: { pou: string }) {
   const instance = useSeenAs((seen) => seenAs(seen, pou));
   const all = useSeenAs((seen) => seen.instances.get(pou.toUpperCase()));
   const version = usePlc((plc) => plc.state?.program_version);
   const runs = usePlc((plc) => plc.state !== null && plc.state.state !== "off");
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another program has other instances
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a different program has different instances
   useEffect(() => {
     if (runs) void loadInstances(pou);
   }, [pou, version, runs]);

@@ -4,10 +4,10 @@ import { Icon } from "../../../ui/Icon";
 import type { Pou } from "../../../wire/types";
 import { verifyHere } from "./verifyHere";
 
-/** What runs can be verified. */
+/** Only code that runs can be verified. */
 const VERIFIED: readonly Pou["kind"][] = ["program", "function_block", "function", "method"];
 
-/** Verifies the selected lines, or the POU that one stands in. */
+/** Verifies the selected lines, or the POU at the caret. */
 export function VerifyButton({ path, pou }: { path: string; pou: Pick<Pou, "kind"> | undefined }) {
   const instance = useBench((bench) => bench.instance);
   if (!instance || !pou || !VERIFIED.includes(pou.kind)) return null;

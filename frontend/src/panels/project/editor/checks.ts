@@ -1,4 +1,4 @@
-/** The view "embedded checks": inlay text where the compiler checks a subrange, and where it proved that needless. */
+/** The view "embedded checks": inlay text where the compiler checks a subrange, and where it proved that no check is needed. */
 
 import { usePrefs } from "../../../store/page/prefs";
 import { useDocuments } from "../../../store/project/documents";
@@ -14,7 +14,7 @@ languages.registerInlayHintsProvider(LANGUAGE, {
   onDidChangeInlayHints: changed.event,
   provideInlayHints: (model: editor.ITextModel, range) => {
     if (!usePrefs.getState().checks) return { hints: [], dispose: () => undefined };
-    // They are told of the texts as they are edited, not of what ran in the past.
+    // The compiler reports them for the edited texts, not for the program that ran in the past.
     if (model.uri.scheme === PAST) return { hints: [], dispose: () => undefined };
     const path = model.uri.path.slice(1);
     const here = useDocuments.getState().checks.filter((check) => check.file === path);
@@ -23,7 +23,7 @@ languages.registerInlayHintsProvider(LANGUAGE, {
   },
 });
 
-/** The last operand and the whole that is assigned end at one place: then each says whose it is. */
+/** The last operand and the whole assigned expression end at the same place: then each inlay names its expression. */
 function sharesItsEnd(check: EmbeddedCheck, all: readonly EmbeddedCheck[]): boolean {
   return all.some(
     (other) => other !== check && other.end_line === check.end_line && other.end_column === check.end_column,

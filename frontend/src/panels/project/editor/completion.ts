@@ -1,4 +1,4 @@
-/** What can be written here: variables of the POU as they run, globals, POUs, keywords; behind a point the members. */
+/** Completions: variables of the POU in the running program, globals, POUs, keywords; after a point the members. */
 
 import { loadNames, pathOf, seenAsNow } from "../../../store/debug/seenAs";
 import { offeredMembers } from "../../../store/plc/completion";
@@ -45,7 +45,7 @@ const rangeOf = ({ lineNumber, column }: IPosition, from: number): IRange => ({
 });
 
 async function members(pou: string | undefined, owner: string, range: IRange): Promise<languages.CompletionItem[]> {
-  // Which element does not matter for what it consists of; the first one is there in most arrays.
+  // All elements of an array have the same members; most arrays have the first element.
   const instance = pou === undefined ? undefined : seenAsNow(pou);
   const path = (pou !== undefined && pathOf(pou, `${owner}.`)?.replace(/\.$/, "")) || owner;
   const fixed = path.replace(/\[[^\]]*[\p{L}_][^\]]*\]/gu, "[1]");

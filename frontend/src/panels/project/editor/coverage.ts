@@ -1,4 +1,4 @@
-/** Which lines were reached: bars beside the numbers, solid, dashed or hollow. */
+/** Marks executed lines: bars beside the line numbers, solid, dashed or hollow. */
 
 import { linesOf, sitesIn } from "../../../logic/debug/coverage";
 import { lineIn } from "../../../logic/plc/sourceLines";
@@ -6,7 +6,7 @@ import { useCoverage } from "../../../store/debug/coverage";
 import { shownText } from "../../../store/project/shownProgram";
 import type { editor } from "./monaco";
 
-/** Marks them in this editor while coverage is on. Returns how to stop. */
+/** Marks the lines in this editor while coverage is on. Returns a function that stops it. */
 export function markCoverage(code: editor.IStandaloneCodeEditor, path: string): () => void {
   const marks = code.createDecorationsCollection();
   const mark = () => {

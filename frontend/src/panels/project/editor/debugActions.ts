@@ -1,4 +1,4 @@
-/** What the context menu of the text offers for debugging. */
+/** Entries of the editor's context menu for debugging. */
 
 import { runTo } from "../../../store/debug/stepping";
 import { t } from "../../../text";

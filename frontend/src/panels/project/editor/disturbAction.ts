@@ -1,4 +1,4 @@
-/** From a line of the text to the disturbance of what its statement writes. */
+/** Opens the form of a disturbance for the result of the statement at the caret. */
 
 import { askDisturb } from "../../../store/verify/disturb";
 import { t } from "../../../text";
@@ -11,7 +11,7 @@ export function addDisturbAction(code: editor.IStandaloneCodeEditor, path: strin
     label: t("disturb.action"),
     contextMenuGroupId: "1_debug",
     contextMenuOrder: 9,
-    // The PLC knows the lines as they were built, whatever was typed since.
+    // The PLC knows the lines of the built text, which may have been edited since.
     run: () => askDisturb({ kind: "result", site: `${path}:${gutter().built(code.getPosition()?.lineNumber ?? 1)}` }),
   });
 }

@@ -1,4 +1,4 @@
-/** Breakpoints in the gutter: shown, set and taken away there. They move with the text while it is edited. */
+/** Breakpoints in the gutter: shown, set and removed there. They move with the text while it is edited. */
 
 import { isShared, lineOf, sayBreakpoint, shapeOf } from "../../../logic/debug/breakpoints";
 import { lineIn } from "../../../logic/plc/sourceLines";
@@ -15,9 +15,9 @@ interface Group {
   all: readonly BreakpointInfo[];
 }
 
-/** What else an editor has to know of its breakpoints. */
+/** What an editor stores about its breakpoints. */
 export interface Gutter {
-  /** The shared ones at a line as it is shown. */
+  /** The shared breakpoints at a line of the shown text. */
   at: (line: number) => readonly BreakpointInfo[];
   /** The line of the built text. */
   built: (line: number) => number;
@@ -69,7 +69,7 @@ export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string
     }),
   ];
   const listeners = [
-    // Another text as a whole (theirs was taken): nothing that was in the old one is at a place in it.
+    // The whole text was replaced (somebody else's text was taken): the positions in the old text are meaningless.
     code.onDidChangeModelContent(({ changes, isFlush }) => {
       if (!isFlush && !(changes.length === 1 && changes[0]?.text === code.getValue())) return;
       groups = [];
@@ -125,7 +125,7 @@ function builtLine(path: string, line: number): number {
 }
 
 function decoration({ line, all }: Group, shown: number, edited: boolean): editor.IModelDeltaDecoration {
-  // What holds says more than what does not.
+  // A breakpoint that halts takes precedence over one that does not.
   const first = all.find((each) => each.enabled && each.verified) ?? all[0];
   const foreign = all.every((each) => !isShared(each)) ? " foreign" : "";
   const says = all.map(sayBreakpoint);

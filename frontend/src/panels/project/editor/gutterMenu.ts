@@ -1,4 +1,4 @@
-/** What can be done at a line: with its breakpoints, and by running up to it. */
+/** The menu of a line: its breakpoints, and running to the line. */
 import { conditionsOf, isShared, PLAIN } from "../../../logic/debug/breakpoints";
 import { permits } from "../../../logic/debug/stepping";
 import {
@@ -17,7 +17,7 @@ import type { BreakpointInfo } from "../../../wire/types";
 
 interface At {
   path: string;
-  /** As shown, and as built. */
+  /** The line in the shown text, and in the built one. */
   line: number;
   built: number;
   here: readonly BreakpointInfo[];
@@ -53,7 +53,7 @@ export function lineMenu({ path, line, built, here }: At): MenuItem[] {
   ];
 }
 
-/** A breakpoint that is there; its conditions tell it from others at the line. */
+/** The label of a breakpoint; its conditions distinguish it from others at the line. */
 function existing(known: BreakpointInfo, line: number, several: boolean): MenuItem[] {
   const said = several ? ` (${conditionsOf(known) || `#${known.id}`})` : "";
   return [

@@ -1,4 +1,4 @@
-/** The statement that is next while the program is halted: its line in full width, with an arrow in the gutter. */
+/** Marks the next statement while the program is halted: the whole line, and an arrow in the gutter. */
 import { lineIn } from "../../../logic/plc/sourceLines";
 import { breakpointsAt, useDebug } from "../../../store/debug/debug";
 import { frameNow, useStack } from "../../../store/debug/stack";
@@ -9,13 +9,13 @@ import type { editor } from "./monaco";
 
 interface Standing {
   line: number;
-  /** Identifies the halt and frame, so that each is scrolled to once. */
+  /** Identifies the halt and frame, so that the editor scrolls to each once. */
   key: string;
   look: "halt" | "past" | "frame";
   text: string;
 }
 
-/** Marks the line in this editor, and scrolls to it when it comes. Returns how to stop. */
+/** Marks the line in this editor, and scrolls to a new one. Returns a function that stops it. */
 export function markHalt(code: editor.IStandaloneCodeEditor, path: string): () => void {
   const marks = code.createDecorationsCollection();
   let shown = "";
@@ -33,20 +33,20 @@ export function markHalt(code: editor.IStandaloneCodeEditor, path: string): () =
   };
 }
 
-/** The program runs the built text; the one that is shown may have been edited since. */
+/** The program runs the built text; the shown text may have been edited since. */
 export function shownLine(path: string, line: number): number {
   const { built, text } = shownText(path);
   return lineIn(built, text, line);
 }
 
-/** The same for what React draws. */
+/** The same as a hook. */
 export function useStanding(path: string): Standing | null {
   usePlc((plc) => plc.state?.halt);
   useStack((stack) => stack.frame);
   return standingIn(path);
 }
 
-/** The halt, or the place of a caller that was chosen in the call stack. */
+/** The place of the halt, or of a caller that was selected in the call stack. */
 export function standingIn(path: string): Standing | null {
   const halt = usePlc.getState().state?.halt;
   if (!halt) return null;

@@ -1,4 +1,4 @@
-/** What a name is and what it is worth now: in the frame while the program is halted, else as the instance that the text is seen as. */
+/** The meaning and the value of a name: in the frame while the program is halted, else in the instance that the text is seen as. */
 
 import { worthOf } from "../../../store/debug/console";
 import { loadNames, seenAsNow } from "../../../store/debug/seenAs";

@@ -1,6 +1,6 @@
 /**
- * Live values behind the lines that are in sight. They lie over the text as elements of their own, written by the frames
- * themselves: as decorations, twenty times a second, they would have Monaco lay out its lines again.
+ * Live values at the ends of the visible lines. They are elements above the text, and value frames write their texts directly:
+ * as decorations, twenty times a second, they would make Monaco lay out its lines again.
  */
 
 import { type NamedVariable, variablesIn } from "../../../logic/debug/inline";
@@ -22,7 +22,7 @@ import { hasValues } from "./names";
 
 const MOST = 6;
 
-/** A value behind a line: watched by its path, or told with the halt. */
+/** A value at the end of a line: watched by its path, or part of the halt. */
 interface Shown {
   name: string;
   path: string | null;
@@ -81,7 +81,7 @@ export function showInlineValues(code: editor.IStandaloneCodeEditor, path: strin
     code.onDidLayoutChange(schedule),
     code.onDidChangeModelContent(schedule),
     code.onDidChangeHiddenAreas(schedule),
-    // The find widget makes room above the first line, and what is written into a line by others makes it longer.
+    // The find widget makes room above the first line, and inlay texts make a line longer.
     code.onDidChangeViewZones(schedule),
     code.onDidChangeModelDecorations(schedule),
   ];
@@ -108,15 +108,15 @@ export function showInlineValues(code: editor.IStandaloneCodeEditor, path: strin
 
 interface RowWanted {
   values: Shown[];
-  /** Behind the statement that is next: what was computed in the scan before. */
+  /** The line is after the next statement: its values are those of the previous scan. */
   old: boolean;
-  /** Said behind the line at which the program stands. */
+  /** The text at the end of the line at which the program is halted. */
   next: "" | "next" | "past" | "calls";
 }
 
 const SAID = { next: "debug.next", past: "debug.next", calls: "debug.callshere" } as const;
 
-/** What to show, by line: the variables that the lines in sight name, as the instance has them that the text is seen as. */
+/** The values to show, by line: the variables that the visible lines name, as paths of the instance that the text is seen as. */
 function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, RowWanted> {
   const wanted = new Map<number, RowWanted>();
   const model = code.getModel();
@@ -162,7 +162,7 @@ function valuesOf(named: readonly NamedVariable[], pou: string, inFrame: boolean
   return shown;
 }
 
-/** The elements of a row; their texts are written by the values themselves from now on. */
+/** The elements of a row; from now on the values write their texts themselves. */
 function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, "key"> {
   const element = document.createElement("div");
   element.className = `inlinerow${old ? " old" : ""}`;
@@ -213,7 +213,7 @@ function place(code: editor.IStandaloneCodeEditor, rows: ReadonlyMap<number, Row
   }
 }
 
-/** How much wider a line is drawn than its text: subrange checks and what readers say are written into it. */
+/** How much wider a line is drawn than its text: subrange checks and marks of readers are inserted into it. */
 function insertedWidth(code: editor.IStandaloneCodeEditor, model: editor.ITextModel, line: number): number {
   const inserts = model.getLineDecorations(line).some(({ options }) => options.after || options.before);
   if (!inserts) return 0;

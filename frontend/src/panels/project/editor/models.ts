@@ -1,4 +1,4 @@
-/** One Monaco model for each open file, in step with the document store both ways; diagnostics become markers. */
+/** One Monaco model for each open file, synchronised with the document store in both directions; diagnostics become markers. */
 
 import { isTable } from "../../../logic/project/explorer";
 import { usePlc } from "../../../store/plc/plc";
@@ -19,10 +19,10 @@ const SEVERITY: Record<Problem["severity"], MarkerSeverity> = {
   info: MarkerSeverity.Info,
 };
 
-/** Scheme of texts as they ran. */
+/** URI scheme of texts as they ran. */
 export const PAST = "scanbench-past";
 
-/** A text as it ran in the past: nobody edits it, and its editor disposes of it. */
+/** A text as it ran in the past: it is read-only, and its editor disposes of it. */
 export const pastModel = (path: string, text: string): editor.ITextModel =>
   editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, Uri.from({ scheme: PAST, path: `/${path}` }));
 
@@ -61,7 +61,7 @@ function markModel(path: string, model: editor.ITextModel): void {
   );
 }
 
-/** Where an embedded check found a value outside of its subrange while the program ran. */
+/** A marker where an embedded check found a value outside its subrange while the program ran. */
 function markViolations(path: string, model: editor.ITextModel): void {
   const { violations } = usePlc.getState().diagnostics;
   const marker = (violation: Violation) => ({

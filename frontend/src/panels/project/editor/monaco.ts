@@ -69,12 +69,12 @@ function paint(): void {
   editor.setTheme(THEME);
 }
 
-// The build shortens #ffffff to #fff, which Monaco does not take.
+// The build shortens #ffffff to #fff, which Monaco does not accept.
 function sixDigits(colour: string): string {
   return colour.length === 4 ? colour.replace(/[^#]/g, "$&$&") : colour;
 }
 
-// Colours by depth would be louder than the syntax and than the states.
+// Colours by nesting depth would be more prominent than the syntax and the states.
 function brackets(colour: string): Record<string, string> {
   return Object.fromEntries([1, 2, 3, 4, 5, 6].map((depth) => [`editorBracketHighlight.foreground${depth}`, colour]));
 }
@@ -96,7 +96,7 @@ export const options: editor.IStandaloneEditorConstructionOptions = {
   wordBasedSuggestions: "off",
   quickSuggestions: { other: true, comments: false, strings: false },
   acceptSuggestionOnCommitCharacter: false,
-  // What is typed is what the text says: nothing is completed, closed or indented before somebody asks for it (`tab.ts`).
+  // The editor inserts only what is typed: it completes, closes and indents nothing unless somebody asks for it (`tab.ts`).
   suggest: { selectionMode: "never" },
   autoClosingBrackets: "never",
   autoClosingQuotes: "never",
@@ -114,7 +114,7 @@ export const options: editor.IStandaloneEditorConstructionOptions = {
   smoothScrolling: false,
   renderLineHighlight: "line",
   renderWhitespace: "none",
-  // Dimmed, as it is otherwise, its number cannot be read.
+  // The default dims it too much for the number to be readable.
   renderFinalNewline: "on",
   occurrencesHighlight: "singleFile",
   overviewRulerBorder: false,

@@ -5,7 +5,7 @@ import type { Pou } from "../../../wire/types";
 import type { editor, IPosition } from "./monaco";
 
 interface Name {
-  /** Up to the part that is meant: on `zone` of `zone.jams` it is `zone`. */
+  /** The path up to the part that is meant: on `zone` of `zone.jams` it is `zone`. */
   text: string;
   from: number;
   to: number;
@@ -25,7 +25,7 @@ export function nameAt(model: editor.ITextModel, { lineNumber, column }: IPositi
 
 const pathOfModel = (model: editor.ITextModel) => model.uri.path.slice(1);
 
-/** A type declares what its variables will have: it has no values itself, whatever else bears the names in it. */
+/** A type declares the members of its variables and has no values itself, even if a variable of the same name exists. */
 export const hasValues = ({ kind }: Pou) => kind !== "type" && kind !== "interface";
 
 export function pouOf(model: editor.ITextModel, line: number): Pou | undefined {

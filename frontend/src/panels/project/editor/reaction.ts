@@ -1,4 +1,4 @@
-/** The lines that had to do with the error selected in the simulator: who read it, and what was reached only with it. */
+/** Marks the lines that took part in the reaction to the selected error: its readers, and the lines that ran only because of it. */
 import { readersOf, stretchesOf } from "../../../logic/errors/reaction";
 import { catalogueNow } from "../../../store/errors/catalogue";
 import { useReaction } from "../../../store/errors/reaction";
@@ -6,7 +6,7 @@ import { t } from "../../../text";
 import type { Reaction } from "../../../wire/types";
 import type { editor } from "./monaco";
 
-/** Marks them in this editor as long as the error is selected. Returns how to stop. */
+/** Marks them in this editor while the error is selected. Returns a function that stops it. */
 export function markReaction(code: editor.IStandaloneCodeEditor, path: string): () => void {
   const marks = code.createDecorationsCollection();
   const mark = () => {
@@ -40,7 +40,7 @@ function handlerLines(from: number, to: number, text: string): editor.IModelDelt
   };
 }
 
-/** An eye beside the number of the line, and behind the text what was read: a mark alone says too little. */
+/** An eye beside the line number, and the text that was read at the end of the line: a mark alone is not clear enough. */
 function readerLine(line: number, says: string, text: string): editor.IModelDeltaDecoration {
   const end = Number.MAX_SAFE_INTEGER;
   return {

@@ -1,4 +1,4 @@
-/** Structured Text for Monaco: tokens and the editing habits of the language. */
+/** Structured Text for Monaco: tokens and indentation rules. */
 import type { languages } from "monaco-editor/editor";
 
 export const LANGUAGE = "iecst";
@@ -26,12 +26,12 @@ export const tokenizer: languages.IMonarchLanguage = {
   constants: ["TRUE", "FALSE"],
   tokenizer: {
     root: [
-      // Operators of Instruction List stand first in their line; elsewhere they are names like any other.
+      // Operators of Instruction List are the first word of their line; elsewhere they are ordinary names.
       [
         /^\s*(LDN?|STN?|S|R|JMP(CN?)?|CAL(CN?)?|RET(CN?)?|(AND|OR|XOR)N?|ADD|SUB|MUL|DIV|[GLN][ET]|EQ)(?=\(|\s+[\w%'"#]|\s*$)/,
         "keyword",
       ],
-      // `RESOURCE r ON model`; elsewhere `on` is a name that people like.
+      // `RESOURCE r ON model`; elsewhere `on` is a common variable name.
       [/\bON\b(?=\s+[A-Z_][\w-]*\s*($|\/\/|\(\*))/, "keyword"],
       [/\(\*/, "comment", "@comment"],
       [/\/\*/, "comment", "@ccomment"],
@@ -77,7 +77,7 @@ export const tokenizer: languages.IMonarchLanguage = {
   },
 };
 
-/** A line after which the text is one level deeper. */
+/** A line after which the next line is one level deeper. */
 export const opens =
   /^\s*(IF|CASE|FOR|WHILE|REPEAT|PROGRAM|FUNCTION(_BLOCK)?|CLASS|INTERFACE|METHOD|PROPERTY|NAMESPACE|TYPE|VAR(_\w+)?|CONFIGURATION|RESOURCE)\b(?!.*\bEND_\w+)|:\s*STRUCT\s*$|^\s*(ELSE|ELSIF)\b/i;
 const closes = /^\s*(END_\w+|ELSE|ELSIF|UNTIL)\b/i;

@@ -1,4 +1,4 @@
-/** What Tab does: it takes the first suggestion, and indents an empty line as its block is. Enter and all other keys are text. */
+/** The Tab key: takes the first suggestion, or indents an empty line like its block. Enter and all other keys only insert text. */
 import { t } from "../../../text";
 import type { editor } from "./monaco";
 import { KeyCode } from "./monaco";
@@ -28,7 +28,7 @@ export function addTabActions(code: editor.IStandaloneCodeEditor): void {
   });
 }
 
-/** What an empty line lacks of the indentation of its block; nothing in a line that has text, or with several carets. */
+/** The missing indentation of an empty line; nothing for a line with text, or with several carets. */
 function missingIndent(code: editor.IStandaloneCodeEditor): string {
   const model = code.getModel();
   const [caret, ...others] = code.getSelections() ?? [];

@@ -1,11 +1,11 @@
-/** The line at which the program was stopped by itself: marked in full width, with an arrow in the gutter. */
+/** Marks the line of a run-time error: the whole line, and an arrow in the gutter. */
 import { usePlc } from "../../../store/plc/plc";
 import type { InstanceState } from "../../../wire/types";
 import type { editor } from "./monaco";
 
 type Trap = NonNullable<InstanceState["trap"]>;
 
-/** Marks the line in this editor as long as the trap lasts, and scrolls to it when it comes. Returns how to stop. */
+/** Marks the line in this editor until the run-time error is over, and scrolls to a new one. Returns a function that stops it. */
 export function markTrap(code: editor.IStandaloneCodeEditor, path: string): () => void {
   const marks = code.createDecorationsCollection();
   let shown: string | null = null;

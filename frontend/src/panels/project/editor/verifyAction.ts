@@ -1,4 +1,4 @@
-/** From the text into the verification, by key and context menu. */
+/** Verifies code from the editor, by key and context menu. */
 import { t } from "../../../text";
 import { type editor, KeyCode, KeyMod } from "./monaco";
 import { rememberSelection, verifyHere } from "./verifyHere";

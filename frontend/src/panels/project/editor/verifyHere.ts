@@ -1,19 +1,19 @@
-/** What *Verify range* takes: the lines that are selected, or all of the POU at the caret. The page has it before it has Monaco. */
+/** The range of *Verify range*: the selected lines, or the whole POU at the caret. In a file of its own, because the page needs it before Monaco is loaded. */
 import { pouAt } from "../../../logic/plc/sourceLines";
 import { shownText } from "../../../store/project/shownProgram";
 import { verifyLines, verifyPou } from "../../../store/verify/verify";
 import type { editor } from "./monaco";
 
-/** What is selected in each editor, for the button above the text. */
+/** The selection of each editor, for the button above the text. */
 const selections = new Map<string, editor.IStandaloneCodeEditor>();
 
-/** From now on this editor's selection counts. */
+/** Tracks the selection of this editor from now on. */
 export function rememberSelection(code: editor.IStandaloneCodeEditor, path: string): void {
   selections.set(path, code);
   code.onDidDispose(() => selections.get(path) === code && selections.delete(path));
 }
 
-/** Lines that are selected: one that ends at the beginning of a line does not take that line. */
+/** The selected lines: a selection that ends at the beginning of a line does not include that line. */
 export function verifyHere(path: string): void {
   const selection = selections.get(path)?.getSelection();
   if (selection && !selection.isEmpty()) {

@@ -1,4 +1,4 @@
-/** From the text into the watch table: the name at the caret or what is selected, by menu, key, or dragged there. */
+/** Adds the name at the caret or the selection to the watch table: by menu, by key, or by dragging it there. */
 
 import { pathsIn } from "../../../logic/format/paths";
 import { pouAt } from "../../../logic/plc/sourceLines";
@@ -22,8 +22,8 @@ export function addWatchAction(code: editor.IStandaloneCodeEditor, path: string)
 
 const FAR_ENOUGH = 4;
 
-/** A selection can be dragged out of the editor into the watch table. Monaco drags with the mouse, so the browser's own way
- * of dragging is not there to be used. */
+/** A selection can be dragged from the editor into the watch table. Monaco implements dragging with mouse events, so the drag
+ * and drop of the browser is not available. */
 export function dragToWatch(code: editor.IStandaloneCodeEditor, host: HTMLElement, path: string): () => void {
   const events = new AbortController();
   const { signal } = events;
@@ -88,7 +88,7 @@ async function watchNames(path: string, line: number, names: readonly string[]):
   if (names.length > 0) addToWatch(await pathsOf(path, line, names));
 }
 
-/** What is written in a POU means variables of the instance that it is seen as, or globals. */
+/** A name in a POU means a variable of the instance that the text is seen as, or a global one. */
 export async function pathsOf(path: string, line: number, names: readonly string[]): Promise<string[]> {
   const { pous, text } = shownText(path);
   const pou = pouAt(pous, path, line, text);
@@ -101,7 +101,7 @@ function pathIn(pou: string | undefined, name: string): string {
   const instance = pou === undefined ? undefined : (seenAsNow(pou) ?? pou);
   const root = /^[^.[^]+/.exec(name)?.[0].toUpperCase();
   const has = (owner: string) => of.get(owner)?.some((symbol) => symbol.name.toUpperCase() === root) ?? false;
-  // What is not known is the row's to say.
+  // If the name is not known, its row in the watch table says so.
   const isOwn = instance !== undefined && !name.startsWith("%") && (has(instance) || !has(""));
   return isOwn ? `${instance}.${name}` : name;
 }

@@ -1,4 +1,4 @@
-/** Who last wrote the variable at the caret: asked from the text. */
+/** Shows who last wrote the variable at the caret. */
 
 import { refuseWriter, showWriter } from "../../../store/past/writer";
 import { t } from "../../../text";

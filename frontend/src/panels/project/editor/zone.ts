@@ -1,4 +1,4 @@
-/** Room between two lines of an editor for something of the page, which moves and scrolls with the text. */
+/** Makes room between two lines of an editor for an element of the page, which moves and scrolls with the text. */
 import type { editor } from "./monaco";
 
 export interface Zone {
@@ -12,8 +12,8 @@ const LINE = 20;
 let next = 0;
 
 /**
- * Opens below a line and is as high as what is put into it. Monaco's zones lie below its text and hear no mouse: the zone only
- * makes room, the element lies over it.
+ * Opens below a line and is as high as its content. Monaco's zones are below its text and get no mouse events: the zone only
+ * makes room, the element lies above it.
  */
 export function openZone(code: editor.IStandaloneCodeEditor, line: number): Zone {
   next += 1;

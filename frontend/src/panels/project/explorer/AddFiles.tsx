@@ -6,7 +6,7 @@ import { Dialog } from "../../../ui/Dialog";
 import { IconButton } from "../../../ui/IconButton";
 import type { Adding } from "./useAddFiles";
 
-/** Brings files from this computer into the project; what could not be taken is listed with the reason. */
+/** Adds files from this computer to the project; refused files are listed with the reason. */
 export function AddFiles({ adding }: { adding: Adding }) {
   const input = useRef<HTMLInputElement>(null);
   const project = useDocuments((documents) => documents.project);

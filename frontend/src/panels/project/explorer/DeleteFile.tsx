@@ -2,7 +2,7 @@ import { deleteFile } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Confirm } from "../../../ui/Confirm";
 
-/** Deleting a file cannot be undone, so this one asks. */
+/** Deleting a file cannot be undone, so this dialog asks. */
 export function DeleteFile({ path, onClose }: { path: string; onClose: () => void }) {
   return (
     <Confirm

@@ -11,7 +11,7 @@ import { NewFile } from "./NewFile";
 import { useExplorerRows } from "./rows";
 import { useAddFiles } from "./useAddFiles";
 
-/** What there is: files by what they declare, the variables of the running program, memory, model. */
+/** The tree: files by what they declare, the variables of the running program, memory, model. */
 export function Explorer() {
   const { open, menu } = useMenu();
   const [creating, setCreating] = useState(false);

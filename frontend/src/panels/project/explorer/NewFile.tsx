@@ -7,7 +7,7 @@ import { t } from "../../../text";
 import { Field } from "../../../ui/Field";
 import { FormDialog } from "../../../ui/FormDialog";
 
-/** Asks for a name and makes the file with the frame of what the name promises. */
+/** Asks for a name and creates the file with the text that fits the name. */
 export function NewFile({ onClose }: { onClose: () => void }) {
   const files = useDocuments((documents) => documents.files);
   const input = useBench((bench) => bench.model?.areas[0]?.first);

@@ -1,6 +1,6 @@
 import type { FileNode, PouNode } from "../../../logic/project/explorer";
 
-/** The name of a declaration; with its file when the file holds more than one. */
+/** The name of a declaration; with its file when the file contains several. */
 export function PouLabel({ node }: { node: PouNode | FileNode }) {
   return (
     <>

@@ -42,7 +42,7 @@ const POU_ICONS: Record<Exclude<PouGroup["kind"], "plant">, IconName> = {
 
 const SYMBOL_ICONS: Partial<Record<PlcSymbol["kind"], IconName>> = { array: "array", struct: "struct", block: "fb" };
 
-/** What runs, and so can be verified. */
+/** Kinds of declarations that run, and so can be verified. */
 const VERIFIED: readonly PouGroup["kind"][] = ["program", "function_block", "function"];
 
 interface Folding {
@@ -128,7 +128,7 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
 
 const plantIcon = (file: string): IconName => (isTable(file) ? "list" : "program");
 
-/** Whether this is the one declaration of its file that the cursor stands in. */
+/** Whether this is the declaration of its file that contains the cursor. */
 function isAround(node: PouNode | FileNode, kind: PouGroup["kind"], here: Pou | undefined): boolean {
   if (node.kind === "file") return true;
   if (kind === "global") return here === undefined;
@@ -166,7 +166,7 @@ interface Marked {
   file: string;
   dirty: boolean;
   problems: readonly Problem[];
-  /** Whether a line of the file belongs to this row: a file may declare several things. */
+  /** Whether a line of the file belongs to this row: a file may contain several declarations. */
   holds: (line: number) => boolean;
 }
 
@@ -256,7 +256,7 @@ function modelRows(model: ModelInfo, folding: Folding, openMenu: OpenMenu): Tree
   ];
 }
 
-/** The way to the errors that the project defines itself. */
+/** Opens the page of the errors that the project defines itself. */
 function userErrorsRow(model: ModelInfo): TreeRow {
   const own = allErrors(model.catalogue).filter((error) => error.user).length;
   const name = t("usererrors.title");
@@ -271,13 +271,13 @@ function userErrorsRow(model: ModelInfo): TreeRow {
   };
 }
 
-/** How many of the model's errors were looked up in its manuals. */
+/** How many of the model's errors were checked against its manuals. */
 function verifiedOf({ error_count: count, verified_count: verified }: ModelInfo): string {
   if (count === 0) return t("explorer.errorcount", { count });
   return t("explorer.verified", { count, verified, share: percent((100 * verified) / count) });
 }
 
-/** An area of the memory; unfolded, who may do what with it. */
+/** An area of the memory; unfolded it says who may access it, and how. */
 function areaRows(area: Area, folding: Folding, openMenu: OpenMenu): TreeRow[] {
   const add = () => addToWatch([area.first]);
   const key = `area:${area.first}`;

@@ -8,12 +8,12 @@ import { t } from "../../../text";
 
 export interface Adding {
   add: (chosen: readonly File[]) => Promise<void>;
-  /** What could not be taken, with the reason. */
+  /** The refused files, with the reason. */
   refused: readonly string[];
   forget: () => void;
 }
 
-/** Takes files, chosen or dropped, into the project, and opens the first. */
+/** Adds chosen or dropped files to the project, and opens the first. */
 export function useAddFiles(): Adding {
   const [refused, setRefused] = useState<readonly string[]>([]);
 
@@ -35,7 +35,7 @@ export function useAddFiles(): Adding {
   return { add, refused, forget: () => setRefused([]) };
 }
 
-/** Tables go to the plant without being asked for it. */
+/** Tables go to the plant without a question. */
 async function addFile(file: File): Promise<string> {
   const path = placeFor(file.name);
   const known = useDocuments.getState().files;

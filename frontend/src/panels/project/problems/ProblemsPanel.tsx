@@ -11,7 +11,7 @@ const LOOK: Record<Problem["severity"], { icon: IconName; tone: string }> = {
   info: { icon: "info", tone: "info" },
 };
 
-/** What the compiler finds in the texts as they stand. A click goes there. */
+/** The problems that the compiler finds in the texts while they are edited. A click goes to the place. */
 export function ProblemsPanel() {
   const problems = useDocuments((documents) => documents.problems);
   const trouble = useDocuments((documents) => documents.trouble);

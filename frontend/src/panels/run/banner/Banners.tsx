@@ -11,8 +11,8 @@ import { RestartingBanner } from "./RestartingBanner";
 import { SpaceBanner } from "./SpaceBanner";
 import { TrapBanner } from "./TrapBanner";
 
-/** At most one banner about the PLC, the most serious: no connection, then what stops it; and one about its recording. Below: the link that was
- * opened, replays of the run. */
+/** At most one banner about the PLC, the most severe: no connection, then a stop; and one about its recording. Below: the link that was
+ * opened, and replays of the run. */
 export function Banners() {
   const link = usePlc((plc) => plc.link);
   if (link.state === "lost") return <LostBanner link={link} />;
@@ -43,7 +43,7 @@ function PlcBanner() {
     case "off":
       return <OffBanner />;
     case "no_space":
-      // One that has a process tells of it as trouble of its recording.
+      // A PLC that has a process reports it as a problem of its recording.
       return waitsForSpace(state) ? <SpaceBanner state={state} /> : null;
     default:
       return null;

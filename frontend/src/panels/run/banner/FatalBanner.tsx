@@ -12,11 +12,11 @@ import type { InstanceState, Mode } from "../../../wire/types";
 async function goOn(mode: Mode): Promise<void> {
   if (!(await clearFatal())) return;
   await backTo(mode);
-  // What it said of the recovery ("the program stays stopped") is over.
+  // Drops the message of the recovery ("the program stays stopped"), which is no longer true.
   forgetOutcome();
 }
 
-/** A fatal error: its code and cause, what it did, and the way back. */
+/** A fatal error: its code and cause, its effect, and how to recover. */
 export function FatalBanner({ state }: { state: InstanceState }) {
   const errors = usePlc((plc) => plc.errors);
   const { byId } = useCatalogue();

@@ -3,7 +3,7 @@ import { answerLink, putAwayLinkTrouble, useLinks } from "../../../store/plc/lin
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
-/** The address that was opened: why it could not be followed, or whether to go to its scan though others are here. */
+/** About the opened address: why it could not be followed, or whether to go to its scan although others use the PLC. */
 export function LinkBanner() {
   const { question, trouble } = useLinks();
   return (

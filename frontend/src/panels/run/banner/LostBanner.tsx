@@ -7,7 +7,7 @@ import { reconnectNow } from "../../../store/plc/reconnect";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
-/** No connection: since when, what is still shown, when the next try comes. */
+/** No connection: since when, what is still shown, when the page tries again. */
 export function LostBanner({ link }: { link: LinkStatus }) {
   const name = useBench((bench) => bench.instance?.name ?? "");
   const [now, setNow] = useState(Date.now());

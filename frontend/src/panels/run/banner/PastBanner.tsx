@@ -12,7 +12,7 @@ import { CopyButton } from "../../../ui/CopyButton";
 import { Icon } from "../../../ui/Icon";
 import type { Instance, InstanceState } from "../../../wire/types";
 
-/** What is shown is the past: which scan, who went there, and the two ways on. */
+/** The page shows the past: which scan, who went there, and the two ways to continue. */
 export function PastBanner({ state }: { state: InstanceState }) {
   const instance = useBench((bench) => bench.instance);
   const [asking, setAsking] = useState<{ instance: Instance; scan: number } | null>(null);

@@ -2,7 +2,7 @@ import { putAwayDamage, useTimeline } from "../../../store/plc/timeline";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
-/** The run file: nothing is recorded now, or it was found damaged when it was opened. */
+/** The run file: nothing is recorded at the moment, or the file was damaged when it was opened. */
 export function RecordingBanner() {
   const recording = useTimeline((timeline) => timeline.info?.recording ?? "");
   const damage = useTimeline((timeline) => timeline.info?.damage ?? "");

@@ -5,7 +5,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { Rerun } from "../../../wire/types";
 
-/** Replays of this run: how far they are, then the instance that came of each. */
+/** Replays of this run: their progress, then the instance that each produced. */
 export function RerunBanners() {
   const { list, trouble } = useReruns();
   return (

@@ -7,7 +7,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { InstanceState } from "../../../wire/types";
 
-/** The process of the PLC died: it is being started again, or that did not work either. Or it does not answer. */
+/** The process of the PLC ended: it is being started again, or that failed. Or it does not answer. */
 export function RestartingBanner({ state }: { state: InstanceState }) {
   const silent = state.state === "silent";
   if (state.state === "failed") return <FailedBanner state={state} />;
@@ -22,7 +22,7 @@ export function RestartingBanner({ state }: { state: InstanceState }) {
   );
 }
 
-/** It has no process that could take a restart: where anything can start it, it is switched on once more. */
+/** Without a process the PLC cannot take a restart: where it can be started at all, the button switches it on again. */
 function FailedBanner({ state }: { state: InstanceState }) {
   const instance = useBench((bench) => bench.instance);
   const hopeless = useForbidden("newrun") !== null;

@@ -2,7 +2,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { InstanceState } from "../../../wire/types";
 
-/** The disk is full, so that the PLC cannot begin: it has no process, and is tried again and again. */
+/** The disk is full, so the PLC cannot begin: it has no process, and the server tries again and again. */
 export function SpaceBanner({ state }: { state: InstanceState }) {
   return (
     <div className="banner fatal" role="alert">

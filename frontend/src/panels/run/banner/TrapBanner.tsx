@@ -5,7 +5,7 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { InstanceState } from "../../../wire/types";
 
-/** The program stopped itself: why, where, and how to go on. */
+/** A run-time error stopped the program: why, where, and how to continue. */
 export function TrapBanner({ state }: { state: InstanceState }) {
   const { trap } = state;
   const message = trap?.message ?? state.message;

@@ -10,7 +10,7 @@ import { Icon } from "../../../ui/Icon";
 import { ChangesTable } from "./ChangesTable";
 import { Entries } from "./Entries";
 
-/** What changed between two scans: which variables, and what was entered in between. */
+/** What changed between two scans: which variables, and which commands were entered in between. */
 export function ChangesDialog() {
   const { asked, found, refused } = useChanges();
   if (!asked) return null;

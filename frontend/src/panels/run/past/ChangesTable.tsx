@@ -11,13 +11,13 @@ import type { RunChanges, VariableChange } from "../../../wire/types";
 interface Props {
   changes: RunChanges;
   label: string;
-  /** What the two columns of values are. */
+  /** The headings of the two value columns. */
   heads: readonly [string, string];
-  /** Who last wrote it is asked from here; null: not to be asked. */
+  /** The scan for the question who last wrote the variable; null: the question is not offered. */
   writerBefore: number | null;
 }
 
-/** Variables with two values each: filtered, and to be copied. Only the rows in sight exist in the page. */
+/** Variables with two values each, with a filter and a copy button. Only the visible rows are in the page. */
 export function ChangesTable({ changes, label, heads, writerBefore }: Props) {
   const [filter, setFilter] = useState("");
   const shown = useMemo(() => filterChanges(changes.changes, filter), [changes, filter]);
@@ -73,7 +73,7 @@ function Rows({ rows, label, heads, writerBefore }: RowsProps) {
       role="table"
       aria-label={label}
       aria-rowcount={rows.length + 1}
-      // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by the keyboard
+      // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
       tabIndex={0}
     >
       <div className="gr h" role="row" aria-rowindex={1}>

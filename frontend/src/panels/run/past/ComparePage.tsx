@@ -25,11 +25,11 @@ const LOOK: Record<ReturnType<typeof verdictOf>, { icon: IconName; tone: string 
   apart: { icon: "differs", tone: "fatal" },
 };
 
-/** Two runs side by side: where they part first, why, and what is another there. */
+/** Two runs side by side: the scan in which they diverge, why, and which variables differ there. */
 export function ComparePage() {
   const instance = useBench((bench) => bench.instance);
   const comparisons = useComparisons();
-  // Others may have branched or replayed meanwhile.
+  // Others may have made branches or replays meanwhile.
   useEffect(() => void refreshApp().catch(() => undefined), []);
   const shown = shownComparison(comparisons);
   return (
@@ -51,7 +51,7 @@ export function ComparePage() {
   );
 }
 
-/** With which other run; its branches come first. */
+/** Chooses the run to compare with; its branches come first. */
 function Choose() {
   const instance = useBench((bench) => bench.instance);
   const all = useBench((bench) => bench.app?.instances);

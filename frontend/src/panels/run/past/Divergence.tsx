@@ -11,7 +11,7 @@ import type { RunDivergence } from "../../../wire/types";
 import { ChangesTable } from "./ChangesTable";
 import { Entries } from "./Entries";
 
-/** So many stretches are listed; the timeline marks all of them. */
+/** At most this many stretches are listed; the timeline marks all of them. */
 const LISTED = 12;
 
 interface Props {
@@ -21,7 +21,7 @@ interface Props {
   names: Readonly<Record<"A" | "B", string>>;
 }
 
-/** What came of a comparison: the first scan in which the runs part, the statement, why; then what is another there. */
+/** The result of a comparison: the first scan in which the runs diverge, the statement, why; then the variables that differ. */
 export function Divergence({ result, b, names }: Props) {
   const { scan, compared, first, last, text, changes, entries } = result;
   const { errors } = useCatalogue();

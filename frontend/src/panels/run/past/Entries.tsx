@@ -7,14 +7,14 @@ import type { BetweenEntry } from "../../../wire/types";
 interface Props {
   title: string;
   entries: readonly BetweenEntry[];
-  /** Said when there are none. */
+  /** The text for an empty list. */
   none?: string;
-  /** What the runs A and B are called. */
+  /** The names of the runs A and B. */
   names?: Readonly<Record<string, string>>;
   onGo: (scan: number) => void;
 }
 
-/** What was entered through the one door: scan, who, what. */
+/** The commands of the runs: scan, author, text. */
 export function Entries({ title, entries, none, names = {}, onGo }: Props) {
   const { errors } = useCatalogue();
   if (entries.length === 0) return none === undefined ? null : <p className="hint">{none}</p>;
@@ -23,7 +23,7 @@ export function Entries({ title, entries, none, names = {}, onGo }: Props) {
       <h3>{title}</h3>
       <ul>
         {entries.map(({ scan, run, author, text }, index) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: the same may be entered twice in front of one scan
+          // biome-ignore lint/suspicious/noArrayIndexKey: the same command may be entered twice before one scan
           <li key={`${scan} ${index}`}>
             <button
               type="button"

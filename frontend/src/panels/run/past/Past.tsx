@@ -3,7 +3,7 @@ import { RerunDialog } from "./RerunDialog";
 import { WriterDialog } from "./WriterDialog";
 import "./past.css";
 
-/** The dialogs about the past, wherever they were asked for. */
+/** The dialogs about the past, which several panels open. */
 export function Past() {
   return (
     <>

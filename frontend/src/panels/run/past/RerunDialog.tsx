@@ -10,7 +10,7 @@ import { t } from "../../../text";
 import { Field } from "../../../ui/Field";
 import { FormDialog } from "../../../ui/FormDialog";
 
-/** What is to be another this time: the error, its scan, or that it comes at all. */
+/** Asks what to change in the replay: the error, its scan, or whether it is raised at all. */
 export function RerunDialog() {
   const wish = useReruns((reruns) => reruns.wish);
   return wish && <Ask key={`${wish.scan} ${wish.error} ${wish.by} ${wish.how}`} wish={wish} />;

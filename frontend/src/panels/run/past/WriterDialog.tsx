@@ -20,7 +20,7 @@ const LOOK: Record<LastWriter["by"], { icon: IconName; tone: string }> = {
   start: { icon: "init", tone: "never" },
 };
 
-/** Who last wrote a variable: the statement with its instance, or the command with its author; and the ways on from there. */
+/** Who last wrote a variable: the statement with its instance, or the command with its author; and where to go from there. */
 export function WriterDialog() {
   const { asked, found, refused } = useWriter();
   if (asked === null) return null;
@@ -83,7 +83,7 @@ function Fact({ name, children }: { name: string; children: ReactNode }) {
   );
 }
 
-/** The statement stands in the text that was built; the one in the editor may be another by now. */
+/** The statement belongs to the built text; the text in the editor may differ by now. */
 function Edited({ file, line }: { file: string; line: number }) {
   const dirty = useDocuments((documents) => isDirty(documents.open[file]));
   const version = usePlc((plc) => plc.state?.program_version ?? 0);

@@ -9,7 +9,7 @@ import { t } from "../../../text";
 import { StateWord } from "../../../ui/StateWord";
 import { type RunOnAxis, scanOfTime } from "./useRun";
 
-/** At the right: whether this is now, where a run is on its way to, and the scan to go to by its number. */
+/** The right end: whether the page is live, the target of a run, and a field for a scan to go to. */
 export function End({ run }: { run: RunOnAxis | null }) {
   const online = useOnline();
   const state = usePlc((plc) => plc.state);
@@ -18,8 +18,8 @@ export function End({ run }: { run: RunOnAxis | null }) {
   const target = state?.state === "running" ? state.target : "";
   const [bad, setBad] = useState<string | null>(null);
   const scan = state?.past ? state.scan : null;
-  // What was wrong with a scan to go to is over once another one is shown.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: the scan that is shown is the reason
+  // The message about a wrong scan disappears when a different scan is shown.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs when a different scan is shown
   useEffect(() => setBad(null), [scan]);
   return (
     <div className="tl-end">

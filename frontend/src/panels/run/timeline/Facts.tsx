@@ -11,7 +11,7 @@ import type { RunOnAxis } from "./useRun";
 
 const STEP = 4;
 
-/** At the left: how long the run is, what it costs, what of it is slower to reach or gone; closer and wider looks. */
+/** The left end: the length and the size of the run, which part is slower to reach or gone; zoom buttons. */
 export function Facts({ run, interval }: { run: RunOnAxis | null; interval: number }) {
   const info = useTimeline((timeline) => timeline.info);
   const view = useTimeline((timeline) => timeline.view);
@@ -20,7 +20,7 @@ export function Facts({ run, interval }: { run: RunOnAxis | null; interval: numb
   function zoom(factor: number): void {
     if (!run) return;
     const { axis, whole, position } = run;
-    // A playhead that is out of sight holds nothing in its place.
+    // Zooming keeps the playhead in place only while it is visible.
     const held = position >= axis.from && position <= axis.to ? position : (axis.from + axis.to) / 2;
     setView(zoomed(axis, whole, factor, held), whole);
   }

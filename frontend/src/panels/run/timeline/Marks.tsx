@@ -24,7 +24,7 @@ const LOOK: Record<ShownMark["kind"], { icon: IconName | null; tone: string }> =
   difference: { icon: "differs", tone: "diff" },
 };
 
-/** Room for an icon and a number of two digits with its plus. */
+/** Room for an icon and a number of two digits with its plus sign. */
 const APART = 42;
 
 const kindWord = (kind: ShownMark["kind"]) =>
@@ -39,7 +39,7 @@ interface Props {
   position: number;
 }
 
-/** What was done to the PLC, where it was done; what lies too close is one mark with a number, which is looked at closer. By keyboard: Ctrl with an arrow. */
+/** The commands of the PLC at their scans. Marks that are too close share one icon with a number; a click enlarges the group. By keyboard: Ctrl with an arrow. */
 export const Marks = memo(function Marks({ marks, axis, whole, width, position }: Props) {
   const found = useMemo(() => (width > 0 ? clusters(marks, axis, width, APART) : []), [marks, axis, width]);
   const { errors } = useCatalogue();
@@ -53,7 +53,7 @@ export const Marks = memo(function Marks({ marks, axis, whole, width, position }
       author: mark.author,
     });
 
-  /** To the scan of a single mark; closer to several; where they share a scan, a list of them. */
+  /** A single mark: goes to its scan. A group: zooms in; if all its marks are at one scan, lists them. */
   function choose({ first, marks: group }: Cluster, button: HTMLElement): void {
     if (group.length === 1) {
       void travel(first.scan);
@@ -70,7 +70,7 @@ export const Marks = memo(function Marks({ marks, axis, whole, width, position }
     setListed({ items, at: { x: left, y: top - 4 } });
   }
 
-  /** What else can be done there: the errors among them are replayed with a change. */
+  /** Other actions for the scan: its errors can be replayed with a change. */
   function openMenu(cluster: Cluster, at: { x: number; y: number }): void {
     setListed({ items: pointMenu({ scan: cluster.first.scan, marks: cluster.marks, position }), at });
   }

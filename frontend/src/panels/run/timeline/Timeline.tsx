@@ -6,7 +6,7 @@ import "./timeline.css";
 import { Track } from "./Track";
 import { useRun } from "./useRun";
 
-/** Every scan of the run along the bottom edge, and the way back to each. */
+/** Every scan of the run along the bottom edge, and the controls for going back to it. */
 export function Timeline() {
   const run = useRun();
   const interval = usePlc((plc) => plc.state?.interval_ns ?? 0);

@@ -14,7 +14,7 @@ import { pointMenu, stretchMenu } from "./menus";
 import { type RunOnAxis, timeOf } from "./useRun";
 import { keyTarget, useStretch } from "./useStretch";
 
-/** So close to the right edge one means the live end. */
+/** A click this close to the right edge means the live end. */
 const LIVE_REACH = 6;
 
 interface Props {
@@ -22,7 +22,7 @@ interface Props {
   interval: number;
 }
 
-/** The axis with its marks. Click, drag and keys lead to a scan; the right end is live. */
+/** The axis with its marks. Click, drag and keys go to a scan; the right end is live. */
 export function Track({ run, interval }: Props) {
   const track = useRef<HTMLDivElement>(null);
   const width = useWidth(track);
@@ -77,7 +77,7 @@ export function Track({ run, interval }: Props) {
     if (current === "select") openMenu(numberOf(scanUnder(event)), { x: event.clientX, y: event.clientY });
   }
 
-  /** Of the stretch that is selected, else of a scan. */
+  /** The menu of the selected stretch, else of a scan. */
   function openMenu(scan: number, at: { x: number; y: number }): void {
     const { selection: chosen } = useTimeline.getState();
     const inside = chosen && scan >= chosen.from && scan <= chosen.to;
@@ -86,7 +86,7 @@ export function Track({ run, interval }: Props) {
     open(items, at);
   }
 
-  /** By keyboard: at the end of the stretch that is selected, else at the playhead. */
+  /** By keyboard: at the end of the selected stretch, else at the playhead. */
   function openMenuByKey(): void {
     const scan = useTimeline.getState().selection?.to ?? position;
     const { left, top, width: wide } = track.current?.getBoundingClientRect() ?? { left: 0, top: 0, width: 1 };
@@ -130,7 +130,7 @@ export function Track({ run, interval }: Props) {
       </div>
       {past && position <= axis.to && <span className="tl-after" style={{ left: at(position) }} />}
       <span className="head-line live" style={{ left: at(whole.to) }} hidden={!past || axis.to < whole.to}>
-        {/* Where the labels would lie over each other, the live one gives way. */}
+        {/* If the two labels would overlap, the live one is hidden. */}
         <span className="l" hidden={(placeOf(whole.to, axis) - placeOf(position, axis)) * width < 1.5 * LABEL}>
           {t("timeline.live.head", { scan: grouped(whole.to) })}
         </span>
@@ -182,7 +182,7 @@ function Selected({ run }: { run: RunOnAxis }) {
   return <span className="tl-sel" style={{ left: `${span.left * 100}%`, width: `${span.width * 100}%` }} />;
 }
 
-/** Where the run differs from the one that it was compared with. */
+/** Where the run differs from the run that it was compared with. */
 function Differing({ run }: { run: RunOnAxis }) {
   const stretches = useComparisons((comparisons) => shownComparison(comparisons)?.result?.marks);
   return stretches?.map(([from, to]) => {
@@ -199,7 +199,7 @@ function Differing({ run }: { run: RunOnAxis }) {
   });
 }
 
-/** The ribbon: the states there were, what of it is slower to reach, and that something before it is gone. */
+/** The ribbon: the states of the PLC, which part of the run is slower to reach, and that the part before it is gone. */
 function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
   const { info, marks } = useTimeline();
   const { errors } = useCatalogue();
@@ -218,10 +218,10 @@ function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
   );
 }
 
-/** About so wide is the number of a scan. */
+/** The approximate width of a scan number, in pixels. */
 const LABEL = 44;
 
-/** Labels at the edges stand beside their line instead of across it, so that they are not cut. */
+/** Labels at the edges are beside their line instead of centred on it, so that they are not cut off. */
 function edgeOf(x: number, width: number): string {
   if (x < LABEL) return "atleft";
   return x > width - LABEL ? "atright" : "";

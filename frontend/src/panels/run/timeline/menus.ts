@@ -1,4 +1,4 @@
-/** What can be done with a scan of the timeline, with the errors raised there, and with a stretch. */
+/** Menus of the timeline: for a scan, for the errors raised there, and for a stretch. */
 import { grouped } from "../../../logic/format/numbers";
 import { errorsIn } from "../../../logic/past/past";
 import { type Axis, closeTo, type ShownMark } from "../../../logic/plc/timeline";
@@ -12,7 +12,7 @@ import { t } from "../../../text";
 import { copyText } from "../../../ui/clipboard";
 import type { MenuItem } from "../../../ui/Menu";
 
-/** A stretch: both ends included. What its scans changed is to be seen in front of the one behind it. */
+/** The menu of a stretch, both ends included. The changes of its last scan are visible only before the next scan. */
 export function stretchMenu({ from, to }: Axis, whole: Axis): MenuItem[] {
   const scans = { first: grouped(from), last: grouped(to) };
   return [
@@ -33,13 +33,13 @@ export function stretchMenu({ from, to }: Axis, whole: Axis): MenuItem[] {
 
 interface Point {
   scan: number;
-  /** What is marked there. */
+  /** The marks at this scan. */
   marks: readonly ShownMark[];
   /** The scan that is shown now. */
   position: number;
 }
 
-/** One scan, and what was raised in front of it. */
+/** The menu of a scan, and of the errors that were raised before it. */
 export function pointMenu({ scan, marks, position }: Point): MenuItem[] {
   const since = { first: grouped(Math.min(scan, position)), last: grouped(Math.max(scan, position)) };
   return [

@@ -4,15 +4,15 @@ import { bindClock, readClock } from "../../../store/plc/clock";
 import { usePlc } from "../../../store/plc/plc";
 import { useTimeline } from "../../../store/plc/timeline";
 
-/** Scans come by the thousand: the axis grows with them, but is drawn a few times a second only. */
+/** Thousands of scans come each second: the axis grows with them, but is drawn only a few times a second. */
 const REDRAW = 250;
 
 export interface RunOnAxis {
-  /** All scans that can be gone back to. */
+  /** All scans that can be reached. */
   whole: Axis;
-  /** What is shown of them. */
+  /** The visible part of them. */
   axis: Axis;
-  /** The scan that is shown, or on its way to be. */
+  /** The shown scan, or the scan that the page is going to. */
   position: number;
   past: boolean;
 }
@@ -30,7 +30,7 @@ export function useRun(): RunOnAxis | null {
 }
 
 function axisOf(view: Axis | null, follows: boolean, whole: Axis, position: number): Axis {
-  // A view from before a new run may be wider than all there is.
+  // A view from before a new run may be wider than the new run.
   if (view === null || view.to - view.from >= whole.to - whole.from) return whole;
   if (!follows) return view;
   return including({ from: whole.to - (view.to - view.from), to: whole.to }, whole, position);
@@ -54,7 +54,7 @@ function useSlowClock(): number {
   return scan;
 }
 
-/** PLC time of a scan: the clock of a PLC is its scans times its task interval. */
+/** PLC time at a scan: the scan number times the task interval. */
 export function timeOf(scan: number, intervalNs: number): number {
   const clock = readClock();
   return Math.max(0, clock.timeNs + (scan - clock.scan) * intervalNs);

@@ -2,14 +2,14 @@ import { type KeyboardEvent, useRef } from "react";
 import { type Axis, neighbour, type ShownMark, stepTo } from "../../../logic/plc/timeline";
 import { selectStretch, useTimeline } from "../../../store/plc/timeline";
 
-/** Selecting a stretch: one end stays where it began, the other one moves. */
+/** Selects a stretch: one end is fixed where the selection began, the other one moves. */
 export function useStretch(position: number, whole: Axis) {
   const ends = useRef<{ held: number; moving: number } | null>(null);
 
   function now(): { held: number; moving: number } {
     const { selection } = useTimeline.getState();
     const known = ends.current;
-    // What was selected elsewhere, or taken away, is not what these ends are of.
+    // If the stretch was selected elsewhere, or cleared, the stored ends do not belong to it.
     if (selection && known && Math.min(known.held, known.moving) === selection.from) return known;
     if (selection) return { held: selection.from, moving: selection.to };
     return { held: position, moving: position };
@@ -24,12 +24,12 @@ export function useStretch(position: number, whole: Axis) {
     begin: (scan: number) => {
       ends.current = { held: scan, moving: scan };
     },
-    /** From where it began, or from the scan that is shown. */
+    /** Selects from the fixed end, or from the shown scan. */
     moveTo,
     drag: (scan: number) => {
       if (ends.current) selectStretch(ends.current.held, scan);
     },
-    /** Shift with an arrow; with Ctrl to the next mark. True when the key meant that. */
+    /** Shift with an arrow; with Ctrl to the next mark. True when the key was handled. */
     key: (event: KeyboardEvent, marks: readonly ShownMark[]): boolean => {
       if (!event.shiftKey || event.key === "Escape") return false;
       const { moving } = now();
@@ -41,7 +41,7 @@ export function useStretch(position: number, whole: Axis) {
   };
 }
 
-/** Where a key leads: Ctrl with an arrow from mark to mark. */
+/** The scan that a key goes to: Ctrl with an arrow goes from mark to mark. */
 export function keyTarget(
   event: KeyboardEvent,
   from: number,

@@ -5,7 +5,7 @@ import { Segments } from "../../../ui/Segments";
 
 const MODES = ["PROGRAM", "MONITOR", "RUN"] as const;
 
-/** PROGRAM, MONITOR, RUN: what is chosen. What the PLC really does stands beside it. */
+/** PROGRAM, MONITOR, RUN: the chosen mode. The real state of the PLC is shown beside it. */
 export function ModeSwitch() {
   const mode = usePlc((plc) => plc.state?.mode ?? null);
   const forbidden = useForbidden("mode");

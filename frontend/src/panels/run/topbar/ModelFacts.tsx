@@ -5,7 +5,7 @@ import { modelDetails } from "../../../store/plc/models";
 import { t } from "../../../text";
 import type { Area, ModelInfo, ModelSummary } from "../../../wire/types";
 
-/** What a model is: in a sentence, how far its errors were looked up, and its memory with who may do what there. */
+/** The description of a model: a sentence, how many of its errors were checked against manuals, and its memory with the access rights. */
 export function ModelFacts({ model }: { model: ModelSummary | undefined }) {
   const name = model?.name;
   const [info, setInfo] = useState<ModelInfo | null>(null);

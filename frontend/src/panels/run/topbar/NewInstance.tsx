@@ -3,7 +3,7 @@ import { t } from "../../../text";
 import { AskName } from "../../../ui/AskName";
 import type { Project } from "../../../wire/types";
 
-/** Asks for the name of another virtual PLC that runs a project. */
+/** Asks for the name of a new virtual PLC that runs a project. */
 export function NewInstance({ project, onClose }: { project: Project; onClose: () => void }) {
   return (
     <AskName

@@ -33,7 +33,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   useEffect(loadModels, [loadModels]);
 
   async function create(): Promise<boolean> {
-    // Without a model there is nothing to make; the one that is asked for again may come now.
+    // Without a model no project can be created: this only asks for the models again.
     if (model === "") {
       loadModels();
       return false;
@@ -41,7 +41,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
     const [project, first] = [name.trim(), instance.trim()];
     setWrongInstance(project !== "" && (first === "" || isTaken(first)));
     if (project === "" || first === "") throw new Error(t("name.missing"));
-    // Asked before anything is made: a project without its instance would be left behind.
+    // Checked before anything is created: otherwise a project without an instance would remain after a failure.
     if (isTaken(first)) throw new Error(t("newproject.taken", { name: first }));
     await createProject(project, model, first);
     return true;
@@ -94,7 +94,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   );
 }
 
-/** The first of plc-1, plc-2, ... that is not taken. */
+/** The first of plc-1, plc-2, ... that is free. */
 function freeName(taken: readonly string[]): string {
   let number = 1;
   while (taken.includes(`plc-${number}`)) number += 1;

@@ -2,7 +2,7 @@ import { newRun } from "../../../store/debug/run";
 import { t } from "../../../text";
 import { Confirm } from "../../../ui/Confirm";
 
-/** A new run cannot be undone in the page, so it asks. */
+/** A new run cannot be undone in the page, so this dialog asks. */
 export function NewRun({ onClose }: { onClose: () => void }) {
   return (
     <Confirm

@@ -14,7 +14,7 @@ import { NewProject } from "./NewProject";
 
 type Asking = "project" | "instance" | null;
 
-/** Which project and which virtual PLC this browser looks at. */
+/** Chooses the project and the virtual PLC that this browser shows. */
 export function Picker() {
   const { app, project, instance } = useBench();
   const [asking, setAsking] = useState<Asking>(null);

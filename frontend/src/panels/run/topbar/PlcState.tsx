@@ -8,7 +8,7 @@ import { useVerify } from "../../../store/verify/verify";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
-/** A project that nothing runs yet is not a connection that was lost. */
+/** A project without an instance is not shown as a lost connection. */
 const noPlc = (): ShownState => ({
   tone: "stopped",
   icon: "off",
@@ -16,7 +16,7 @@ const noPlc = (): ShownState => ({
   detail: t("state.none.detail"),
 });
 
-/** What the PLC really does now, as icon, word and colour. */
+/** The real state of the PLC, as icon, word and colour. */
 export function PlcState() {
   const state = usePlc((plc) => plc.state);
   const online = useOnline();

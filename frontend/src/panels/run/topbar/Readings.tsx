@@ -4,7 +4,7 @@ import { bindClock } from "../../../store/plc/clock";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 
-/** Scan number and PLC time follow the frames without React; the cycle time comes with the state. */
+/** Value frames write scan number and PLC time directly, without React; the cycle time comes with the state. */
 export function Readings() {
   const scan = useRef<HTMLSpanElement>(null);
   const time = useRef<HTMLSpanElement>(null);

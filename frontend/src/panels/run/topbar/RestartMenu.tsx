@@ -9,7 +9,7 @@ import { NewRun } from "./NewRun";
 
 const KINDS: readonly RestartKind[] = ["cold", "warm", "power"];
 
-/** The ways to restart, each with what it keeps; a new run; and the way back to the program before. */
+/** The kinds of restart, each with what it keeps; a new run; and the roll back to the previous program. */
 export function RestartMenu() {
   const forbidden = useForbidden("newrun");
   const noRestart = useForbidden("restart");

@@ -9,7 +9,7 @@ import { RestartMenu } from "./RestartMenu";
 import { RunMenu } from "./RunMenu";
 import { SpeedMenu } from "./SpeedMenu";
 
-/** Back, continue or pause, steps, single scan, restart, speed: each at its place, usable when it means something. */
+/** Back, continue or pause, steps, single scan, restart, speed: each has a fixed place, and is enabled when it is possible. */
 export function RunControls() {
   const state = usePlc((plc) => plc.state);
   const online = useAble();
@@ -52,13 +52,13 @@ export function RunControls() {
   );
 }
 
-/** Nothing else is done while a way back is searched for. */
+/** Disabled while the PLC searches backwards. */
 function useAble(): boolean {
   const searching = useStepping((stepping) => stepping.searching);
   return useOnline() && !searching;
 }
 
-/** A statement back while one stands at one, or the program broke off at one; else a scan. */
+/** Goes back one statement if the PLC is at a statement, or the program stopped at one; else one scan. */
 function Back() {
   const state = usePlc((plc) => plc.state);
   const online = useAble();

@@ -12,7 +12,7 @@ import { RunUntil } from "./RunUntil";
 
 type Asking = "scans" | "until" | null;
 
-/** Runs that end by themselves, and the way back; `runs` is whether the program can go on at all. */
+/** Runs with an end, and steps back; `runs` says whether the program can continue at all. */
 export function RunMenu({ disabled, runs }: { disabled: boolean; runs: boolean }) {
   const [asking, setAsking] = useState<Asking>(null);
   const conditions = useRun((run) => run.conditions);

@@ -3,7 +3,7 @@ import { runScans } from "../../../store/debug/run";
 import { t } from "../../../text";
 import { AskName } from "../../../ui/AskName";
 
-/** Asks how many scans are to be run. */
+/** Asks how many scans to run. */
 export function RunScans({ onClose }: { onClose: () => void }) {
   async function run(text: string): Promise<void> {
     const scans = readScan(text);

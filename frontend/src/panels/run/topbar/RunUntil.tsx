@@ -5,7 +5,7 @@ import { t } from "../../../text";
 import { Field } from "../../../ui/Field";
 import { FormDialog } from "../../../ui/FormDialog";
 
-/** Asks for the condition at which a run ends; a name that is not known gets the names that come near. */
+/** Asks for the condition at which a run ends; for an unknown name it offers similar names. */
 export function RunUntil({ onClose }: { onClose: () => void }) {
   const conditions = useRun((run) => run.conditions);
   const [condition, setCondition] = useState(conditions[0] ?? "");

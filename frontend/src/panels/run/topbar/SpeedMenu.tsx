@@ -6,7 +6,7 @@ import { AskName } from "../../../ui/AskName";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
 
-/** How fast PLC time passes beside the real one. */
+/** The speed of PLC time, relative to real time. */
 export function SpeedMenu() {
   const speed = usePlc((plc) => plc.state?.speed ?? 1);
   const forbidden = useForbidden("run");

@@ -9,7 +9,7 @@ import { PlcState } from "./PlcState";
 import { Readings } from "./Readings";
 import { RunControls } from "./RunControls";
 
-/** The strip along the top: where one is, what the PLC does, and the controls that make it do something else. */
+/** The strip along the top: project and PLC, the state of the PLC, and its controls. */
 export function TopBar({ onResetLayout }: { onResetLayout: () => void }) {
   const theme = usePrefs((prefs) => prefs.theme);
   return (
@@ -37,7 +37,7 @@ export function TopBar({ onResetLayout }: { onResetLayout: () => void }) {
 function People() {
   const present = usePlc((plc) => plc.users);
   const you = usePlc((plc) => plc.you);
-  // Somebody with two windows is still one person.
+  // A person with two windows counts once.
   const users = [...new Map(present.map((user) => [user.name, user])).values()];
   const others = users.filter((user) => user.name !== you?.name);
   const names = others.map((user) => user.name).join(", ");

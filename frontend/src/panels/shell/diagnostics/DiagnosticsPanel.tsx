@@ -6,7 +6,7 @@ import { Icon } from "../../../ui/Icon";
 import { send } from "../../../wire/send";
 import type { Violation } from "../../../wire/types";
 
-/** What the embedded subrange checks found while the program ran. A click goes to the source. */
+/** Subrange violations that the embedded checks found while the program ran. A click goes to the source. */
 export function DiagnosticsPanel() {
   const { violations, dropped, count } = usePlc((plc) => plc.diagnostics);
   const online = useOnline();
@@ -65,7 +65,7 @@ function List({ violations }: { violations: readonly Violation[] }) {
   );
 }
 
-/** What happened, in words of this page's language. */
+/** The violation in the language of the page. */
 function inWords(violation: Violation): string {
   if (violation.variable === "EN_CHECK") return t("diagnostics.encheck");
   const { variable, value, low, high } = violation;

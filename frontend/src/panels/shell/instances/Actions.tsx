@@ -11,7 +11,7 @@ interface Props {
   onAsk: (question: Question) => void;
 }
 
-/** What can be done with the chosen instance; while a file is on its way, how far it got. */
+/** The actions for the selected instance; during a file transfer, its progress. */
 export function Actions({ instance, onAsk }: Props) {
   const transfer = useInstances((instances) => instances.transfer);
   if (transfer) {

@@ -112,7 +112,7 @@ function Rename({ instance, onClose }: OneProps) {
   );
 }
 
-/** Kept as it was when the dialog opened: the list goes on being asked for below it. */
+/** The instance as it was when the dialog opened: the list below is still being updated. */
 function useFreeName(instance: Instance): string {
   const [name] = useState(() =>
     copyName(

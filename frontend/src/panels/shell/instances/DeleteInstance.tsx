@@ -3,7 +3,7 @@ import { t } from "../../../text";
 import { Confirm } from "../../../ui/Confirm";
 import type { Instance } from "../../../wire/types";
 
-/** Deleting an instance cannot be undone, so this one asks. */
+/** Deleting an instance cannot be undone, so this dialog asks. */
 export function DeleteInstance({ instance, onClose }: { instance: Instance; onClose: () => void }) {
   return (
     <Confirm

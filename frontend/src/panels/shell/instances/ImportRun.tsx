@@ -5,7 +5,7 @@ import { t } from "../../../text";
 import { AskName } from "../../../ui/AskName";
 import { Underway } from "./Underway";
 
-/** Asks for a run file of this computer, and for the name of the instance that goes on with it. It stays until the run is in. */
+/** Asks for a run file of this computer, and for the name of the new instance that continues it. It stays open until the run is imported. */
 export function ImportRun({ onClose }: { onClose: () => void }) {
   const [file, setFile] = useState<File | null>(null);
   const { all, transfer } = useInstances();
@@ -38,7 +38,7 @@ export function ImportRun({ onClose }: { onClose: () => void }) {
   );
 }
 
-/** The name of the file without its ending, or the next one when that is taken. */
+/** The name of the file without its extension, with a number if that name is taken. */
 function nameOf(file: File, taken: readonly string[]): string {
   const name = file.name.replace(/\.[^.]*$/, "");
   return taken.includes(name) ? copyName(name, taken) : name;

@@ -19,12 +19,12 @@ interface Props {
   onMenu: (instance: Instance, at: { x: number; y: number }) => void;
 }
 
-/** The rows: only those in sight exist in the page. Arrow keys choose, Enter opens, Delete asks. */
+/** The rows: only the visible ones are in the page. Arrow keys select, Enter opens, Delete asks. */
 export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen, onDelete, onMenu }: Props) {
   const grid = useGrid({ count: rows.length, keyOf: (index) => rows[index]?.id ?? index });
   const now = rows.findIndex(({ id }) => id === selected);
 
-  // A new or just opened list begins where the chosen one is; later the list stays where one scrolled it.
+  // A list that was just opened scrolls to the selected instance; later it stays where the user scrolled it.
   useReveal(now, selected, grid.reveal);
 
   function step(to: number): void {
@@ -91,7 +91,7 @@ interface HeadProps {
   onOrder: (order: Order) => void;
 }
 
-/** A column's head sorts by it; once more the other way round. Numbers begin with the largest. */
+/** A click on a column head sorts by it; a second click reverses the order. Numbers begin with the largest. */
 function Head({ column, order, onOrder }: HeadProps) {
   const here = order.by === column;
   const down = here ? !order.down : NUMBERS.has(column);

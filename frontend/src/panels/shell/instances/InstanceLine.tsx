@@ -16,10 +16,10 @@ interface Props {
   onMenu: (instance: Instance, at: { x: number; y: number }) => void;
 }
 
-/** More than this share of late scans is worth seeing. */
+/** A share of late scans above this is shown. */
 const LATE = 1;
 
-/** One instance. A row is drawn again only when something of it changed. */
+/** One instance. A row is drawn again only when its data changed. */
 export const InstanceLine = memo(
   function InstanceLine({ instance, index, top, selected, onSelect, onOpen, onMenu }: Props) {
     const { state, load } = instance;
@@ -88,7 +88,7 @@ export const InstanceLine = memo(
     JSON.stringify(a.instance) === JSON.stringify(b.instance),
 );
 
-/** What a narrow window has no columns for stands in the tooltip of the name. */
+/** In a narrow window the tooltip of the name has the data of hidden columns. */
 function facts({ name, model, limits }: Instance): string {
   return [name, model, `${t("instances.column.limits")}: ${limitsIn(limits)}`].join("\n");
 }

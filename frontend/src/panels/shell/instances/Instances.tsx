@@ -14,7 +14,7 @@ import { deeds } from "./deeds";
 import { InstanceGrid } from "./InstanceGrid";
 import "./instances.css";
 
-/** Every virtual PLC of this server: what it does, what it costs, and what can be done with it. */
+/** Every virtual PLC of this server: its state, its load, and its actions. */
 export function Instances() {
   const open = useInstances((instances) => instances.open);
   return open && <List />;

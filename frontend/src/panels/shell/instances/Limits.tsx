@@ -13,7 +13,7 @@ const LIMITS = [
 
 type Key = (typeof LIMITS)[number]["key"];
 
-/** What an instance may cost at most. */
+/** The upper limits for the load of an instance. */
 export function Limits({ instance, onClose }: { instance: Instance; onClose: () => void }) {
   const [texts, setTexts] = useState<Record<Key, string>>(() => ({
     cpu_percent: String(instance.limits.cpu_percent ?? ""),
@@ -60,7 +60,7 @@ export function Limits({ instance, onClose }: { instance: Instance; onClose: () 
   );
 }
 
-/** Null is no limit; undefined is nothing that can be taken. */
+/** Null is no limit; undefined is an invalid entry. */
 function readLimit(text: string, minimum: number, maximum: number): number | null | undefined {
   if (text.trim() === "") return null;
   const value = Number(text);

@@ -2,7 +2,7 @@ import { percent } from "../../../logic/format/numbers";
 import type { Transfer } from "../../../store/plc/instances";
 import { t } from "../../../text";
 
-/** A run file on its way: what, and how far it got. */
+/** The transfer of a run file: which, and its progress. */
 export function Underway({ transfer }: { transfer: Transfer }) {
   const what = t(transfer.text === "import" ? "instances.importing" : "instances.exporting", { name: transfer.name });
   const share = transfer.share === null ? "" : percent(Math.floor(transfer.share * 100));

@@ -1,4 +1,4 @@
-/** What can be done with an instance: the buttons below the list, and the menu of a row. */
+/** Actions for an instance: the buttons below the list, and the menu of a row. */
 
 import { showCompare } from "../../../store/past/comparisons";
 import { exportInstance, setPower, showInstances } from "../../../store/plc/instances";
@@ -11,9 +11,9 @@ import { limitsIn } from "./limitsIn";
 interface Deed {
   icon: IconName;
   label: string;
-  /** What it does, where the word does not say all. */
+  /** A longer description, where the label is not enough. */
   about?: string;
-  /** A fact for the menu. */
+  /** A short note in the menu. */
   hint?: string;
   onSelect: () => void;
 }
@@ -48,7 +48,7 @@ export function deeds(instance: Instance, onAsk: (question: Question) => void): 
   ];
 }
 
-/** With the one that is looked at. */
+/** For the instance that the page shows. */
 function compareThis(instance: Instance): void {
   showInstances(false);
   showCompare(instance.id);

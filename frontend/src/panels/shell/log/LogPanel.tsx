@@ -22,7 +22,7 @@ const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
   disturbance: { icon: "disturbance", tone: "warning" },
 };
 
-/** Everything that was done to this PLC, by whom and before which scan; the newest at the end. */
+/** Every command for this PLC, with its author and the scan before which it was applied; the newest at the end. */
 export function LogPanel() {
   const log = usePlc((plc) => plc.log);
   const [kind, setKind] = useState<Filter>("all");
@@ -101,7 +101,7 @@ function Lines({ log }: { log: readonly LogLine[] }) {
   );
 }
 
-/** Keeps the end of a growing list in sight, also when its panel comes up or changes its size, until somebody scrolls up. */
+/** Keeps the end of a growing list visible, also when its panel is shown or resized, until somebody scrolls up. */
 function useFollow(scroll: RefObject<HTMLDivElement | null>, log: readonly LogLine[]): () => void {
   const following = useRef(true);
   const height = useRef(0);
@@ -110,7 +110,7 @@ function useFollow(scroll: RefObject<HTMLDivElement | null>, log: readonly LogLi
     if (!element || !following.current) return;
     element.scrollTop = element.scrollHeight;
   }, [scroll]);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: a new line is what there is to follow
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs when a line is added
   useLayoutEffect(toEnd, [toEnd, log]);
   useEffect(() => {
     if (!scroll.current) return;
@@ -123,7 +123,7 @@ function useFollow(scroll: RefObject<HTMLDivElement | null>, log: readonly LogLi
     const element = scroll.current;
     if (!element) return;
     const { scrollTop, scrollHeight, clientHeight } = element;
-    // A panel that was away, or got another size, was not scrolled by anybody.
+    // Showing or resizing the panel also causes a scroll event, which is not from the user.
     const byHand = clientHeight === height.current;
     const atEnd = scrollTop + clientHeight > scrollHeight - 30;
     if (atEnd || byHand) following.current = atEnd;

@@ -12,7 +12,7 @@ import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
 import { StateWord } from "../../../ui/StateWord";
 
-/** The strip along the bottom: facts that are worth a glance. */
+/** The strip along the bottom: the connection and other general facts. */
 export function StatusBar() {
   const online = useOnline();
   const state = usePlc((plc) => plc.state);
@@ -79,7 +79,7 @@ function ArmedFaults() {
   );
 }
 
-/** A sweep that runs, of whomever: one click away. */
+/** A running sweep, whoever began it; a click opens it. */
 function Sweeping() {
   const sweep = useSweeps((sweeps) => sweeps.list?.find(({ status }) => status === "running"));
   if (!sweep) return null;

@@ -8,7 +8,7 @@ import { KindChoice } from "./KindChoice";
 import { WhatFields } from "./WhatFields";
 import { WhenFields } from "./WhenFields";
 
-/** The next disturbance: what, when, and what was wrong with it. What was typed stays until it is changed. */
+/** The form for a new disturbance: what, when, and the problems of the entries. Entries stay until they are changed. */
 export function DisturbForm() {
   const { form, tried } = useDisturb(useShallow((state) => ({ form: state.form, tried: state.tried })));
   const busy = useDisturb((state) => state.busy);
@@ -50,7 +50,7 @@ export function DisturbForm() {
   );
 }
 
-/** What became of the last order. */
+/** The result of the last request. */
 function Outcome() {
   const outcome = useDisturb((state) => state.outcome);
   if (outcome && !outcome.ok) {

@@ -5,7 +5,7 @@ import { t } from "../../../text";
 import { StateWord } from "../../../ui/StateWord";
 import type { DisturbanceInfo } from "../../../wire/types";
 
-/** What is defined and not over, or never came about: what, when next, how often until now, by whom. */
+/** The disturbances that are not over, or were never injected: what, when next, how often so far, by whom. */
 export function DisturbList() {
   const disturbances = useDisturb((state) => state.disturbances);
   const forbidden = useForbidden("errors");

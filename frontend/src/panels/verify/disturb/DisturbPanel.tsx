@@ -6,7 +6,7 @@ import "./disturb.css";
 import { DisturbList } from "./DisturbList";
 import { NoneYet } from "./NoneYet";
 
-/** What a good program must live with: bits that flip, inputs that come late or stay, results that are wrong. */
+/** Faults that a robust program must tolerate: bits that flip, inputs that are late or stuck, results that are wrong. */
 export function DisturbPanel() {
   const instance = useBench((bench) => bench.instance);
   const none = useDisturb(({ disturbances }) => disturbances.length === 0);

@@ -2,7 +2,7 @@ import { type ReactNode, useId } from "react";
 
 interface Props {
   label: string;
-  /** The control that the label names has this id. */
+  /** The id of the control that the label belongs to. */
   children: (id: string) => ReactNode;
 }
 

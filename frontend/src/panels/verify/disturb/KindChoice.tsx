@@ -6,7 +6,7 @@ import { Icon, type IconName } from "../../../ui/Icon";
 
 const ICONS: Record<DisturbKind, IconName> = { flip: "flip", late: "clock", stuck: "stuck", result: "differs" };
 
-/** What happens: four kinds, each with what it means. */
+/** The kind of disturbance: four choices, each with a description. */
 export function KindChoice({ kind }: { kind: DisturbKind }) {
   const name = useId();
   return (

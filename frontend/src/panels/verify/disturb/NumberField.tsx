@@ -9,7 +9,7 @@ interface Props {
   title?: string;
 }
 
-/** A count as somebody types it; a label stands beside it, or is its name. */
+/** A field for a count; a visible label is beside it, or the label is only its accessible name. */
 export function NumberField({ value, onChange, id, label, placeholder, bad = false, disabled, title }: Props) {
   return (
     <input

@@ -12,7 +12,7 @@ interface Props {
   troubles: ReturnType<typeof readDisturbance>["troubles"];
 }
 
-/** Where it happens, and for how long. */
+/** What is disturbed, and for how long. */
 export function WhatFields({ form, troubles }: Props) {
   const { kind } = form;
   return (
@@ -53,7 +53,7 @@ export function WhatFields({ form, troubles }: Props) {
   );
 }
 
-/** A statement: typed, or taken from where the caret of the editor stands. */
+/** A statement: typed, or taken from the caret of the editor. */
 function Site({ form, bad }: { form: DisturbForm; bad: boolean }) {
   const cursor = useDocuments((documents) => documents.cursor);
   const active = useDocuments((documents) => documents.active);

@@ -9,7 +9,7 @@ interface Props {
   troubles: ReturnType<typeof readDisturbance>["troubles"];
 }
 
-/** Once, or by chance; the seed where it decides something. */
+/** Once, or at random; the seed where it has an effect. */
 export function WhenFields({ form, troubles }: Props) {
   return (
     <>

@@ -11,7 +11,7 @@ interface Props {
 
 const RANGES = new Set(["program", "function_block", "function", "method"]);
 
-/** What the rows stand for, what becomes of scans that are missing, and what is compared. */
+/** What the rows mean, what to do about missing scans, and what is compared. */
 export function Axis({ trace, mapping }: Props) {
   const pou = useTraceImport((state) => state.pou);
   const pous = useDocuments((documents) => documents.pous);

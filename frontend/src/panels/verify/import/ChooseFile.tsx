@@ -4,7 +4,7 @@ import { readTrace, useTraceImport } from "../../../store/verify/traceImport";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
-/** The file: dropped here, or chosen. Once there is one, what it is stands in one line. */
+/** The file: dropped here, or chosen. After that, one line describes it. */
 export function ChooseFile() {
   const { trace, reading } = useTraceImport();
   const chooser = useRef<HTMLInputElement>(null);
@@ -65,7 +65,7 @@ export function ChooseFile() {
         accept=".csv,.json,.txt,.tsv,text/csv,application/json"
         onChange={(event) => {
           const file = event.target.files?.[0];
-          event.target.value = ""; // the same file again, mended, is a choice too
+          event.target.value = ""; // choosing the same file again, corrected, counts as a change, too
           if (file) void readTrace(file);
         }}
       />

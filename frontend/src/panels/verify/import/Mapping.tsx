@@ -14,7 +14,7 @@ interface Props {
   onSave: () => void;
 }
 
-/** Column by column: its first values, what it is, and which variable here it means. */
+/** The columns: the first values of each, its role, and the variable that it belongs to. */
 export function Mapping({ trace, mapping, onSave }: Props) {
   const problems = useTraceImport((state) => state.checked?.problems);
   const wrong = byColumn(problems ?? []);
@@ -135,10 +135,10 @@ function ColumnRow({ row, trace, wrong, onChange }: ColumnRowProps) {
   );
 }
 
-/** About the column as such, not about a cell of it: it is told at the head of the file. */
+/** A problem of the column itself, not of one of its cells: the server reports it for the head of the file. */
 const isOfColumn = ({ row, warning }: TraceProblem) => !warning && (row === null || row <= 1);
 
-/** The column as the file names it; marked when something is wrong with it. */
+/** The name of the column in the file; marked when it has a problem. */
 function Name({ column, wrong }: { column: string; wrong: readonly TraceProblem[] | undefined }) {
   const refusing = wrong?.some(({ warning }) => !warning) ?? false;
   const why = wrong?.map((problem) => [placeOf(problem), problem.message].filter(Boolean).join(": ")).join("\n");

@@ -1,7 +1,7 @@
 import { t } from "../../../text";
 import type { TraceProblem } from "../../../wire/types";
 
-/** Where a problem is: row, column, both, or the file as a whole. */
+/** The place of a problem: row, column, both, or the whole file. */
 export function placeOf({ row, column }: TraceProblem): string {
   const parts = [
     row === null ? "" : t("import.trace.problem.row", { row }),
@@ -10,12 +10,12 @@ export function placeOf({ row, column }: TraceProblem): string {
   return parts.filter(Boolean).join(", ");
 }
 
-/** What is wrong, and where, so that it can be mended. */
+/** The problems and their places, so that they can be corrected. */
 export function Problems({ problems }: { problems: readonly TraceProblem[] }) {
   return (
     <ul className="tiproblems" aria-label={t("import.trace.problems")}>
       {problems.map((problem, index) => (
-        // biome-ignore lint/suspicious/noArrayIndexKey: they come whole, and the same one may be there twice
+        // biome-ignore lint/suspicious/noArrayIndexKey: the list is always replaced as a whole, and may contain the same problem twice
         <li key={index}>
           <span className="faint mono">{placeOf(problem)}</span>
           <span className={problem.warning ? "muted" : ""}>{problem.message}</span>

@@ -14,7 +14,7 @@ import "./traceimport.css";
 
 const WIDTH = 940;
 
-/** Brings in the recording of a real controller, and verifies it. Closed without starting it stays as it is. */
+/** Imports a controller log and verifies it. If the dialog is closed before the start, everything stays as it is. */
 export function TraceImport() {
   const open = useTraceImport((state) => state.open);
   return open ? <ImportDialog /> : null;
@@ -24,7 +24,7 @@ function ImportDialog() {
   const { trace, mapping, refused, checked, busy, trouble } = useTraceImport();
   const instance = useBench((bench) => bench.instance);
   const [naming, setNaming] = useState(false);
-  // How the file was read, and what is said of the mapping.
+  // Problems of reading the file, and of the mapping.
   const told = [...(trace?.problems ?? []), ...(checked?.problems ?? [])];
   return (
     <>
@@ -39,7 +39,7 @@ function ImportDialog() {
             <button type="button" className="btn quiet" onClick={closeTraceImport}>
               {t("cancel")}
             </button>
-            {/* Not by Enter in a field: one types on in the next line. */}
+            {/* Enter in a field does not submit: it continues in the next line. */}
             <button
               type="button"
               className="btn primary"
@@ -86,7 +86,7 @@ function SaveMapping({ onClose }: { onClose: () => void }) {
   );
 }
 
-/** A file that was not read: nothing of it is here. */
+/** The file could not be read: nothing was imported. */
 function Refused() {
   const refused = useTraceImport((state) => state.refused);
   if (!refused) return null;
@@ -103,7 +103,7 @@ function Refused() {
   );
 }
 
-/** Whether it can be verified as it stands. */
+/** Says whether the log can be verified with the current mapping. */
 function Verdict() {
   const { trace, checked, trouble, told, busy } = useTraceImport();
   if (busy) {

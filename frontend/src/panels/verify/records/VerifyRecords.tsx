@@ -21,10 +21,10 @@ import "./verifyrecords.css";
 
 const FORMATS = ["html", "csv", "json"] as const;
 const WIDTH = 960;
-/** From so many on, they can be filtered. */
+/** From this number on, the list has a filter. */
 const MANY = 8;
 
-/** What was kept of verifications in this project: opened, taken out as a file, deleted. */
+/** The kept verifications of this project: open, export, delete. */
 export function VerifyRecords() {
   const open = useVerifyRecords((records) => records.open);
   return open ? <RecordsDialog /> : null;

@@ -19,7 +19,7 @@ interface Props {
   onClose: () => void;
 }
 
-/** All columns: which are shown, which stay in sight, in which order and format. Kept in this browser for the range. */
+/** All columns: which are shown, which are pinned, in which order and format. This browser stores the choice for each range. */
 export function ColumnsDialog({ range, units, onClose }: Props) {
   const arrangement = useArrangement(range);
   const all = inOrder(units, arrangement);

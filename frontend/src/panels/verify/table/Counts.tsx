@@ -29,7 +29,7 @@ const STATES: Record<VerificationInfo["state"], [tone: string, icon: IconName]> 
   failed: ["fatal", "error"],
 };
 
-/** How far it is, what came out, and the way from difference to difference. */
+/** The progress, the result, and the buttons for the next and the previous difference. */
 export function Counts({ shown }: { shown: ShownVerification }) {
   const { info } = shown;
   const [asked, ask] = useState<"keep" | "columns" | null>(null);
@@ -113,13 +113,13 @@ function Stat({ value, word, id, bad = false }: StatProps) {
   );
 }
 
-/** Of which scans nothing was compared; what was left out of a run can be verified afterwards. */
+/** The scans that were not compared; those of a run can be verified afterwards. */
 function Skipped({ info }: { info: VerificationInfo }) {
   if (info.skipped === 0) return <Stat value={0} word={t("verify.skipped")} id="skipped" />;
   const items = (): MenuItem[] =>
     stretchLines(info.stretches).map((label, at) => {
       const [first, last] = info.stretches[at] ?? [0, 0];
-      if (info.source === "trace") return { label, disabled: true, onSelect: () => {} }; // nothing is there to be verified
+      if (info.source === "trace") return { label, disabled: true, onSelect: () => {} }; // the log has no values that could be verified
       return { label, hint: t("verify.skipped.verify"), onSelect: () => verifyStretch(first, last) };
     });
   return (
@@ -132,7 +132,7 @@ function Skipped({ info }: { info: VerificationInfo }) {
 
 function State({ info }: { info: VerificationInfo }) {
   const runs = usePlc(({ state }) => state?.state === "running");
-  // One that keeps up with a running PLC waits for each next scan: that is how it goes on.
+  // A verification that keeps up with a running PLC waits for each next scan: that is its normal state.
   const keepsUp = info.state === "waiting" && info.source === "live" && info.pace === "free" && runs;
   const state = keepsUp ? "verifying" : info.state;
   const [tone, icon] = STATES[state];
@@ -147,7 +147,7 @@ function State({ info }: { info: VerificationInfo }) {
   );
 }
 
-/** How full the used-variable record got. */
+/** How full the record of used variables became. */
 function RecordUse({ info: { used, limit } }: { info: VerificationInfo }) {
   const share = Math.min(100, (100 * used) / limit);
   const text = t("verify.record.use", { share: percent(share), limit: grouped(limit) });

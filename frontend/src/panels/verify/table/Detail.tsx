@@ -5,7 +5,7 @@ import { t } from "../../../text";
 import { Facts } from "./Facts";
 import { Source } from "./Source";
 
-/** Below the table: the program at the place, and what is known of the row. */
+/** Below the table: the program at the place of the difference, and the details of the row. */
 export function Detail({ shown }: { shown: ShownVerification }) {
   const row = useVerifyRows(({ selected, byIndex }) => (selected === null ? null : (byIndex.get(selected) ?? null)));
   const [chosen, choose] = useState<{ row: number; at: number }>({ row: -1, at: 0 });

@@ -4,7 +4,7 @@ import { t } from "../../../text";
 import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
 
-/** Nothing is verified yet: what it is good for, and how to begin. */
+/** No verification yet: what it is for, and how to begin. */
 export function EmptyVerify() {
   const online = useOnline();
   return (

@@ -22,7 +22,7 @@ interface Props extends Looked {
   onChoose: (at: number) => void;
 }
 
-/** The difference in words and bits, and what can be done with it. */
+/** The difference in words and bits, and the actions for it. */
 export function Facts({ shown, row, difference, at, onChoose }: Props) {
   const [uses, showUses] = useState(false);
   const differing = useVerifyRows((rows) => rows.differing);
@@ -175,7 +175,7 @@ function Side({ who, type, hex, beside, says }: SideProps) {
       </b>
       <code>
         {groups?.map((group, at) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: bits stand where they stand
+          // biome-ignore lint/suspicious/noArrayIndexKey: bits never change places
           <span key={at} className="nibble">
             {group.map(({ a, differs }, bit) =>
               // biome-ignore lint/suspicious/noArrayIndexKey: as above
@@ -209,7 +209,7 @@ function Deeds({ shown, row, difference, uses, onUses }: DeedsProps) {
   const isTrace = shown.info.source === "trace";
   const track = useVerifyRows((rows) => rows.track);
   const variable = variableOf(difference, track);
-  // The input that differs is the one to try another value for.
+  // The differing input is the one to try a different value for.
   const first = difference && difference.name in row.inputs ? difference.name : Object.keys(row.inputs)[0];
   if (shown.record) return null;
 

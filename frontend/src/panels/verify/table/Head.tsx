@@ -23,13 +23,13 @@ import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { Segments } from "../../../ui/Segments";
 import { Switch } from "../../../ui/Switch";
 
-/** The whole dock for this panel, and back. */
+/** Gives this panel the whole dock, and back. */
 export interface Whole {
   is: () => boolean;
   toggle: () => void;
 }
 
-/** What is verified, on which inputs, how fast. */
+/** What is verified, on which inputs, at which pace. */
 export function Head({ shown, whole }: { shown: ShownVerification | null; whole: Whole | null }) {
   const [large, setLarge] = useState(() => whole?.is() ?? false);
   const driven = shown?.source.kind === "verification" ? shown.info : null;
@@ -118,7 +118,7 @@ function What({ shown }: { shown: ShownVerification | null }) {
   );
 }
 
-/** Who is A, who is A'. */
+/** The legend: what A is, what A' is. */
 function Sides({ shown: { info, record }, name }: { shown: ShownVerification; name: string }) {
   const control =
     info.source === "trace"
@@ -211,7 +211,7 @@ function Controls({ info }: { info: ShownVerification["info"] }) {
   );
 }
 
-/** `from scan 1 200`, or the stretch. */
+/** `from scan 1 200`, or the range of scans. */
 export function spanOf({ first, last }: ShownVerification["info"]): string {
   return last === null
     ? t("verify.from", { first: grouped(first) })

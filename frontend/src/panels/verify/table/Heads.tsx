@@ -14,7 +14,7 @@ interface Props {
   onMenu: (unit: Unit, at: { x: number; y: number }) => void;
 }
 
-/** Two lines: the names of variables, dragged to another place; below what stands in each column. */
+/** Two lines: the names of variables, which can be dragged to a different place; below them the heading of each column. */
 export function Heads({ range, memory, units, tracks, drawn, onMenu }: Props) {
   const [over, setOver] = useState<string | null>(null);
   const named = drawn.filter(({ kind }) => kind === "control" || kind === "input");

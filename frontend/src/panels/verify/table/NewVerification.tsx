@@ -14,7 +14,7 @@ import type { NewVerification as Wanted } from "../../../wire/types";
 const LIMIT = 4096;
 type What = "scan" | "pou" | "lines";
 
-/** What is to be verified, and when. What was refused is said where it stands; nothing that was typed is lost. */
+/** Asks what to verify, and when. A refusal is shown beside its field; no entry is lost. */
 export function NewVerification({ wish }: { wish: VerifyWish }) {
   const { range, stretch } = wish;
   const pous = useDocuments((documents) => documents.pous).filter((pou) =>

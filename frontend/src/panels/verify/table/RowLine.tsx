@@ -12,7 +12,7 @@ import { placeOf } from "./cells";
 import type { Editing } from "./editing";
 
 interface Props {
-  /** Null: it is on its way. */
+  /** Null: it is still being fetched. */
   row: VerifyRow | null;
   index: number;
   line: number;
@@ -23,13 +23,13 @@ interface Props {
   source: VerificationInfo["source"];
   formats: Readonly<Record<string, Format>>;
   selected: boolean;
-  /** The column with the keys. */
+  /** The selected column. */
   track: string | null;
   editing: Editing | null;
   onEdit: Editing["begin"];
 }
 
-/** One run through the range, one scan, or one statement. */
+/** One row: one run through the range, one scan, or one statement. */
 export const RowLine = memo(
   function RowLine({ row, index, line, top, drawn, tracks, selected, track: at, onEdit, ...how }: Props) {
     const bad = row !== null && row.differences.length > 0;
@@ -83,7 +83,7 @@ type How = Pick<Props, "memory" | "source" | "formats" | "editing">;
 function cellOf(row: VerifyRow, track: Track, how: How): Cell {
   switch (track.kind) {
     case "mark":
-      // The note may be far to the right: that nothing is said of this row is seen where a difference would be.
+      // The note may be far to the right: the place of a difference already says that this row has no result.
       if (!row.compared && row.differences.length === 0)
         return {
           look: "gut faint",
@@ -144,7 +144,7 @@ function outputCell(row: VerifyRow, unit: Unit, kind: "control" | "monitor", { m
   const output = row.outputs[unit.column.name];
   const edge = kind === "control" ? " vfpair" : "";
   if (!output) return { look: `num faint${edge}`, shown: "" };
-  // a trace does not have all outputs, and of a row that was taken over from it there is no A'
+  // a log does not have all outputs, and a row that was taken over from it has no A'
   const compared = source !== "trace" || (output.control !== null && output.monitor !== null);
   const differs = compared && differsIn(row, unit, memory);
   const hex = kind === "control" ? output.control : resultOf(output, memory);

@@ -8,7 +8,7 @@ import { Icon } from "../../../ui/Icon";
 import type { VerificationInfo, VerifyDifference } from "../../../wire/types";
 import type { Looked } from "./looked";
 
-/** The lines of the range, with the one where the two part. */
+/** The lines of the range, with the line of the difference marked. */
 export function Source({ info, row, difference }: Looked & { info: VerificationInfo }) {
   const place = difference?.place ?? row?.place ?? null;
   const pous = useDocuments((documents) => documents.pous);
@@ -20,7 +20,7 @@ export function Source({ info, row, difference }: Looked & { info: VerificationI
   const top = useRef<HTMLDivElement>(null);
   const marked = place?.line ?? (inRange ? info.range.first : (pou?.line ?? 0));
   const scroller = useRef<HTMLDivElement>(null);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another place or another text is the reason
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs for a different place or a different text
   useEffect(() => {
     const element = scroller.current;
     if (element && top.current) element.scrollTop = top.current.offsetTop - element.clientHeight / 3;
@@ -41,7 +41,7 @@ export function Source({ info, row, difference }: Looked & { info: VerificationI
         {place && <span className="faint mono cut">{place.instance}</span>}
         {moved && <span className="st halted cut">{t("verify.source.moved")}</span>}
       </div>
-      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard */}
       <div ref={scroller} className="vflines scroll" role="list" aria-label={t("verify.source")} tabIndex={0}>
         {moved && place ? (
           <Line number={place.line} text={place.text} inRange difference={difference} here />
@@ -99,11 +99,11 @@ function Line({ number, text, inRange, difference, here, off = false }: LineProp
   );
 }
 
-/** Null until it is there, or when it is nowhere. */
+/** Null until it is fetched, or when there is none. */
 function useText(file: string, verification: number): string | null {
   const [known, setKnown] = useState<{ of: string; text: string | null }>({ of: "", text: null });
   const saved = useDocuments((documents) => documents.open[file]?.savedText);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another verification may be of another version
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a different verification may be of a different version
   useEffect(() => {
     if (file === "") return;
     let current = true;

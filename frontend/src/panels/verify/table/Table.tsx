@@ -40,10 +40,10 @@ import { useEditing } from "./editing";
 import { Heads } from "./Heads";
 import { RowLine } from "./RowLine";
 
-/** Two lines of heads. */
+/** The heads take two lines. */
 const HEAD = 46;
 
-/** A beside A', scan by scan. The grid holds the focus; the cell with the keys is its active descendant. */
+/** A beside A', scan by scan. The grid has the focus; the selected cell is its active descendant. */
 export function Table({ shown }: { shown: ShownVerification }) {
   const { info } = shown;
   const grid = useRef<HTMLDivElement>(null);
@@ -73,14 +73,14 @@ export function Table({ shown }: { shown: ShownVerification }) {
   const { from, to } = lines;
   useEffect(() => seeLines(from, Math.max(to, from + 40)), [from, to]);
   useHeldPlace(grid, rows.first, rows.onlyDiffering || follow.isOn());
-  // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs when rows are added
   useLayoutEffect(() => {
     if (follow.isOn() && grid.current) grid.current.scrollTop = grid.current.scrollHeight;
   }, [rows.count, count, rows.selected]);
   const at = rows.selected === null ? -1 : lineOfRow(rows, rows.selected);
   useReveal(at, rows.selected, lines.reveal);
   const editing = useEditing(shown, grid);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: a jump leads to the cell that differs, once
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a jump selects the differing cell, once
   useEffect(() => {
     const row = rows.sought === null ? undefined : rows.byIndex.get(rows.sought);
     if (!row) return;
@@ -91,7 +91,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
     selectRow(row.index, track.key);
     reveal(grid.current, tracks, track);
   }, [rows.sought, rows.byIndex, tracks]);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: the wish is the reason, once
+  // biome-ignore lint/correctness/useExhaustiveDependencies: runs once for each request
   useEffect(() => {
     const track = tracks.find(({ key }) => key === rows.wanted?.track);
     const row = rows.wanted && rows.byIndex.get(rows.wanted.index);
@@ -139,7 +139,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
     if (track.unit) open(columnMenu(info.title, units, track.unit), belowRow(element, ".vfcell.at", 0));
   }
 
-  // The row has the keys until a cell has, and while that cell is out of sight.
+  // Keys go to the row while no cell is selected, or the selected cell is not visible.
   const active = drawn.some(({ key }) => key === rows.track)
     ? `vf-${rows.selected}-${rows.track}`
     : `vf-${rows.selected}`;
@@ -213,13 +213,13 @@ function NoRows({ shown: { info }, only }: { shown: ShownVerification; only: boo
   );
 }
 
-/** How far it is scrolled to the side, and how wide the window on it is. */
+/** The horizontal scroll position, and the width of the visible part. */
 function useAcross(grid: { current: HTMLDivElement | null }) {
   const [sight, setSight] = useState({ left: 0, width: 1600 });
   const note = useCallback(() => {
     const element = grid.current;
     if (!element) return;
-    // In steps: most scrolling draws no other columns.
+    // In steps, so that most scrolling draws no new columns.
     const left = Math.floor(element.scrollLeft / 120) * 120;
     const width = element.clientWidth;
     setSight((before) => (before.left === left && before.width === width ? before : { left, width }));
@@ -234,7 +234,7 @@ function useAcross(grid: { current: HTMLDivElement | null }) {
   return useMemo(() => ({ ...sight, onScroll: note }), [sight, note]);
 }
 
-/** A variable that is used for the first time has its column among the others: what one looks at stays where it is. */
+/** A variable that is used for the first time gets a column among the others: the visible part stays in place. */
 function useHeldAcross(grid: { current: HTMLDivElement | null }, tracks: readonly Track[], note: () => void): void {
   const before = useRef(tracks);
   useLayoutEffect(() => {
@@ -249,7 +249,7 @@ function useHeldAcross(grid: { current: HTMLDivElement | null }, tracks: readonl
   }, [tracks, grid, note]);
 }
 
-/** Rows that are forgotten go at the front: what one reads stays where it is. */
+/** Old rows are dropped at the beginning: the visible part stays in place. */
 function useHeldPlace(grid: { current: HTMLDivElement | null }, first: number, moves: boolean): void {
   const before = useRef(first);
   useLayoutEffect(() => {
@@ -259,14 +259,14 @@ function useHeldPlace(grid: { current: HTMLDivElement | null }, first: number, m
   }, [first, moves, grid]);
 }
 
-/** As many lines at the end: they are drawn at once, not when the browser has told that it scrolled there. */
+/** Extra lines after the visible ones are drawn at once, before the browser reports that it scrolled there. */
 const endOf = (range: Range): Range => ({
   ...range,
   startIndex: Math.max(0, range.count - 1 - (range.endIndex - range.startIndex)),
   endIndex: range.count - 1,
 });
 
-/** At the end of one that runs freely the newest rows come into sight by themselves, until somebody looks at another one. */
+/** At the end of a free-running verification new rows become visible by themselves, until somebody selects a row. */
 function useFollowing(
   grid: { current: HTMLDivElement | null },
   live: boolean,
@@ -280,7 +280,7 @@ function useFollowing(
     const element = grid.current;
     if (!element) return;
     let height = element.clientHeight;
-    // Shown again or given another size: it is still the end that one looks at.
+    // After the panel is shown again or resized, the view is still at the end.
     const sized = new ResizeObserver(() => {
       height = element.clientHeight;
       if (on.current()) element.scrollTop = element.scrollHeight;

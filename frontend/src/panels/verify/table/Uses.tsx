@@ -8,7 +8,7 @@ import type { VerifyRow, VerifyUse } from "../../../wire/types";
 
 const SHOWN = 500;
 
-/** The used-variable record of a row: every read and write, in the order of use. */
+/** The record of used variables of a row: every read and write, in the order of use. */
 export function Uses({ row }: { row: VerifyRow }) {
   const [uses, setUses] = useState<readonly VerifyUse[] | null>(null);
   const table = useRef<HTMLTableElement>(null);
@@ -25,7 +25,7 @@ export function Uses({ row }: { row: VerifyRow }) {
       current = false;
     };
   }, [row]);
-  // The list stands below what was there before, perhaps out of sight.
+  // The list is below the earlier content, perhaps not visible.
   useEffect(() => {
     if (uses) table.current?.scrollIntoView({ block: "nearest" });
   }, [uses]);
@@ -51,7 +51,7 @@ export function Uses({ row }: { row: VerifyRow }) {
       </thead>
       <tbody>
         {uses.slice(0, SHOWN).map((use, at) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: the order is what tells them apart
+          // biome-ignore lint/suspicious/noArrayIndexKey: only the order distinguishes them
           <tr key={at} className={use.control === use.monitor ? "" : "dr"}>
             <td>
               <button type="button" className="link mono" onClick={() => openFile(use.file, use.line)}>

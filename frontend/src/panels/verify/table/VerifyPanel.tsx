@@ -13,12 +13,12 @@ import { Table } from "./Table";
 import "./verify.css";
 import "./detail.css";
 
-/** What the dock gives a panel. */
+/** The properties that the dock gives a panel. */
 interface Props {
   api?: { isMaximized: () => boolean; maximize: () => void; exitMaximized: () => void };
 }
 
-/** The program run twice on the same inputs: A beside A', scan by scan. */
+/** The program executed twice on the same inputs: A beside A', scan by scan. */
 export function VerifyPanel({ api }: Props) {
   const instance = useBench((bench) => bench.instance?.id ?? null);
   const { verifications, id, record } = useVerify(
@@ -26,7 +26,7 @@ export function VerifyPanel({ api }: Props) {
   );
   const shown = useMemo(() => shownOf({ verifications, id, record }), [verifications, id, record]);
   const asking = useVerify((state) => state.asking);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: another PLC has other verifications
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a different PLC has different verifications
   useEffect(() => void refreshVerifications(), [instance]);
   const whole: Whole | null = api
     ? { is: () => api.isMaximized(), toggle: () => (api.isMaximized() ? api.exitMaximized() : api.maximize()) }

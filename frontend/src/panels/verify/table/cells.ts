@@ -1,7 +1,7 @@
 import type { CSSProperties } from "react";
 import type { Track } from "../../../logic/verify/verifyColumns";
 
-/** Where a cell stands in its row: cells out of sight are not drawn, so each says its column. */
+/** The column of a cell in its row: cells outside the visible part are not drawn, so each states its column. */
 export function placeOf(track: Track, tracks: readonly Track[], span = 1): CSSProperties {
   const at = tracks.indexOf(track) + 1;
   return {

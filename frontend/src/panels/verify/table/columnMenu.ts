@@ -11,7 +11,7 @@ import {
 import { t } from "../../../text";
 import type { MenuItem } from "../../../ui/Menu";
 
-/** What can be done with a column; the first two move it to the left and to the right. */
+/** The actions for a column; the first two move it to the left and to the right. */
 export function columnMenu(range: string, units: readonly Unit[], { key, column }: Unit): MenuItem[] {
   const arrangement = useArrangements.getState().of.get(range) ?? plainArrangement;
   const pinned = arrangement.pinned.includes(key);

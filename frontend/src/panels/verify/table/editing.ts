@@ -10,7 +10,7 @@ import type { VerifyRow } from "../../../wire/types";
 export interface Editing {
   at: { index: number; track: string } | null;
   draft: string;
-  /** Nothing was typed yet: the first key replaces what stands there. */
+  /** Nothing was typed yet: the first key replaces the content. */
   fresh: boolean;
   refused: string | null;
   begin: (row: VerifyRow, track: Track) => void;
@@ -19,7 +19,7 @@ export interface Editing {
   leave: () => void;
 }
 
-/** One input that is edited in its cell. What was refused stays as typed, with the reason below. */
+/** One input that is edited in its cell. A refused entry stays as typed, with the reason below. */
 export function useEditing(shown: ShownVerification, grid: RefObject<HTMLElement | null>): Editing {
   const [at, setAt] = useState<{ index: number; track: string; row: VerifyRow; of: Track } | null>(null);
   const [draft, setDraft] = useState("");

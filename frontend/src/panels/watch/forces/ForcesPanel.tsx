@@ -16,7 +16,7 @@ import type { ForceInfo } from "../../../wire/types";
 import { NowCell } from "./NowCell";
 import "./forces.css";
 
-/** All forces that hold, whoever made them: what was there before, what the program wants, what goes out; released one by one or all at once. */
+/** All active forces, whoever set them: the value before, the value of the program, the value at output; released one by one or all at once. */
 export function ForcesPanel() {
   const held = useForces((forces) => forces.held);
   const forces = useMemo(() => [...new Set(held.values())], [held]);

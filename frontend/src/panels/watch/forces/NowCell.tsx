@@ -1,7 +1,7 @@
 import { useEffect, useRef } from "react";
 import { bindCell } from "../../../store/plc/values";
 
-/** What stands there at the end of each scan: frames write it directly. */
+/** The value at the end of each scan: value frames write it directly. */
 export function NowCell({ path }: { path: string }) {
   const cell = useRef<HTMLSpanElement>(null);
   useEffect(

@@ -5,9 +5,9 @@ import { addToWatch } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
 import { PathBox } from "../../../ui/PathBox";
 
-/** Typing a path, an address or a range of them, with what the running program has to offer. Enter adds it. */
+/** A field for a path, an address or a range of addresses, with completion. Enter adds it. */
 export function AddBox() {
-  // A model without areas is watched by variables only.
+  // A model without areas has only variables to watch.
   const example = useBench(({ model }) => {
     const first = model?.areas[0]?.first;
     return [first, model?.code_word, first && `${first}:8`].filter(Boolean).join(", ");
@@ -23,7 +23,7 @@ export function AddBox() {
     return odd === null ? add(pathsIn(text)) : { text, odd: t("watch.add.nopath", { text: odd }) };
   }
 
-  // One line is edited as usual; many lines are many entries.
+  // Pasting one line edits the field as usual; many lines are many entries.
   function paste(text: string): boolean {
     const many = /\S[\r\n]+\s*\S/.test(text);
     if (many) add(pathsIn(text));

@@ -11,7 +11,7 @@ import { MenuButton } from "../../../ui/Menu";
 import type { Binding, BoundTo } from "../../../wire/types";
 import { siteName, siteShown } from "./sites";
 
-/** Below an in-out: how it is passed, by which call, when; and another call, for who wants to write there. */
+/** Below an in-out: how it is passed, by which call, when; and a choice of a different call for writing. */
 export function BindingLine({ row, style, index }: { row: BindingRow; style: CSSProperties; index: number }) {
   const binding = useBindings((bindings) => bindings.of.get(row.path));
   useEffect(() => lookAtBinding(row.path), [row.path]);

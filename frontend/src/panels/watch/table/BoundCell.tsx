@@ -9,7 +9,7 @@ import { Icon } from "../../../ui/Icon";
 import type { PlcSymbol } from "../../../wire/types";
 import { siteShown } from "./sites";
 
-/** What stands behind the row: the actual of an in-out, what the program wants under a force, the error behind a flag. */
+/** The context of the row: the argument of an in-out, the program's value under a force, the error of a flag. */
 export function BoundCell({ row, symbol }: { row: ValueRow; symbol: PlcSymbol | null }) {
   const forced = useForcedAt(row.path);
   const did = useForceValues((values) => (forced ? values.of.get(forced.path) : undefined));
@@ -46,7 +46,7 @@ function Actual({ path, inOut }: { path: string; inOut: string }) {
   );
 }
 
-/** Where the value lives; of an in-out, where that of the variable that was passed does. */
+/** The address of the value; for an in-out, the address of the variable that was passed. */
 export function AddressCell({ row, symbol }: { row: ValueRow; symbol: PlcSymbol | null }) {
   const binding = useBindings((bindings) => (row.inOut === row.path ? bindings.of.get(row.path) : undefined));
   const chosen = useWatchList((list) => chosenFor(list.sites, row.path));

@@ -6,14 +6,14 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { PlcSymbol } from "../../../wire/types";
 
-/** Where a value is typed. Enter writes it, F7 forces it; what was refused stays, with the reason below: the PLC says why a read-only value is none. */
+/** A field for a new value. Enter writes it, F7 forces it; a refused entry stays, with the reason below. For a read-only variable the PLC says why. */
 export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: PlcSymbol | null; forced: boolean }) {
   const draft = useWatchList((list) => list.drafts.get(row.path)) ?? "";
   const online = useOnline();
   const forbidden = useForbidden("write");
   const bad = useWatchList((list) => list.notes.get(row.path)?.kind === "refused");
 
-  // Without a connection the entry is kept, and said not to be sent; what is typed must not be lost on the way.
+  // Without a connection the entry is kept, with a note that it was not sent: no entry must be lost.
   const locked = online ? forbidden : null;
   if (!symbol || symbol.expandable) return <span className="edit" role="gridcell" />;
 

@@ -10,7 +10,7 @@ import { MenuButton } from "../../../ui/Menu";
 
 const TOLD = 50;
 
-/** The list as a CSV file, out and in; lines that cannot be read are named, the others are taken. */
+/** Exports and imports the list as a CSV file; unreadable lines are listed, the others are imported. */
 export function CsvMenu({ onNewGroup }: { onNewGroup: () => void }) {
   const { entries, name } = useWatchLists((lists) => lists.content);
   const file = useRef<HTMLInputElement>(null);
@@ -20,7 +20,7 @@ export function CsvMenu({ onNewGroup }: { onNewGroup: () => void }) {
     const [chosen] = currentTarget.files ?? [];
     if (!chosen) return;
     const read = fromCsv(await chosen.text());
-    currentTarget.value = ""; // the same file again is a change, too
+    currentTarget.value = ""; // choosing the same file again counts as a change, too
     const before = useWatchLists.getState().content.entries.length;
     if (read.entries.length > 0) addAll(read.entries);
     const added = useWatchLists.getState().content.entries.length - before;

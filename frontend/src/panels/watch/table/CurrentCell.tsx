@@ -9,14 +9,14 @@ import type { PlcSymbol, Refusal } from "../../../wire/types";
 
 interface Props {
   path: string;
-  /** Whose value is shown: of an in-out with a picked call another variable's. */
+  /** The path whose value is shown: for an in-out with a chosen call, a different variable. */
   from: string;
   symbol: PlcSymbol | null;
   refusal: Refusal | null;
   format: Format;
 }
 
-/** The live value. Frames write into this cell directly; React only places it. */
+/** The live value. Value frames write into this cell directly; React only places it. */
 export function CurrentCell({ path, from, symbol, refusal, format }: Props) {
   const version = useShownProgram((shown) => shown.version);
   if (refusal) {
@@ -47,7 +47,7 @@ function LiveCell({ path, from, known, format }: { path: string; from: string; k
   const lamp = useRef<HTMLSpanElement>(null);
   const text = useRef<HTMLSpanElement>(null);
 
-  // biome-ignore lint/correctness/useExhaustiveDependencies: when the symbol comes, what stands here is read again
+  // biome-ignore lint/correctness/useExhaustiveDependencies: reads the cell again when the symbol arrives
   useEffect(() => {
     let fade: ReturnType<typeof setTimeout> | undefined;
     let unmark: ReturnType<typeof setTimeout> | undefined;
@@ -78,7 +78,7 @@ function LiveCell({ path, from, known, format }: { path: string; from: string; k
       aria-label={t("watch.current.of", { path })}
       data-testid={`current:${path}`}
       onMouseEnter={({ currentTarget }) => {
-        currentTarget.title = text.current?.textContent ?? ""; // a long value is cut
+        currentTarget.title = text.current?.textContent ?? ""; // a long value is cut off
       }}
     >
       <Icon name="changed" />

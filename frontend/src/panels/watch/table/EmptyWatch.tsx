@@ -8,7 +8,7 @@ import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
 
-/** A list without entries says how to get some, and offers the ones most people want. */
+/** An empty list says how to add entries, and offers the ones most people want. */
 export function EmptyWatch() {
   const instance = useBench((bench) => bench.instance);
   const model = useBench((bench) => bench.model);
@@ -54,7 +54,7 @@ export function EmptyWatch() {
   );
 }
 
-/** What others watch is often the best begin. */
+/** What others watch is often a good start. */
 function SharedLists() {
   const { lists, id } = useWatchLists();
   const shared = lists.filter((list) => list.shared && list.id !== id && list.count > 0);

@@ -5,7 +5,7 @@ import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { MenuButton } from "../../../ui/Menu";
 
-/** Which rows are shown, by text and by state; how many that leaves. */
+/** Filters the rows by text and by state, and says how many remain. */
 export function FilterBar({ shown, total, onClose }: { shown: number; total: number; onClose: () => void }) {
   const { text, only } = useWatchList((list) => list.filter);
   function close(): void {
@@ -17,7 +17,7 @@ export function FilterBar({ shown, total, onClose }: { shown: number; total: num
       <span className="inp sm">
         <Icon name="search" small />
         <input
-          // biome-ignore lint/a11y/noAutofocus: it was opened to be typed in
+          // biome-ignore lint/a11y/noAutofocus: it was opened for typing
           autoFocus
           aria-label={t("watch.filter.text")}
           placeholder={t("watch.filter.text")}

@@ -7,7 +7,7 @@ import { Icon } from "../../../ui/Icon";
 
 const LOOK: Record<WatchColumn, string> = { current: "num", change: "num", type: "c-type", address: "", bound: "" };
 
-/** The names of the columns: a click sorts by one, another one backwards, the third as listed. */
+/** The column heads: a click sorts, a second click reverses the order, a third one restores the order of the list. */
 export function GridHead() {
   const sort = useWatchList((list) => list.sort);
   return (

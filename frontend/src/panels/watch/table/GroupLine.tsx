@@ -13,7 +13,7 @@ interface Props {
   onMenu: (at: { x: number; y: number }) => void;
 }
 
-/** The head of a group: folds it, and takes what is dropped on it. */
+/** The head of a group: folds it, and accepts dropped entries. */
 export function GroupLine({ row, style, index, selected, onSelect, onMenu }: Props) {
   return (
     <div

@@ -13,7 +13,7 @@ import { AskName } from "../../../ui/AskName";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
 
-/** Which watch list is shown, and whether the team shares it. */
+/** Chooses the watch list, and says whether the team shares it. */
 export function ListPicker() {
   const { lists, id, content } = useWatchLists();
   const [renaming, setRenaming] = useState(false);

@@ -8,11 +8,11 @@ interface Props {
   row: NoteRow;
   style: CSSProperties;
   index: number;
-  /** Its height is that of its text. */
+  /** As high as its text needs. */
   measured: Ref<HTMLDivElement>;
 }
 
-/** What a row has to say: why nothing was written and what would be, what is not known and what it may have meant. */
+/** The note of a row: why a value was refused and which would be accepted, or which name is unknown and what it may have meant. */
 export function NoteLine({ row, style, index, measured }: Props) {
   const { note, path, root } = row;
   const refused = note.kind !== "unsent";

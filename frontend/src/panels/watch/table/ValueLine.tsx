@@ -28,7 +28,7 @@ interface Props {
   style: CSSProperties;
   index: number;
   selected: boolean;
-  /** Something is dragged that would be put in front of it. */
+  /** A dragged entry would be inserted before this row. */
   target: boolean;
   onMenu: (at: { x: number; y: number }) => void;
 }
@@ -133,7 +133,7 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
   );
 }
 
-/** A subrange with a name is read by its bounds; the name is told besides. */
+/** A named subrange is shown by its bounds; the tooltip has the name. */
 const typeTitle = ({ type, range }: PlcSymbol) => (range && range !== type ? `${type}: ${range}` : type);
 
 const forcedBy = ({ value, author }: ForceInfo) => t("force.by", { value, author });

@@ -23,7 +23,7 @@ interface Props {
   onRenameGroup: (name: string) => void;
 }
 
-/** The rows: only those in sight exist in the page, and are watched. The grid holds the focus, the selected row is its active descendant. */
+/** The rows: only the visible ones are in the page, and are watched. The grid has the focus, the selected row is its active descendant. */
 export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
   const { open, menu } = useMenu();
   const selected = useWatchList((list) => list.selected);
@@ -48,7 +48,7 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     if ((event.target as HTMLElement).matches("input, .grip")) return;
     const to = grid.stepOf(event.key, now);
-    // A row that only says something is passed over, on the way that the key leads.
+    // Rows that are only notes are skipped, in the direction of the key.
     if (to !== undefined) go(to, ["ArrowUp", "PageUp", "End"].includes(event.key) ? -1 : 1);
     else if (event.key === "ContextMenu") {
       if (rows[now]) showMenu(rows[now], belowRow(event.currentTarget));
@@ -78,7 +78,7 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
       onDragEnd={drop.onDragEnd}
       onDrop={drop.onDrop}
       onFocus={(event) => {
-        // A click brings the focus, too, and the rows must not move away below the pointer.
+        // A click also moves the focus here, and the rows must not move below the pointer.
         if (now < 0 && event.currentTarget.matches(":focus-visible")) go(0, 1);
       }}
     >
@@ -132,18 +132,18 @@ function Line({ row, line, selected, target, measured, onMenu }: LineProps) {
   }
 }
 
-/** What a row is selected as; rows that only say something cannot be. */
+/** The path by which a row is selected; notes cannot be selected. */
 const selectsAs = (row: WatchRow) => (row.kind === "value" ? row.path : row.kind === "group" ? row.key : null);
 
 function useInSight(rows: readonly WatchRow[], from: number, to: number): void {
   const sort = useWatchList((list) => list.sort);
   const filter = useWatchList((list) => list.filter);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: with another sort or filter others are needed
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a different sort or filter needs different values
   useEffect(() => watchInSight(pathsToWatch(rows.slice(from, to))), [rows, from, to, sort, filter]);
   useEffect(() => watchNothing, []);
 }
 
-/** Why an entry was not taken is brought into sight: it may stand below the last row that is. */
+/** Scrolls to the reason of a refusal: it may be below the last visible row. */
 function useRevealNote(rows: readonly WatchRow[], reveal: (index: number) => void): void {
   const notes = useWatchList((list) => list.notes);
   const before = useRef(notes);
@@ -157,7 +157,7 @@ function useRevealNote(rows: readonly WatchRow[], reveal: (index: number) => voi
   }, [rows, notes, reveal]);
 }
 
-/** Many lines are many entries; what was copied from a CSV file has formats and groups, too. */
+/** Many lines are many entries; lines from a CSV file also have formats and groups. */
 function paste(event: ClipboardEvent): void {
   if ((event.target as HTMLElement).matches("input")) return;
   const text = event.clipboardData.getData("text/plain");
@@ -166,7 +166,7 @@ function paste(event: ClipboardEvent): void {
   else addToWatch(pathsIn(text));
 }
 
-/** The dragged widths as custom properties; a column without one keeps what the style sheet says. */
+/** The dragged widths as custom properties; other columns keep the widths of the style sheet. */
 function useColumnStyle(): CSSProperties {
   const widths = useColumns();
   const px = (width: number | undefined) => (width === undefined ? undefined : `${width}px`);

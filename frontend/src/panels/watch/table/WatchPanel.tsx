@@ -19,7 +19,7 @@ import { useRows } from "./useRows";
 import { WatchGrid } from "./WatchGrid";
 import "./watch.css";
 
-/** A group that is to get a name: a new one, with an entry to begin with, or one that has another. */
+/** A group that gets a name: a new one, with its first entry, or an existing one. */
 type Naming = { of: "new"; path: string | null } | { of: "old"; name: string };
 
 /** The watch table: live values, and the place where values are changed and forced. */
@@ -106,7 +106,7 @@ function NameGroup({ naming, onClose }: { naming: Naming; onClose: () => void })
   );
 }
 
-/** What happened to the list: not saved, deleted by somebody, or done and to be undone. */
+/** A message about the list: not saved, deleted by somebody, or a change that can be undone. */
 function Notices() {
   const { trouble, deletedBy, done, content } = useWatchLists();
   if (trouble) {
@@ -145,7 +145,7 @@ function Notices() {
 
 const UNDO_FOR = 10_000;
 
-/** What can be undone is offered for a while. */
+/** Undo is offered for a while. */
 function useUndoOffer(): void {
   const done = useWatchLists((lists) => lists.done);
   useEffect(() => {
@@ -155,7 +155,7 @@ function useUndoOffer(): void {
   }, [done]);
 }
 
-/** How many forces hold; they are all in the panel of the forces. */
+/** The number of forces; the panel of the forces lists them. */
 function ForceCount() {
   const count = usePlc((plc) => plc.state?.forces ?? 0);
   if (count === 0) return null;

@@ -79,7 +79,7 @@ test("Space writes the other value of a BOOL, and nothing in the past", () => {
   expect(sent).toHaveLength(2);
 });
 
-test("the menu of a BOOL writes and forces both values, whatever it is", () => {
+test("the menu of a BOOL writes and forces both values, whatever its value is", () => {
   shows(1);
   const items = rowMenu(row as unknown as ValueRow, () => undefined);
   for (const label of ["Write TRUE", "Write FALSE", "Force to TRUE", "Force to FALSE"]) {

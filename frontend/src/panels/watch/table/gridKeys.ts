@@ -1,4 +1,4 @@
-/** The keys of the watch table, with the selected row. */
+/** The keys of the watch table, for the selected row. */
 import type { KeyboardEvent } from "react";
 import { forbidden } from "../../../logic/plc/permits";
 import type { WatchRow } from "../../../logic/watch/watchrows";
@@ -24,7 +24,7 @@ export const mayWrite = () => {
   return forbidden(state, link.state === "open", "write") === null;
 };
 
-/** False when the key means nothing here. */
+/** False when the key has no meaning here. */
 export function gridKey(event: KeyboardEvent<HTMLDivElement>, row: WatchRow | undefined): boolean {
   const grid = event.currentTarget;
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {

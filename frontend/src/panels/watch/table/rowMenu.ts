@@ -32,7 +32,7 @@ import { siteShown } from "./sites";
 
 const BOOLS = ["TRUE", "FALSE"] as const;
 
-/** What can be done with a row of the watch table. */
+/** The menu of a row of the watch table. */
 export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): MenuItem[] {
   const symbol = row.symbol ?? useWatches.getState().symbols.get(row.path) ?? null;
   return [
@@ -79,7 +79,7 @@ function forceItems(row: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
   ];
 }
 
-/** A BOOL has two values: both are offered, whatever it is now. */
+/** A BOOL has two values: the menu offers both, whatever the current one is. */
 function boolItems({ path, root }: ValueRow, locked: TextKey | null): MenuItem[] {
   const plc = usePlc.getState();
   const unwritable = forbidden(plc.state, plc.link.state === "open", "write");
@@ -114,7 +114,7 @@ function releaseItems({ path }: ValueRow, locked: TextKey | null): MenuItem[] {
 }
 
 function formatItems({ path, root }: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
-  // Of a range or an array: those of its elements.
+  // For a range or an array: the formats of its elements.
   const shape = symbol?.expandable ? elementShape(symbol) : symbol;
   if (!shape) return [];
   const chosen = formatOf(path, root);
@@ -170,7 +170,7 @@ function breakItems({ path }: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
   ];
 }
 
-/** The variable behind an in-out can be watched itself. */
+/** The variable that an in-out refers to can be watched itself. */
 function actualItems({ path, inOut }: ValueRow): MenuItem[] {
   const binding = inOut === null ? undefined : useBindings.getState().of.get(inOut);
   const site = binding && siteShown(binding, chosenFor(useWatchList.getState().sites, inOut ?? ""));
@@ -179,7 +179,7 @@ function actualItems({ path, inOut }: ValueRow): MenuItem[] {
   return [{ label: t("watch.add.path", { path: actual }), icon: "bound", onSelect: () => addToWatch([actual]) }];
 }
 
-/** What can be done with a group. */
+/** The menu of a group. */
 export function groupMenu({ name, open }: GroupRow, onRename: (name: string) => void): MenuItem[] {
   return [
     { label: t(open ? "watch.fold" : "watch.unfold", { path: name }), onSelect: () => toggleGroup(name) },

@@ -6,7 +6,7 @@ import { useBindings } from "../../../store/watch/bindings";
 import { useWatchList } from "../../../store/watch/watchlist";
 import { siteShown } from "./sites";
 
-/** The variable that a row means since somebody picked another call of its in-out; else what the row says itself. */
+/** The variable of a row after somebody chose a different call of its in-out; else the variable of the row itself. */
 export function usePicked(row: ValueRow): string {
   const chosen = useWatchList((list) => (row.inOut === null ? undefined : chosenFor(list.sites, row.inOut)));
   const binding = useBindings((bindings) => (chosen && row.inOut !== null ? bindings.of.get(row.inOut) : undefined));

@@ -5,12 +5,12 @@ import type { WatchRow } from "../../../logic/watch/watchrows";
 import { addToWatch } from "../../../store/watch/watchlist";
 import { editList } from "../../../store/watch/watchlists";
 
-/** What a row of the table carries besides its path: that it is to be moved. */
+/** The data type that a dragged row has besides its path: the row is to be moved. */
 export const ROW_DRAG = "application/x-scanbench-watch";
 
 interface Place {
   group: string;
-  /** The entry in front of which it is put; null is the end of the group. */
+  /** The entry before which it is inserted; null is the end of the group. */
   before: string | null;
 }
 
@@ -22,14 +22,14 @@ function placeAt(rows: readonly WatchRow[], target: EventTarget): Place | null {
   return null;
 }
 
-/** Dropping on the table: its own rows are moved, also between groups; what comes from elsewhere is added. */
+/** Dropping on the table: its own rows are moved, also between groups; anything else is added. */
 export function useRowDrop(rows: readonly WatchRow[]) {
   const [before, setBefore] = useState<Place | null>(null);
 
   function onDragOver(event: DragEvent): void {
     if (!event.dataTransfer.types.includes(ROW_DRAG)) return;
     event.preventDefault();
-    event.stopPropagation(); // the panel would take it for something new
+    event.stopPropagation(); // the panel would take it for a new entry
     event.dataTransfer.dropEffect = "move";
     const place = placeAt(rows, event.target);
     if (place?.group !== before?.group || place?.before !== before?.before) setBefore(place);

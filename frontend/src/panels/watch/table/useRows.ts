@@ -15,10 +15,10 @@ import { siteShown } from "./sites";
 
 const LOOK_AGAIN = 1000;
 
-/** The rows of the list that is shown, in their order. */
+/** The rows of the shown list, in their order. */
 export function useRows(): readonly WatchRow[] {
   const { entries, groups } = useWatchLists((lists) => lists.content);
-  // Not what is typed, nor what is selected: both change with every key.
+  // Neither typed values nor the selection are read here: both change with every key.
   const { open, collapsed, shown, notes, sort, filter, since, drafts } = useWatchList(
     useShallow((list) => ({
       open: list.open,
@@ -37,7 +37,7 @@ export function useRows(): readonly WatchRow[] {
   const forces = useForces((state) => state.held);
   const turn = useTurns(sort?.column === "current" || sort?.column === "bound" || filter.only === "changed");
 
-  // biome-ignore lint/correctness/useExhaustiveDependencies: each turn looks at the values again
+  // biome-ignore lint/correctness/useExhaustiveDependencies: each turn reads the values again
   return useMemo(
     () =>
       watchRows({
@@ -83,7 +83,7 @@ function keyOf(path: string, column: SortColumn, drafts: ReadonlyMap<string, str
   return (binding && siteShown(binding, undefined)?.actual) ?? null;
 }
 
-/** Values move by themselves, the rows once a second at most: and not while somebody types in one. */
+/** Values change by themselves, the order of rows at most once a second, and not while somebody types in a row. */
 function useTurns(on: boolean): number {
   const [turn, setTurn] = useState(0);
   useEffect(() => {
