@@ -73,10 +73,10 @@ function take(line: string, at: number): { path: string; column: number; end: nu
     path += step[0].replace(/\s+/g, "");
     end = STEP.lastIndex;
   }
-  const behind = line.slice(end);
+  const rest = line.slice(end);
   // Not variables of this place: the name of a call, the name of a parameter, and a member whose owner has no fixed path.
-  const call = /^\s*\((?!\*)/.test(behind);
+  const call = /^\s*\((?!\*)/.test(rest);
   const member = /\.\s*$/.test(line.slice(0, at));
-  const parameter = /^\s*(:=|=>)/.test(behind) && /[(,]\s*(NOT\s+)?$/i.test(line.slice(0, at));
+  const parameter = /^\s*(:=|=>)/.test(rest) && /[(,]\s*(NOT\s+)?$/i.test(line.slice(0, at));
   return { path, column: at + 1, end, named: !call && !parameter && !member };
 }

@@ -41,8 +41,8 @@ describe("the states of a run", () => {
         [10, "fatal"],
         [20, "running"],
       ]);
-    const stands = at(10, "error", "generated memory-error; the program is stopped");
-    expect(tones(trap, stands, at(20, "build", "program version 2: warm start, as")).at(-1)).toEqual([20, "running"]);
+    const stopped = at(10, "error", "generated memory-error; the program is stopped");
+    expect(tones(trap, stopped, at(20, "build", "program version 2: warm start, as")).at(-1)).toEqual([20, "running"]);
     expect(tones(trap, at(15, "build", "program version 2: 3 kept")).at(-1)).toEqual([10, "fatal"]);
     expect(tones(trap, at(20, "mode", "mode PROGRAM: the program is stopped")).at(-1)).toEqual([20, "stopped"]);
     expect(tones(at(10, "system", "clock set to 2026-01-01T00:00:00"))).toEqual([[0, "running"]]);

@@ -1,4 +1,4 @@
-/** One plot of numbers with uPlot. Samples are decimated to pixels first; names at the ends of lines and dots at cursors are drawn behind the lines. */
+/** One plot of numbers with uPlot. Samples are decimated to pixels first; names at the ends of lines and dots at cursors are drawn afterwards. */
 import uPlot from "uplot";
 import { axisMarks, type Mark } from "../../logic/trace/axis";
 import { type Plot, padded } from "../../logic/trace/plots";
@@ -106,12 +106,12 @@ export class PlotDrawing {
           }),
         ),
       ],
-      hooks: { draw: [() => this.behind()] },
+      hooks: { draw: [() => this.drawRest()] },
     };
   }
 
-  /** Drawn behind uPlot's lines: the record to compare with, names, dots, the title. In device pixels. */
-  private behind(): void {
+  /** Drawn after uPlot has drawn its lines: the record to compare with, names, dots, the title. In device pixels. */
+  private drawRest(): void {
     const { ctx, bbox } = this.chart;
     const ratio = devicePixelRatio || 1;
     const { colors, plot, now } = this;

@@ -30,7 +30,7 @@ const MOST = 200;
 /** Rows come by the hundred: they are requested at most once a second. */
 const PERIOD = 1000;
 
-const stand = ({ differing, generation }: VerificationInfo) => `${generation} ${differing}`;
+const versionOf = ({ differing, generation }: VerificationInfo) => `${generation} ${differing}`;
 // Scans of a controller log are those of a different controller.
 const ofThisRun = ({ source }: VerificationInfo) => source !== "trace";
 
@@ -53,7 +53,7 @@ function isBehind(info: VerificationInfo): boolean {
   const known = get().of.get(info.id);
   if (!known) return info.differing > 0;
   // The first differences are marked; later ones change nothing once there are enough.
-  return known.at !== stand(info) && !(known.marks.length >= MOST && known.at.split(" ")[0] === `${info.generation}`);
+  return known.at !== versionOf(info) && !(known.marks.length >= MOST && known.at.split(" ")[0] === `${info.generation}`);
 }
 
 async function load(info: VerificationInfo): Promise<void> {
@@ -67,7 +67,7 @@ async function load(info: VerificationInfo): Promise<void> {
       text: t("timeline.differ", { text: differences[0]?.name ?? info.title }),
     }));
     if (useVerify.getState().verifications.some((known) => known.id === id))
-      set(({ of }) => ({ of: new Map(of).set(id, { at: stand(info), marks }) }));
+      set(({ of }) => ({ of: new Map(of).set(id, { at: versionOf(info), marks }) }));
   } catch {
     // The verification was deleted meanwhile, or the connection was lost: its next message requests the rows again.
   }

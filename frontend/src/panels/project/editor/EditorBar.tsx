@@ -13,7 +13,7 @@ import { Icon } from "../../../ui/Icon";
 import { StateWord } from "../../../ui/StateWord";
 import type { Pou } from "../../../wire/types";
 import { DebugSwitches } from "./DebugSwitches";
-import { shownLine, useStanding } from "./halt";
+import { shownLine, useHaltedLine } from "./halt";
 import { SeenAs } from "./SeenAs";
 import { VerifyButton } from "./VerifyButton";
 
@@ -87,12 +87,12 @@ type Cursor = NonNullable<ReturnType<typeof useDocuments.getState>["cursor"]>;
 
 /** The line that the bar is about: the line of the halt, until the user moves the caret. */
 function useLooked(path: string, cursor: Cursor | null): number {
-  const standing = useStanding(path);
-  const key = standing?.key ?? "";
+  const halted = useHaltedLine(path);
+  const key = halted?.key ?? "";
   const [since, setSince] = useState({ key, cursor });
   if (since.key !== key || (since.cursor === null && cursor !== null)) setSince({ key, cursor });
   const moved = since.key === key && since.cursor !== null && cursor !== null && since.cursor.line !== cursor.line;
-  return standing && !moved ? shownLine(path, standing.line) : (cursor?.line ?? 1);
+  return halted && !moved ? shownLine(path, halted.line) : (cursor?.line ?? 1);
 }
 
 function ChecksToggle() {

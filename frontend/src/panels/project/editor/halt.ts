@@ -7,7 +7,7 @@ import { shownText } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import type { editor } from "./monaco";
 
-interface Standing {
+interface HaltedLine {
   line: number;
   /** Identifies the halt and frame, so that the editor scrolls to each once. */
   key: string;
@@ -20,7 +20,7 @@ export function markHalt(code: editor.IStandaloneCodeEditor, path: string): () =
   const marks = code.createDecorationsCollection();
   let shown = "";
   const mark = () => {
-    const here = standingIn(path);
+    const here = haltedLineIn(path);
     marks.set(here ? [decoration(here, breakpointsAt(path, here.line).length > 0, shownLine(path, here.line))] : []);
     const key = here?.key ?? "";
     if (here && key !== shown) code.revealLineInCenterIfOutsideViewport(shownLine(path, here.line));
@@ -40,14 +40,14 @@ export function shownLine(path: string, line: number): number {
 }
 
 /** The same as a hook. */
-export function useStanding(path: string): Standing | null {
+export function useHaltedLine(path: string): HaltedLine | null {
   usePlc((plc) => plc.state?.halt);
   useStack((stack) => stack.frame);
-  return standingIn(path);
+  return haltedLineIn(path);
 }
 
 /** The place of the halt, or of a caller that was selected in the call stack. */
-export function standingIn(path: string): Standing | null {
+export function haltedLineIn(path: string): HaltedLine | null {
   const halt = usePlc.getState().state?.halt;
   if (!halt) return null;
   const frame = frameNow();
@@ -60,7 +60,7 @@ export function standingIn(path: string): Standing | null {
   return { line: halt.line, key: `${halt.number}`, look: halt.past ? "past" : "halt", text: halt.text };
 }
 
-function decoration({ look, text }: Standing, breakpoint: boolean, line: number): editor.IModelDeltaDecoration {
+function decoration({ look, text }: HaltedLine, breakpoint: boolean, line: number): editor.IModelDeltaDecoration {
   return {
     range: { startLineNumber: line, startColumn: 1, endLineNumber: line, endColumn: 1 },
     options: {

@@ -16,7 +16,7 @@ import { useDocuments } from "../../../store/project/documents";
 import { shownText } from "../../../store/project/shownProgram";
 import { forcedAt, useForces } from "../../../store/watch/forces";
 import { t } from "../../../text";
-import { standingIn } from "./halt";
+import { haltedLineIn } from "./halt";
 import type { editor } from "./monaco";
 import { hasValues } from "./names";
 
@@ -122,8 +122,8 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
   const model = code.getModel();
   if (!model) return wanted;
   const { pous, text, built } = shownText(path);
-  const standing = standingIn(path);
-  const stands = standing && lineIn(built, text, standing.line);
+  const halted = haltedLineIn(path);
+  const haltedAt = halted && lineIn(built, text, halted.line);
   const on = usePrefs.getState().inline;
   const here = frameNow()?.scanbench?.pou.toUpperCase();
   for (const { startLineNumber, endLineNumber } of code.getVisibleRanges()) {
@@ -140,8 +140,8 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
       const found = variablesIn(model.getLineContent(line), comment);
       comment = found.comment;
       const values = pou && on && hasValues(pou) ? valuesOf(found.variables, pou.name, inFrame) : [];
-      const next = stands === line ? saidOf(standing?.look) : "";
-      const old = inFrame && stands !== null && line > stands;
+      const next = haltedAt === line ? saidOf(halted?.look) : "";
+      const old = inFrame && haltedAt !== null && line > haltedAt;
       if (values.length > 0 || next !== "") wanted.set(line, { values, old, next });
     }
   }
@@ -208,8 +208,8 @@ function place(code: editor.IStandaloneCodeEditor, rows: ReadonlyMap<number, Row
     const at = model && code.getScrolledVisiblePosition({ lineNumber: line, column: model.getLineMaxColumn(line) });
     element.hidden = !at;
     if (!model || !at) continue;
-    const behind = at.left - contentLeft + insertedWidth(code, model, line);
-    element.style.transform = `translate(${behind + 24}px, ${at.top}px)`;
+    const end = at.left - contentLeft + insertedWidth(code, model, line);
+    element.style.transform = `translate(${end + 24}px, ${at.top}px)`;
   }
 }
 

@@ -74,13 +74,13 @@ function Back() {
       />
     );
   }
-  const stands = online && permits(state, "stepBack");
+  const able = online && permits(state, "stepBack");
   return (
     <IconButton
       icon="step-back"
       label={t("run.back")}
       hint="Shift+F8"
-      disabled={!stands || (state?.scan ?? 0) <= first}
+      disabled={!able || (state?.scan ?? 0) <= first}
       onClick={stepBack}
     />
   );
