@@ -1,6 +1,6 @@
 /**
- * Frames a second of the trace: 16 signals of a 1 ms task, a window of 10 s (10,000 rows of each), while it is followed live and while
- * the wheel moves it. Prints figures; nothing here is a test. `node bench/trace.mjs ADDRESS`, the address that the server printed.
+ * Measures the frames a second of the trace: 16 signals of a 1 ms task, a window of 10 s (10,000 rows of each), while the view follows and
+ * while the wheel moves it. Prints figures; nothing here is a test. `node bench/trace.mjs ADDRESS`, with the address that the server printed.
  */
 import { chromium } from '@playwright/test';
 
@@ -53,7 +53,7 @@ await page.waitForSelector('.truplot canvas');
 await page.waitForTimeout(11_000);
 
 const cdp = await page.context().newCDPSession(page);
-// processor time, not wall time: what others do on this machine does not count
+// processor time, not wall time: other work on this machine does not count
 await cdp.send('Performance.setTimeDomain', { timeDomain: 'threadTicks' }).catch(() => undefined);
 await cdp.send('Performance.enable');
 const spent = async () => {
@@ -61,7 +61,7 @@ const spent = async () => {
   return Object.fromEntries(metrics.map(({ name, value }) => [name, value]));
 };
 
-/** Frames a second and the longest gap between two, while something goes on. */
+/** Frames a second and the longest gap between two frames, while `work` runs. */
 async function frames(what, during) {
   const measured = page.evaluate(
     (seconds) =>
@@ -99,7 +99,7 @@ async function frames(what, during) {
 
 const box = await page.locator('.trstack').boundingBox();
 const follow = page.getByRole('button', { name: 'Follow' });
-// ten seconds: 1,000 scans wide at first, ten times as wide then
+// ten seconds: 1,000 scans wide at first, then ten times as wide
 for (let width = 1; width < 10; width *= 2)
   await page.getByRole('button', { name: 'Zoom out', exact: true }).first().click();
 if ((await follow.getAttribute('aria-pressed')) !== 'true') await follow.click();

@@ -21,12 +21,12 @@ export class Debug {
     return this.page.getByTestId(`variable:${name}`);
   }
 
-  /** The line that is next, in full width. */
+  /** The next line, marked in full width. */
   haltedLine(file: string): Locator {
     return new Editor(this.page, file).region.locator('.haltline').first();
   }
 
-  /** What stands in the gutter of a file: `gl-bp`, `gl-bp-cond`, `gl-here` ... */
+  /** The marks in the gutter of a file: `gl-bp`, `gl-bp-cond`, `gl-here` ... */
   glyph(file: string, shape: string): Locator {
     return new Editor(this.page, file).region.locator(`.glyph-margin-widgets .${shape}`);
   }
@@ -46,14 +46,14 @@ export class Debug {
     await this.page.mouse.click(x, y);
   }
 
-  /** From the menu of the gutter. */
+  /** Chooses an entry of the gutter's menu. */
   async fromGutter(file: string, part: string, item: string): Promise<void> {
     const { x, y } = await this.gutterAt(file, part);
     await this.page.mouse.click(x, y, { button: 'right' });
     await this.page.getByRole('menuitem', { name: item }).click();
   }
 
-  /** The form below a line. */
+  /** The breakpoint form below a line. */
   get form(): Locator {
     return this.page.getByRole('form', { name: /^Breakpoint in line/ });
   }
@@ -69,7 +69,7 @@ export class Debug {
     await this.page.getByRole('toolbar', { name: 'Run controls' }).getByRole('button', { name, exact: true }).click();
   }
 
-  /** Another value for a variable of the frame, typed in its row. */
+  /** Types a new value for a variable of the frame, in its row. */
   async setVariable(name: string, value: string): Promise<void> {
     await this.variable(name).click();
     const entry = this.page.getByRole('textbox', { name: `Value of ${name}`, exact: true });

@@ -1,6 +1,6 @@
 import type { Locator, Page } from '@playwright/test';
 
-/** What the embedded subrange checks found while the program ran. */
+/** Subrange violations that the embedded checks found while the program ran. */
 export class Diagnostics {
   constructor(private readonly page: Page) {}
 

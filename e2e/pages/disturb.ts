@@ -2,7 +2,7 @@ import { expect, type Locator, type Page } from '@playwright/test';
 
 type Kind = 'Bit flip' | 'Late input' | 'Stuck input' | 'Corrupted result';
 
-/** Disturbances: what a good program must live with. */
+/** The panel of the disturbances: faults that a robust program must tolerate. */
 export class Disturb {
   constructor(private readonly page: Page) {}
 
@@ -23,7 +23,7 @@ export class Disturb {
     return this.list.getByRole('listitem').filter({ hasText: text });
   }
 
-  /** Why it was not taken. */
+  /** Why the disturbance was refused. */
   get refusal(): Locator {
     return this.pane.getByRole('alert');
   }

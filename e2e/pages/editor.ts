@@ -1,7 +1,7 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 import type { Server } from '../fixtures/server';
 
-/** The text of one file, with its save and build. */
+/** The editor of one file, with Save and Build. */
 export class Editor {
   constructor(
     private readonly page: Page,
@@ -37,7 +37,7 @@ export class Editor {
     return this.region.locator('.view-line').filter({ hasText: new RegExp(pattern) });
   }
 
-  /** From the menu of a line. Monaco takes no click in the first 100 ms of its menu, to let accidental ones go. */
+  /** Chooses an entry of a line's menu. Monaco ignores clicks in the first 100 ms of its menu, because they may be accidental. */
   async fromMenu(part: string, item: string): Promise<void> {
     await this.line(part).first().click({ button: 'right' });
     const found = this.page.getByRole('menuitem', { name: item });
@@ -48,12 +48,12 @@ export class Editor {
     }).toPass();
   }
 
-  /** Above a text that ran in the past: which version it is. */
+  /** The note above a text that ran in the past: which version it is. */
   get pastNote(): Locator {
     return this.region.getByRole('status').filter({ hasText: 'Program version' });
   }
 
-  /** The live values of a name, as they are shown after the lines that mention it. */
+  /** The live values of a name at the ends of the lines that mention it. */
   inlineValue(name: string): Locator {
     return this.region
       .locator('.inlinerow > span')
@@ -67,7 +67,7 @@ export class Editor {
     return this.region.locator('.inlinerow > .forced').filter({ hasText: new RegExp(`^${name}`) });
   }
 
-  /** Whether the values of a name are shown after the end of lines that mention it, each at the height of its own. */
+  /** Whether the values of a name are shown after the ends of the lines that mention it, each in its own line. */
   async valuesAreBeside(name: string): Promise<boolean> {
     return this.region.evaluate((region, wanted) => {
       const lines = [...region.querySelectorAll('.view-line')].map((line) => ({
@@ -95,7 +95,7 @@ export class Editor {
     await expect(this.text).toBeAttached();
   }
 
-  /** Turns the wheel until a line stands clear of the edges; lines out of sight are not in the page at all. */
+  /** Turns the wheel until a line is clear of the edges; lines that are not visible are not in the page at all. */
   async reveal(part: string): Promise<void> {
     const line = this.line(part).first();
     const area = await this.region
@@ -111,7 +111,7 @@ export class Editor {
       return box.y + box.height > area.y + area.height - 10 ? 1 : 0;
     };
     for (let turn = 0, seen = await offset(); turn < 60 && seen !== 0; turn += 1) {
-      // Not in the page at all: from the top downward.
+      // The line is not in the page: search from the top downward.
       await this.page.mouse.wheel(0, seen === null && turn === 0 ? -100_000 : 40 * (seen ?? 1));
       await this.page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
       seen = await offset();
@@ -129,13 +129,13 @@ export class Editor {
     await this.page.keyboard.type(text);
   }
 
-  /** A line of its own below one that is there; pasted, so that no completion gets in between. */
+  /** Adds a line below an existing one; pasted, so that no completion interferes. */
   async addBelow(part: string, text: string): Promise<void> {
     await this.caretAfter(part);
     await this.page.keyboard.insertText(`\n${text}`);
   }
 
-  /** Another text instead of the one that is there, as by pasting. */
+  /** Replaces the whole text, as by pasting. */
   async replaceWith(text: string): Promise<void> {
     await this.text.focus();
     await this.page.keyboard.press('Control+A');
@@ -150,7 +150,7 @@ export class Editor {
     return this.region.getByRole('button', { name: 'Build', exact: true });
   }
 
-  /** What is said above the text: that its file was deleted. */
+  /** The note above the text that its file was deleted. */
   get note(): Locator {
     return this.region.getByRole('status').filter({ hasText: 'deleted' });
   }
@@ -164,7 +164,7 @@ export class Editor {
     return this.page.locator('.suggest-widget.visible');
   }
 
-  /** Saves, and says what the server has now. */
+  /** Saves, and returns the text that the server has then. */
   async stored(server: Server): Promise<string> {
     await this.save();
     await expect(this.saveButton).toBeDisabled();

@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** The tree at the left: programs, instances, memory. */
+/** The tree on the left: programs, instances, memory. */
 export class Explorer {
   constructor(private readonly page: Page) {}
 
@@ -20,7 +20,7 @@ export class Explorer {
     await expect(dialog).toBeHidden();
   }
 
-  /** Files of this computer, chosen as with the button above the tree. */
+  /** Adds files of this computer, as with the button above the tree. */
   async addFiles(...files: { name: string; text: string | Buffer }[]): Promise<void> {
     const chooser = this.page.waitForEvent('filechooser');
     await this.page.getByRole('button', { name: 'Add files from this computer' }).click();

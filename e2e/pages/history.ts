@@ -1,6 +1,6 @@
 import { type Download, expect, type Locator, type Page } from '@playwright/test';
 
-/** The error history, and test records out of it and into it. */
+/** The error history, and the export and import of test records. */
 export class History {
   constructor(private readonly page: Page) {}
 

@@ -47,7 +47,7 @@ export class Ide {
     return new Editor(this.page, file);
   }
 
-  /** The banner below the top bar: what is wrong, and the way back. */
+  /** The banner below the top bar: what is wrong, and how to continue. */
   get banner(): Locator {
     return this.page
       .getByRole('alert')
@@ -59,7 +59,7 @@ export class Ide {
     return this.page.getByRole('contentinfo');
   }
 
-  /** Everything stands and lives: a program runs, and its scans are counted. */
+  /** Waits until the page is ready: the program runs, and its scans are counted. */
   async runs(): Promise<void> {
     await expect(this.top.state).toContainText('Running');
     await this.top.scansGoOn();
@@ -69,7 +69,7 @@ export class Ide {
     await this.page.getByRole('tab', { name, exact: true }).click();
   }
 
-  /** Which pane has the focus; empty when none has. */
+  /** The name of the pane with the focus; empty when none has it. */
   async focusedPane(): Promise<string> {
     return this.page.evaluate(() => document.activeElement?.closest<HTMLElement>('[data-pane]')?.dataset.pane ?? '');
   }

@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** The list of every instance: what each does and costs, and what can be done with it. */
+/** The list of every instance: its state, its load, and its actions. */
 export class InstanceList {
   constructor(private readonly page: Page) {}
 
@@ -21,7 +21,7 @@ export class InstanceList {
     await this.dialog.getByRole('button', { name: action, exact: true }).click();
   }
 
-  /** A button that asks for a name first. */
+  /** Presses a button that asks for a name first. */
   async pressAndName(action: 'Clone…' | 'Rename…', name: string): Promise<void> {
     await this.press(action);
     const asking = this.page.getByRole('dialog', { name: new RegExp(`^${action.slice(0, -1)} `) });
@@ -38,7 +38,7 @@ export class InstanceList {
     await expect(this.row(name)).toHaveCount(0);
   }
 
-  /** The run of the chosen instance, as the file that the browser saved. */
+  /** The run of the selected instance, as the file that the browser saved. */
   async export(): Promise<string> {
     const saved = this.page.waitForEvent('download');
     await this.press('Export');

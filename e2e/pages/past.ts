@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** Questions about the past: what changed, who wrote it, two runs side by side, the run once more, links to scans. */
+/** Queries about the past: what changed, who wrote it, two runs side by side, a replay, links to scans. */
 export class Past {
   constructor(private readonly page: Page) {}
 
@@ -13,7 +13,7 @@ export class Past {
     return this.page.getByRole('dialog', { name: /^What changed between scan / });
   }
 
-  /** A row of the table of what changed. */
+  /** A row of the table of changed variables. */
   changed(path: string): Locator {
     return this.changes.getByRole('row').filter({ has: this.page.getByRole('rowheader', { name: path, exact: true }) });
   }
@@ -23,7 +23,7 @@ export class Past {
     return this.page.getByRole('region', { name: /^Compare with / });
   }
 
-  /** The banner that a link asks with. */
+  /** The banner that asks whether to follow a link. */
   get question(): Locator {
     return this.page.getByRole('region', { name: 'Link', exact: true });
   }

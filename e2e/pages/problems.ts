@@ -5,7 +5,7 @@ interface Shown {
   problem: number;
 }
 
-/** The list of what the compiler finds. */
+/** The list of the compiler's problems. */
 export class Problems {
   constructor(private readonly page: Page) {}
 

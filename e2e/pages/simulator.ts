@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** The error simulator: the model's errors, to be raised and recovered. */
+/** The error simulator, which raises and recovers the errors of the model. */
 export class Simulator {
   constructor(private readonly page: Page) {}
 
@@ -17,7 +17,7 @@ export class Simulator {
     return this.tree.getByRole('row').filter({ has: this.page.getByRole('checkbox', { name, exact: true }) });
   }
 
-  /** The row of a group is found in the same way. */
+  /** The row of a group, found in the same way. */
   group(name: string): Locator {
     return this.error(name);
   }
@@ -39,7 +39,7 @@ export class Simulator {
     return this.details.getByRole('region', { name: 'Reaction of the program' });
   }
 
-  /** Faults that come later or come back. */
+  /** Scheduled and recurring faults. */
   get armed(): Locator {
     return this.pane.getByRole('region', { name: 'Armed faults' });
   }
@@ -63,17 +63,17 @@ export class Simulator {
     return this.pane.getByRole('button', { name: /^(Generate|Arm)( \d+…?)?$/ });
   }
 
-  /** Why the last command was not taken. */
+  /** Why the last command was refused. */
   get refusal(): Locator {
     return this.pane.getByRole('alert');
   }
 
-  /** A word of the error memory, as it stands below the tree. */
+  /** A word of the error memory, as shown below the tree. */
   word(address: string): Locator {
     return this.page.getByTestId(`word:${address}`);
   }
 
-  /** What the last Generate or Recover did, in names. */
+  /** The result of the last Generate or Recover, with the names of the errors. */
   get outcome(): Locator {
     return this.pane.getByRole('status');
   }
@@ -90,7 +90,7 @@ export class Simulator {
     await box.selectOption({ label: label ?? '' });
   }
 
-  /** When it begins, how it goes on. */
+  /** When the fault begins, how it continues. */
   async shape(what: 'When' | 'How', option: string): Promise<void> {
     await this.details.getByRole('combobox', { name: what, exact: true }).selectOption({ label: option });
   }

@@ -2,7 +2,7 @@ import { expect, type Locator, type Page } from '@playwright/test';
 
 export interface Wanted {
   errors?: 'All errors of the model' | 'Non-fatal only' | 'Selected in the error simulator';
-  /** Kept states to begin from; without, the PLC as it is now. */
+  /** Kept states to begin from; without any, the current state of the PLC. */
   states?: string[];
   scans?: number;
 }
@@ -56,7 +56,7 @@ export class Sweeps {
     return this.matrix.getByRole('row').filter({ has: this.page.getByRole('rowheader', { name: error, exact: true }) });
   }
 
-  /** A result by its state, as the head of the column says. */
+  /** A result by the name of its state, as in the column head. */
   async cell(error: string, state: string): Promise<Locator> {
     const head = this.matrix.getByRole('columnheader');
     await expect(head.filter({ hasText: state })).toBeVisible();
@@ -76,7 +76,7 @@ export class Sweeps {
     await this.page.getByRole('menuitem', { name: item, exact: true }).click();
   }
 
-  /** Keeps the PLC as it is shown. */
+  /** Keeps the shown state of the PLC. */
   async keepState(name: string): Promise<void> {
     await this.fromMenu('Keep this state…');
     await this.nameState(name);
@@ -93,7 +93,7 @@ export class Sweeps {
     return this.page.getByRole('dialog', { name: 'Run all' });
   }
 
-  /** Opens the dialog and fills it in. */
+  /** Opens the dialog, and fills it in. */
   async ask({ errors = 'All errors of the model', states, scans }: Wanted): Promise<void> {
     const button = this.pane.getByRole('button', { name: 'Run all…' });
     if (await button.isVisible()) await button.click();
@@ -140,7 +140,7 @@ export class Sweeps {
     await expect(this.matrix).toBeVisible();
   }
 
-  /** The sweep that is shown beside another one of the menu, the newest first. */
+  /** Compares the shown sweep with one of the menu, the newest first. */
   async compareWith(index: number): Promise<void> {
     await this.press('Compare');
     await this.page.getByRole('menuitem').nth(index).click();

@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** The run along the bottom edge: every scan, what was done to the PLC, and the way back. */
+/** The run along the bottom edge: every scan, the commands, and going back. */
 export class Timeline {
   constructor(private readonly page: Page) {}
 
@@ -13,7 +13,7 @@ export class Timeline {
     return this.region.getByRole('slider', { name: 'Timeline' });
   }
 
-  /** Says which scan is shown, and the two ways on. */
+  /** The banner that says which scan is shown, and how to continue. */
   get banner(): Locator {
     return this.page.getByRole('region', { name: 'In the past' });
   }

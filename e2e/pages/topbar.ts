@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** The strip along the top: which PLC, its mode and state, and what makes it run. */
+/** The strip along the top: which PLC, its mode and state, and its run controls. */
 export class TopBar {
   constructor(private readonly page: Page) {}
 
@@ -62,7 +62,7 @@ export class TopBar {
     await this.page.getByRole('menuitem', { name: 'Instances…' }).click();
   }
 
-  /** The number of the last scan that this browser was told. */
+  /** The number of the last scan that this browser knows. */
   async scan(): Promise<number> {
     const text = (await this.page.getByTestId('scan').textContent()) ?? '';
     return Number(text.replace(/\D/g, '') || NaN);
@@ -97,7 +97,7 @@ export class TopBar {
     await this.page.getByRole('menuitemradio', { name: entry }).click();
   }
 
-  /** Notes every change of the state with its time, because a restart may be over before one looks. */
+  /** Records every change of the state with its time, because a restart may be over before the test looks. */
   async noteStates(): Promise<() => Promise<{ at: number; text: string }[]>> {
     await this.state.evaluate((element) => {
       const noted = [{ at: Date.now(), text: element.textContent ?? '' }];

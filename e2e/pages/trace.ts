@@ -14,7 +14,7 @@ export class Trace {
     await expect(this.pane).toBeVisible();
   }
 
-  /** Values at the cursors, which is what the plots show as text. */
+  /** Values at the cursors: the content of the plots as text. */
   get table(): Locator {
     return this.page.getByRole('grid', { name: 'Values at the cursors' });
   }
@@ -43,7 +43,7 @@ export class Trace {
     await expect(this.row(signal)).toBeVisible();
   }
 
-  /** Waits for a signal to do something. */
+  /** Arms the trigger. */
   async arm(signal: string, when: string): Promise<void> {
     await this.pane.getByRole('combobox', { name: 'Trigger condition' }).selectOption(when);
     await this.enter('When', signal);
@@ -73,19 +73,19 @@ export class Trace {
       .map((line) => line.split(','));
   }
 
-  /** The scan of a cursor, as screen readers are told. */
+  /** The scan of a cursor, as screen readers announce it. */
   async scanOf(name: 'A' | 'B'): Promise<number> {
     return Number(await this.cursor(name).getAttribute('aria-valuenow'));
   }
 
-  /** Clicks into the plots, so far from the left of the whole. */
+  /** Clicks into the plots, at a fraction of their width. */
   async clickAt(share: number): Promise<void> {
     const box = await this.pane.locator('.trstack').boundingBox();
     if (!box) throw new Error('no plots');
     await this.page.mouse.click(box.x + 50 + (box.width - 170) * share, box.y + 40);
   }
 
-  /** Colours in the drawing: something is drawn in it. */
+  /** The number of colours in the drawing: more than one if something is drawn. */
   async inks(): Promise<number> {
     return this.pane
       .locator('.truplot canvas')

@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** Bringing in the trace of a real controller, and what was kept of verifications. */
+/** The import of a controller log, and the kept verifications. */
 export class TraceImport {
   constructor(private readonly page: Page) {}
 
@@ -18,7 +18,7 @@ export class TraceImport {
     await this.page.getByRole('menuitem', { name: item }).click();
   }
 
-  /** A file as somebody would choose it. */
+  /** Chooses a file. */
   async choose(name: string, text: string): Promise<void> {
     await this.dialog
       .locator('input[type="file"]')
@@ -63,7 +63,7 @@ export class TraceImport {
     await this.page.getByRole('menuitem', { name: new RegExp(`^${name}`) }).click();
   }
 
-  // ---- verifications that were kept ---------------------------------------------------------------------------------
+  // ---- kept verifications --------------------------------------------------------------------------------------------
 
   get records(): Locator {
     return this.page.getByRole('dialog', { name: 'Saved verifications' });

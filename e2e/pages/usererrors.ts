@@ -20,7 +20,7 @@ export class UserErrors {
     return this.pane.getByRole('textbox', { name, exact: true });
   }
 
-  /** What is wrong with a field, as it stands under it. */
+  /** The problem of a field, as shown below it. */
   wrong(text: string | RegExp): Locator {
     return this.pane.locator('form .hint.bad').filter({ hasText: text });
   }
@@ -29,7 +29,7 @@ export class UserErrors {
     return this.pane.getByRole('button', { name, exact: true });
   }
 
-  /** From the explorer, where it stands with the model. */
+  /** Opens the page from the explorer, where it is below the model. */
   async open(): Promise<void> {
     const tree = this.page.getByRole('tree', { name: 'Explorer' });
     const row = tree.getByRole('treeitem', { name: 'User-defined errors', exact: true });

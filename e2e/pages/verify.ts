@@ -1,7 +1,7 @@
 import { readFile } from 'node:fs/promises';
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** The verification: the program run twice, A beside A'. */
+/** The verification: the program executed twice, A beside A'. */
 export class Verify {
   constructor(private readonly page: Page) {}
 
@@ -14,7 +14,7 @@ export class Verify {
     await expect(this.pane).toBeVisible();
   }
 
-  /** More room: the whole dock. */
+  /** Gives the panel the whole dock. */
   async maximise(): Promise<void> {
     await this.pane.getByRole('button', { name: 'Maximise this panel' }).click();
   }
@@ -27,7 +27,7 @@ export class Verify {
     return this.page.getByRole('grid', { name: 'A beside A′' });
   }
 
-  /** The rows in sight. */
+  /** The visible rows. */
   get rows(): Locator {
     return this.table.locator('[data-scan]');
   }
@@ -50,7 +50,7 @@ export class Verify {
     return Number(text.replace(/\D/g, ''));
   }
 
-  /** What is known of the row that is looked at. */
+  /** The details of the selected row. */
   get facts(): Locator {
     return this.pane.getByRole('region', { name: 'What differs' });
   }

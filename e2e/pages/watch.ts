@@ -1,6 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
-/** The watch table: values as they are, and the place where they are changed. */
+/** The watch table, which shows and changes values. */
 export class Watch {
   constructor(private readonly page: Page) {}
 
@@ -20,7 +20,7 @@ export class Watch {
     return this.page.getByRole('textbox', { name: `Change ${path}`, exact: true });
   }
 
-  /** Why the last entry was not taken; it stands below its row. */
+  /** Why the last entry was refused; shown below its row. */
   get refusal(): Locator {
     return this.table.getByRole('alert');
   }
@@ -45,7 +45,7 @@ export class Watch {
     await this.entry(path).press('Enter');
   }
 
-  /** Writes, and sees that it was taken: the entry is empty again. */
+  /** Writes, and waits until it was accepted: the entry is empty again. */
   async set(path: string, value: string): Promise<void> {
     await this.write(path, value);
     await expect(this.entry(path)).toHaveValue('');
@@ -53,7 +53,7 @@ export class Watch {
 
   async fromMenu(path: string, item: string, role: 'menuitem' | 'menuitemradio' = 'menuitem'): Promise<void> {
     await this.name(path).click({ button: 'right' });
-    // A key stands behind some names.
+    // Some names are followed by a key.
     await this.page
       .getByRole(role, { name: new RegExp(`^${item.replace(/[^\w ]/g, '\\$&')}( Space| (Shift\\+)?F7)?$`) })
       .click();
@@ -73,7 +73,7 @@ export class Watch {
     await this.page.getByRole('menuitem', { name: item, exact: true }).click();
   }
 
-  /** Shows another list, `Belt 3 shared`. */
+  /** Shows a different list, such as `Belt 3 shared`. */
   async choose(list: string): Promise<void> {
     await this.picker.click();
     await this.page.getByRole('menuitemradio', { name: list, exact: true }).click();
@@ -105,7 +105,7 @@ export class Watch {
       .filter({ has: this.page.getByRole('button', { name: new RegExp(`old ${name}$`) }) });
   }
 
-  /** Where a row is taken hold of. */
+  /** The handle by which a row is dragged. */
   name(path: string): Locator {
     return this.row(path).locator('.name');
   }
@@ -126,7 +126,7 @@ export class Watch {
     );
   }
 
-  /** What a clipboard with this text does to the table, or to the box above it while it is empty. */
+  /** Pastes this text into the table, or into the box above it while the table is empty. */
   async paste(text: string): Promise<void> {
     const target = this.page.getByRole('combobox', { name: 'Add to watch' });
     await target.evaluate((element, pasted) => {
@@ -136,7 +136,7 @@ export class Watch {
     }, text);
   }
 
-  /** From a selection of the editor over to the table, with the mouse. */
+  /** Drags a selection of the editor to the table, with the mouse. */
   async dragSelection(from: Locator): Promise<void> {
     const [start, end] = [await from.boundingBox(), await this.table.boundingBox()];
     if (!start || !end) throw new Error('nothing to drag, or nowhere to');
@@ -161,12 +161,12 @@ export class Watch {
     await this.page.getByTestId('watch-csv').setInputFiles(path);
   }
 
-  /** The lock in front of a forced row. */
+  /** The lock at the left of a forced row. */
   releaseOf(path: string): Locator {
     return this.page.getByRole('button', { name: `Release force of ${path}`, exact: true });
   }
 
-  /** Who wrote a value last, as the tooltip of its name says. */
+  /** The author of the last write, as the tooltip of the name says. */
   writtenBy(path: string, who: string): Locator {
     return this.row(path).getByTitle(`Written by ${who}`);
   }

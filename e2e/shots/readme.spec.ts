@@ -20,7 +20,7 @@ test('main window, light', async ({ openAs }) => {
   await take(mika, 'main-light');
 });
 
-test('halted at a breakpoint, and gone into the block', async ({ openAs }) => {
+test('halted at a breakpoint, after a step into the block', async ({ openAs }) => {
   const { mika } = await atWork(openAs);
   await mika.debug.clickGutter('Main.st', 'belt(run := motor);');
   await expect(mika.top.state).toContainText('Halted');
@@ -39,7 +39,7 @@ test('a fatal error', async ({ openAs }) => {
   await take(mika, 'fatal');
 });
 
-test('the past: how it was before the error', async ({ openAs }) => {
+test('the past: the state before the error', async ({ openAs }) => {
   const { mika } = await atWork(openAs);
   await raise(mika);
   await mika.watch.set('start', 'FALSE');
@@ -72,7 +72,7 @@ test('a small window', async ({ openAs }) => {
   await take(mika, 'small');
 });
 
-/** The belt has run for a while, and two people look at it. */
+/** The belt has run for a while, and two people have the page open. */
 async function atWork(openAs: (name: string) => Promise<Ide>): Promise<{ mika: Ide; jo: Ide }> {
   const mika = await openAs('Mika Lind');
   await mika.top.chooseTheme('dark');
@@ -92,7 +92,7 @@ async function raise(ide: Ide): Promise<void> {
   await expect(ide.simulator.word('A400')).toHaveText('009A');
 }
 
-/** The pointer is put away first, so that nothing is lit up below it. */
+/** The pointer is moved away first, so that no element below it is highlighted. */
 async function take(ide: Ide, name: string): Promise<void> {
   await ide.page.mouse.move(0, 0);
   await ide.page.screenshot({ path: resolve(FOLDER, `${name}.png`), animations: 'disabled' });

@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('what must not be written is refused in its row, with the reason', { tag: '@all' }, async ({ openAs }) => {
+test('a forbidden write is refused in its row, with the reason', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
 
@@ -14,7 +14,7 @@ test('what must not be written is refused in its row, with the reason', { tag: '
     await expect(mika.watch.refusal).toHaveCount(0);
   });
 
-  await test.step('letters are not an INT; the entry stays to be mended', async () => {
+  await test.step('letters are not an INT; the entry stays so that it can be corrected', async () => {
     await mika.watch.write('Main.parts.total', 'abc');
     await expect(mika.watch.refusal).toContainText('abc');
     await expect(mika.watch.refusal).toContainText('INT');
@@ -25,7 +25,7 @@ test('what must not be written is refused in its row, with the reason', { tag: '
     await mika.page.keyboard.press('Escape');
   });
 
-  await test.step('an unknown path offers what it may have meant', async () => {
+  await test.step('an unknown path offers similar paths', async () => {
     await mika.watch.add('motr');
     const unknown = mika.watch.refusal.filter({ hasText: 'Not known.' });
     await expect(unknown).toContainText('motr');
@@ -34,12 +34,12 @@ test('what must not be written is refused in its row, with the reason', { tag: '
   });
 });
 
-test('two people save the same file: nothing is lost, and one chooses', async ({ openAs }) => {
+test('two people save the same file: nothing is lost, and the second one chooses', async ({ openAs }) => {
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   const [mine, theirs] = [mika.editor('Main.st'), jo.editor('Main.st')];
 
-  await test.step('Mika saves first, Jo is shown both texts', async () => {
+  await test.step('Mika saves first, Jo sees both texts', async () => {
     await mine.addBelow('uptime : TIME;', '  mikas     : INT;');
     await theirs.addBelow('uptime : TIME;', '  jos       : INT;');
     await mine.save();
@@ -58,7 +58,7 @@ test('two people save the same file: nothing is lost, and one chooses', async ({
     await expect(mine.line('mikas : INT;')).toHaveCount(0);
   });
 
-  await test.step('another time Mika takes theirs', async () => {
+  await test.step('a second time Mika takes the other text', async () => {
     await theirs.addBelow('jos : INT;', '  josToo    : INT;');
     await mine.addBelow('uptime : TIME;', '  mikasToo  : INT;');
     await theirs.save();

@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('an online change lists what begins anew, waits for a yes, and is rolled back', async ({ openAs }) => {
+test('an online change lists the reinitialized variables, waits for confirmation, and is rolled back', async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -16,7 +18,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
     await main.build();
   };
 
-  await test.step('a variable more: nothing is lost, so nobody is asked', async () => {
+  await test.step('one more variable: nothing is lost, so there is no question', async () => {
     await change('uptime : TIME;', 'uptime    : TIME; shift : INT := 3;');
     await expect(main.outcome).toContainText(/Built for line-1: \d+ kept, 1 new/);
     await ann.watch.add('Main.shift');
@@ -24,7 +26,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
     await ann.watch.shows('Main.shift', '44');
   });
 
-  await test.step('another type: the variable would begin anew, and nothing happens yet', async () => {
+  await test.step('a different type: the variable would be reinitialized, and nothing happens yet', async () => {
     await change('shift : INT := 3;', 'uptime    : TIME; shift : TIME := T#5s;');
     await expect(dialog.getByRole('row').filter({ hasText: 'Main.shift' })).toContainText('INT');
     await expect(dialog).toContainText(/\d+ kept/);
@@ -34,7 +36,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
     await ann.watch.shows('Main.shift', '44');
   });
 
-  await test.step('agreed: it runs, and what was kept goes on', async () => {
+  await test.step('confirmed: the new program runs, and the other variables keep their values', async () => {
     const parts = await ann.watch.number('Main.parts.total');
     await main.build();
     await dialog.getByRole('button', { name: 'Change line-1' }).click();
@@ -44,7 +46,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
     await ann.runs();
   });
 
-  await test.step('rolled back: the program of before runs again', async () => {
+  await test.step('rolled back: the previous program runs again', async () => {
     await main.region.getByRole('button', { name: 'Roll back' }).click();
     await ann.watch.shows('Main.shift', '3');
     await expect(main.region.getByRole('button', { name: 'Roll back' })).toBeHidden();
@@ -63,7 +65,9 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
   });
 });
 
-test('with two PLCs one chooses which is changed, and is told which was', { tag: '@all' }, async ({ openAs }) => {
+test('with two PLCs the user chooses which to change, and sees which were changed', { tag: '@all' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.top.showInstances();
@@ -74,13 +78,13 @@ test('with two PLCs one chooses which is changed, and is told which was', { tag:
   const dialog = ann.page.getByRole('dialog', { name: /^Online change/ });
   const box = (name: string) => dialog.getByRole('checkbox', { name: `Change ${name}` });
 
-  await test.step('nothing is lost: no question, and both are named', async () => {
+  await test.step('nothing is lost: no question, and the result names both PLCs', async () => {
     await main.addBelow('uptime : TIME;', 'shift : INT;');
     await main.build();
     await expect(main.outcome).toContainText(/Built for (line-1, What-If|What-If, line-1): \d+ kept, 1 new/);
   });
 
-  await test.step('each can be left out', async () => {
+  await test.step('each PLC can be left out', async () => {
     await main.line('shift : INT;').first().click();
     await ann.page.keyboard.press('End');
     await ann.page.keyboard.press('Shift+Home');

@@ -5,7 +5,7 @@ const ERROR = 'Basic I/O Unit error';
 test('the sample runs, reacts to an input and to an error, and two people see the same', async ({ openAs }) => {
   const mika = await openAs('Mika');
 
-  await test.step('on opening the address the sample runs', async () => {
+  await test.step('the sample runs when the address is opened', async () => {
     await mika.runs();
     await expect(mika.top.picker).toContainText('Conveyor / line-1');
     await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();
@@ -25,7 +25,7 @@ test('the sample runs, reacts to an input and to an error, and two people see th
     await expect.poll(() => mika.watch.number('Main.parts.total')).toBeGreaterThan(0);
   });
 
-  await test.step('the error shows in flag, code and program, and in the history', async () => {
+  await test.step('the error appears in flag, code and program, and in the history', async () => {
     await mika.simulator.generate(ERROR);
     await expect(mika.simulator.outcome).toContainText(`Generated ${ERROR} (Rack`);
     await expect(mika.simulator.outcome).toContainText('code 009A');
@@ -53,7 +53,7 @@ test('the sample runs, reacts to an input and to an error, and two people see th
     await expect(jo.top.here.getByTitle('Mika', { exact: true })).toBeVisible();
   });
 
-  await test.step('recovering clears the error; the lamp stays until it is acknowledged', async () => {
+  await test.step('recovering clears the error; the lamp stays on until somebody acknowledges it', async () => {
     await mika.showPanel('Watch');
     await mika.simulator.recover(ERROR);
     await expect(mika.simulator.outcome).toHaveText(`Recovered ${ERROR}`);
@@ -69,7 +69,7 @@ test('the sample runs, reacts to an input and to an error, and two people see th
     await jo.watch.shows('lamp', 'FALSE');
   });
 
-  await test.step('the other one sees who wrote', async () => {
+  await test.step('the other person sees who wrote', async () => {
     await jo.watch.set('reset', 'FALSE');
     await mika.watch.shows('reset', 'FALSE');
     await expect(mika.watch.writtenBy('reset', 'Jo')).toBeVisible();

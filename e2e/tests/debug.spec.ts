@@ -49,19 +49,19 @@ END_CONFIGURATION
 `;
 const FILE = 'Main.st';
 
-test('a breakpoint in one of three instances: look, change, step, go back, go on', async ({ openAs }) => {
+test('a breakpoint in one of three instances: inspect, change, step, step back, continue', async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Counters');
   const { debug, top, page } = mika;
 
-  await test.step('a condition that makes no sense stays, with the reason', async () => {
+  await test.step('an invalid condition stays, with the reason', async () => {
     await debug.fromGutter(FILE, 'count := next;', 'Add conditional breakpoint…');
     await debug.fillForm({ Condition: 'nonsense > 1' });
     await expect(debug.form.getByRole('alert')).toContainText('nonsense');
     await expect(debug.glyph(FILE, 'gl-bp-unbound')).toBeVisible();
   });
 
-  await test.step('mended, it holds in the third instance alone', async () => {
+  await test.step('corrected, it halts only in the third instance', async () => {
     await debug.fillForm({ Condition: 'next > 30' }, { Instance: 'Main.a[3]' });
     await expect(debug.form).toBeHidden();
     await expect(debug.glyph(FILE, 'gl-bp-cond')).toBeVisible();
@@ -87,7 +87,7 @@ test('a breakpoint in one of three instances: look, change, step, go back, go on
     await expect(debug.variable('count')).toHaveText('30');
   });
 
-  await test.step('values are changed in place, wrong ones refused there', async () => {
+  await test.step('values are changed in place; wrong ones are refused there', async () => {
     await debug.setVariable('count', '70000');
     await expect(debug.section('Variables').getByRole('alert')).toContainText('INT');
     await page.keyboard.press('Escape');
@@ -98,7 +98,7 @@ test('a breakpoint in one of three instances: look, change, step, go back, go on
     await expect(mika.watch.value('Main.a[3].count')).toHaveText('500');
   });
 
-  await test.step('a step back undoes, a step on does again', async () => {
+  await test.step('a step back undoes a statement, a step over executes it again', async () => {
     await debug.step('Step back');
     await expect(top.state).toContainText('line 7, read-only');
     await expect(page.getByRole('region', { name: 'In the past' })).toBeVisible();
@@ -108,7 +108,7 @@ test('a breakpoint in one of three instances: look, change, step, go back, go on
     await expect(top.state).toContainText('Halted');
   });
 
-  await test.step('out of the block, and into it in the next scan', async () => {
+  await test.step('step out of the block, and into it in the next scan', async () => {
     await debug.removeAll();
     await debug.step('Step out');
     await expect(debug.frames).toHaveCount(1);
@@ -119,7 +119,7 @@ test('a breakpoint in one of three instances: look, change, step, go back, go on
     await expect(debug.frames.first()).toContainText('a[1]');
   });
 
-  await test.step('it goes on', async () => {
+  await test.step('the program continues', async () => {
     await page.keyboard.press('F5');
     await expect(top.state).toContainText('Running');
     await top.scansGoOn();
@@ -142,7 +142,7 @@ test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }
     await debug.removeAll();
   });
 
-  await test.step('the console evaluates, and changes only when asked', async () => {
+  await test.step('the console evaluates, and changes values only on request', async () => {
     const console_ = await debug.showConsole();
     await debug.evaluate('Main.a[2].count * 2 + 7');
     await expect(console_).toContainText('7');
@@ -153,7 +153,7 @@ test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }
     await mika.watch.shows('Main.go', 'TRUE');
   });
 
-  await test.step('an execution point writes at its place', async () => {
+  await test.step('an execution point writes at its statement', async () => {
     await debug.fromGutter(FILE, 'n := n + 1;', 'Add execution point…');
     await debug.fillForm({ Assignments: 'n := 1000;' });
     await expect(debug.glyph(FILE, 'gl-bp-assign')).toBeVisible();
@@ -161,7 +161,7 @@ test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }
     await debug.removeAll();
   });
 
-  await test.step('a data breakpoint holds where the value was changed', async () => {
+  await test.step('a data breakpoint halts where the value was changed', async () => {
     await debug.section('Breakpoints').getByRole('button', { name: 'New breakpoint' }).click();
     await page.getByRole('menuitem', { name: 'Break at a variable…' }).click();
     const dialog = page.getByRole('dialog', { name: 'Break at a variable…' });
@@ -172,21 +172,21 @@ test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }
     await dialog.getByRole('textbox', { name: 'Variable or address' }).fill('Main.a[2].count');
     await dialog.getByRole('textbox', { name: 'Condition' }).fill('Main.a[2].count MOD 100 = 0');
     await dialog.getByRole('button', { name: 'Set' }).click();
-    // Which variable, from what to what.
+    // The reason names the variable, its old and its new value.
     await expect(debug.section('Call stack')).toContainText(/Main\.a\[2\]\.count changed from \d+ to \d+00/);
-    // Behind the statement that wrote.
+    // The PLC is halted after the statement that wrote.
     const console_ = await debug.showConsole();
     await debug.evaluate('Main.a[2].count');
     await expect(console_).toContainText(/\d00/);
     await debug.removeAll();
     await debug.step('Continue');
     await expect(top.state).toContainText('Running');
-    // The frame of the halt is gone, the console is not.
+    // The frame of the halt is gone, but the console still evaluates.
     await debug.evaluate('Main.a[3].step + 40');
     await expect(console_).toContainText('43');
   });
 
-  await test.step('coverage marks what was reached', async () => {
+  await test.step('coverage marks the executed lines', async () => {
     const editor = mika.editor(FILE);
     await editor.region.getByRole('switch', { name: /^Coverage/ }).click();
     await expect(editor.region.locator('.cover.full').first()).toBeVisible();
@@ -194,7 +194,7 @@ test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }
   });
 });
 
-test('a run-time error: the way back stays open', { tag: '@all' }, async ({ openAs }) => {
+test('after a run-time error one can still step back', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Broken', BROKEN);
   const { debug, top } = mika;
@@ -209,7 +209,7 @@ test('a run-time error: the way back stays open', { tag: '@all' }, async ({ open
   await expect(debug.section('Breakpoints')).toBeVisible();
 });
 
-test('two people: the halt and who made it are seen by both', { tag: '@all' }, async ({ openAs }) => {
+test('two people: both see the halt and who caused it', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Shared');
   const jo = await openAs('Jo');

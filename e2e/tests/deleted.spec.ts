@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('a file that somebody deletes goes from the others, but not what they were typing', { tag: '@all' }, async ({
+test('a file that somebody deletes closes for the others, but their edited text stays', { tag: '@all' }, async ({
   openAs,
 }) => {
   const mika = await openAs('Mika');
@@ -11,7 +11,7 @@ test('a file that somebody deletes goes from the others, but not what they were 
   }
   const [lift, gate] = [jo.editor('FB_Lift.st'), jo.editor('FB_Gate.st')];
 
-  await test.step('a text that was only read: its tab closes', async () => {
+  await test.step('the tab of an unedited text closes', async () => {
     await jo.explorer.item('FB_Lift').click();
     await expect(lift.line('FUNCTION_BLOCK FB_Lift').first()).toBeVisible();
     await mika.explorer.deleteFile('FB_Lift', 'FB_Lift.st');
@@ -20,7 +20,7 @@ test('a file that somebody deletes goes from the others, but not what they were 
     await expect(lift.tab).toBeHidden();
   });
 
-  await test.step('a text that was edited stays, and says who deleted the file', async () => {
+  await test.step('an edited text stays, with a note who deleted the file', async () => {
     await jo.explorer.item('FB_Gate').click();
     await gate.addBelow('FUNCTION_BLOCK FB_Gate', '(* mine *)');
     await mika.explorer.deleteFile('FB_Gate', 'FB_Gate.st');
@@ -29,14 +29,14 @@ test('a file that somebody deletes goes from the others, but not what they were 
     await expect(jo.statusBar).toContainText('Not saved');
   });
 
-  await test.step('also after a reload', async () => {
+  await test.step('it also stays after a reload', async () => {
     await jo.page.reload();
     await gate.tab.click();
     await expect(gate.note).toContainText('FB_Gate.st was deleted in the meantime.');
     await expect(gate.line('(* mine *)')).toBeVisible();
   });
 
-  await test.step('saved, it is a file again for everybody', async () => {
+  await test.step('after saving it is a file for everybody again', async () => {
     await gate.save();
     await expect(gate.note).toBeHidden();
     await expect(jo.statusBar).toContainText(/Saved \d\d:\d\d/);

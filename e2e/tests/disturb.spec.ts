@@ -1,9 +1,9 @@
 import { expect, test } from '../fixtures/test';
 import { Disturb } from '../pages/disturb';
 
-test('inputs, memory and results are disturbed: everybody sees it, and it is taken back', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('inputs, memory and results are disturbed: everybody sees the disturbances, and can take them back', {
+  tag: '@all',
+}, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   const disturb = new Disturb(mika.page);
@@ -13,7 +13,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
   await others.show();
   await expect(others.pane).toContainText('No disturbances');
 
-  await test.step('a mistake says what is missing, and what was typed stays', async () => {
+  await test.step('an incomplete form says what is missing, and the entries stay', async () => {
     await disturb.show();
     await disturb.button.click();
     await expect(disturb.refusal).toContainText('Enter a variable or an address.');
@@ -38,7 +38,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await expect(disturb.path).toHaveValue('Main.belt.position');
   });
 
-  await test.step('a bit flips at once, and the timeline shows where', async () => {
+  await test.step('a bit flips at once, and the timeline shows the scan', async () => {
     await disturb.field('Bit').fill('3');
     await disturb.button.click();
     await expect(disturb.told).toContainText('Memory Main.belt.position, bit 3');
@@ -47,7 +47,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await expect(jo.page.locator('[data-pane="log"]')).toContainText('Memory Main.belt.position, bit 3');
   });
 
-  await test.step('an input is stuck: from the watch table, until somebody else takes it back', async () => {
+  await test.step('an input is stuck: set in the watch table, until somebody else takes it back', async () => {
     await mika.watch.fromMenu('start', 'Disturb…');
     await expect(disturb.path).toHaveValue('start');
     await disturb.kind('Stuck input');
@@ -63,7 +63,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await mika.watch.shows('motor', 'TRUE');
   });
 
-  await test.step('what a statement writes is corrupted: from the text, by chance, reproducibly', async () => {
+  await test.step('the result of a statement is corrupted: set in the editor, at random, reproducibly', async () => {
     const editor = mika.editor('Main.st');
     await editor.reveal('heartbeat := NOT heartbeat');
     await editor.fromMenu('heartbeat := NOT heartbeat', 'Corrupt this result…');
@@ -78,7 +78,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await expect(disturb.line('Main.st')).toContainText(/happened/, { timeout: 60_000 });
   });
 
-  await test.step('several are taken back at once', async () => {
+  await test.step('several disturbances are taken back at once', async () => {
     await disturb.kind('Bit flip');
     await disturb.path.fill('D500');
     await disturb.field('Bit').fill('0');

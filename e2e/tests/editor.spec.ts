@@ -1,7 +1,7 @@
 import { expect, test } from '../fixtures/test';
 
 test(
-  'a syntax error is shown while typing, refuses the build, and does not stop the PLC',
+  'a syntax error is shown during typing, prevents the build, and does not stop the PLC',
   { tag: '@all' },
   async ({ openAs }, info) => {
     const mika = await openAs('Mika');
@@ -10,7 +10,7 @@ test(
     await expect.poll(() => mika.watch.number('Main.parts.total')).toBeGreaterThan(0);
     const main = mika.editor('Main.st');
 
-    await test.step('squiggle and problem come by themselves', async () => {
+    await test.step('squiggle and problem appear without a build', async () => {
       await mika.problems.show();
       await main.caretAfter('heartbeat := NOT heartbeat;');
       await expect(main.squiggles).toHaveCount(0);
@@ -23,7 +23,7 @@ test(
       await expect(mika.problems.entries).toContainText([/Main\.st:17:\d+/]);
     });
 
-    await test.step('the build is refused with the position, and the old program goes on', async () => {
+    await test.step('the build is refused with the position, and the old program continues', async () => {
       await main.build();
       await expect(main.outcome).toContainText('Build refused');
       await expect(mika.problems.entries).toContainText([/Main\.st:17:\d+/]);
@@ -40,7 +40,7 @@ test(
     });
 
     let parts = 0;
-    await test.step('mended and built, the new program runs with the old values', async () => {
+    await test.step('corrected and built, the new program runs with the old values', async () => {
       await mika.showPanel('Watch');
       await mika.watch.shows('motor', 'TRUE');
       parts = await mika.watch.number('Main.parts.total');
@@ -80,7 +80,10 @@ END_IF;
 END_FUNCTION_BLOCK
 `;
 
-test('what is typed is the text, at any pace, Enter after a keyword included', async ({ openAs, server }) => {
+test('the text is exactly what was typed, at any speed, also with Enter after a keyword', async ({
+  openAs,
+  server,
+}) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const late: (() => void)[] = [];
@@ -97,11 +100,11 @@ test('what is typed is the text, at any pace, Enter after a keyword included', a
       const typed = TYPED.replace('Fill', `Fill${delay}`);
       await main.replaceWith('');
       for (const line of typed.trimEnd().split('\n')) {
-        // Slowly only what Enter follows, and at once what stands before it.
+        // Only the word before Enter is typed slowly; the text before it is inserted at once.
         const [, before = '', last = ''] = delay > FAST_MS ? (/^(.*?)(\S*)$/.exec(line) ?? []) : ['', '', line];
         if (before) await mika.page.keyboard.insertText(before);
         await mika.page.keyboard.type(last, { delay });
-        // The list of what was typed before comes while Enter is pressed.
+        // The completions of the typed text arrive while Enter is pressed.
         answer();
         await mika.page.keyboard.press('Enter', { delay });
       }
@@ -111,7 +114,7 @@ test('what is typed is the text, at any pace, Enter after a keyword included', a
   }
 });
 
-test('a completion is taken when it is chosen, with an arrow and Enter or with Tab', { tag: '@all' }, async ({
+test('a completion is inserted only when it is chosen: with an arrow and Enter, or with Tab', { tag: '@all' }, async ({
   openAs,
   server,
 }) => {

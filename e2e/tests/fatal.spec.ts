@@ -2,7 +2,9 @@ import { expect, test } from '../fixtures/test';
 
 const ERROR = 'Memory error';
 
-test('a fatal error stops the program, says why and how to go on, and is recovered', async ({ openAs }) => {
+test('a fatal error stops the program, the page says why and how to continue, and the error is recovered', async ({
+  openAs,
+}) => {
   const mika = await openAs('Mika');
   await mika.runs();
   await mika.watch.add('A401.15');
@@ -10,7 +12,7 @@ test('a fatal error stops the program, says why and how to go on, and is recover
   await mika.watch.set('start', 'TRUE');
   await mika.watch.shows('motor', 'TRUE');
 
-  await test.step('the chosen detail decides code and flags', async () => {
+  await test.step('the chosen detail determines code and flags', async () => {
     await mika.simulator.select(ERROR);
     await mika.simulator.choose('Part of the memory', /I\/O table checksum/);
     await mika.simulator.generate(ERROR);
@@ -27,7 +29,7 @@ test('a fatal error stops the program, says why and how to go on, and is recover
     await expect(mika.banner).toContainText('Clear the error');
   });
 
-  await test.step('the program stopped, the outputs are off', async () => {
+  await test.step('the program is stopped, the outputs are off', async () => {
     await expect(mika.top.state).toContainText('Fatal error');
     await mika.watch.shows('motor', 'FALSE');
     await mika.watch.shows('lamp', 'FALSE');
@@ -37,13 +39,13 @@ test('a fatal error stops the program, says why and how to go on, and is recover
     expect(await mika.watch.number('Main.belt.position')).toBe(position);
   });
 
-  await test.step('as long as it is there, no mode helps, and the page says so', async () => {
+  await test.step('while the error is present, no mode starts the program, and the page says so', async () => {
     await mika.top.mode('RUN').click();
     await expect(mika.statusBar.getByRole('alert')).toContainText('fatal error');
     await expect(mika.top.state).toContainText('Fatal error');
   });
 
-  await test.step('cleared, then PROGRAM and MONITOR: it runs again', async () => {
+  await test.step('after clearing it, PROGRAM and then MONITOR start the program', async () => {
     await mika.banner.getByRole('button', { name: 'Clear error' }).click();
     await expect(mika.banner).toBeHidden();
     await expect(mika.simulator.word('A400')).toHaveText('0000');

@@ -12,12 +12,10 @@ END_VAR]]></Declaration>
 </TcPlcObject>
 `;
 
-/** As an old tool wrote it: the umlaut is one byte. */
+/** As an old tool writes it: the umlaut is one byte. */
 const LATIN1 = Buffer.from("FUNCTION Name : STRING\nName := 'Tür';\nEND_FUNCTION\n", 'latin1');
 
-test('files of other tools are brought in, run, and what cannot be taken says why', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('files of other tools are added and run; refused files have a reason', { tag: '@all' }, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   await jo.top.newProject('Brought in');
@@ -32,7 +30,7 @@ test('files of other tools are brought in, run, and what cannot be taken says wh
     await expect(jo.editor('Name.st').line("Name := 'Tür';")).toBeVisible();
   });
 
-  await test.step('the program uses them', async () => {
+  await test.step('the program uses both files', async () => {
     await main.open();
     const body = 'VAR ramp : FB_Ramp; text : STRING; END_VAR\nramp();\ntext := Name();';
     await main.replaceWith(`PROGRAM Main\n${body}\nEND_PROGRAM\n`);
@@ -44,7 +42,7 @@ test('files of other tools are brought in, run, and what cannot be taken says wh
     await jo.watch.shows('Main.text', /^'T.*r'$/);
   });
 
-  await test.step('a name that is taken is refused', async () => {
+  await test.step('a name that already exists is refused', async () => {
     await jo.explorer.addFiles({ name: 'fb_ramp.tcpou', text: BLOCK });
     const dialog = jo.page.getByRole('dialog', { name: 'Not added' });
     await expect(dialog).toContainText('fb_ramp.tcpou: A file of this name already exists.');
@@ -52,7 +50,7 @@ test('files of other tools are brought in, run, and what cannot be taken says wh
     await expect(dialog).toBeHidden();
   });
 
-  await test.step('another project gets an instance of its own without being asked', async () => {
+  await test.step('a second project gets an instance of its own without a question', async () => {
     await jo.top.newProject('One more');
     await jo.runs();
   });

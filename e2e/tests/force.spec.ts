@@ -1,17 +1,17 @@
 import { expect, test } from '../fixtures/test';
 
-test('a forced output stays as it is until it is released', async ({ openAs }) => {
+test('a forced output keeps its value until the force is released', async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
 
-  await test.step('a double click writes the other value of a BOOL, the menu either', async () => {
+  await test.step('a double click writes the other value of a BOOL, the menu writes either', async () => {
     await mika.watch.value('reset').dblclick();
     await mika.watch.shows('reset', 'TRUE');
     await mika.watch.fromMenu('reset', 'Write FALSE');
     await mika.watch.shows('reset', 'FALSE');
   });
 
-  await test.step('forced to FALSE, start does not move it', async () => {
+  await test.step('forced to FALSE, it does not follow start', async () => {
     await mika.watch.shows('motor', 'FALSE');
     await mika.watch.fromMenu('motor', 'Force to FALSE');
     await expect(mika.watch.releaseOf('motor')).toBeVisible();
@@ -22,7 +22,7 @@ test('a forced output stays as it is until it is released', async ({ openAs }) =
     await mika.watch.shows('motor', 'FALSE');
   });
 
-  await test.step('somebody who comes later, and a reload, see what is forced', async () => {
+  await test.step('a second person sees the force, also after a reload', async () => {
     const jo = await openAs('Jo');
     await expect(jo.statusBar).toContainText('1 forced');
     await expect(jo.watch.releaseOf('motor')).toBeVisible();
@@ -31,7 +31,7 @@ test('a forced output stays as it is until it is released', async ({ openAs }) =
     await mika.watch.shows('motor', 'FALSE');
   });
 
-  await test.step('the panel of the forces says what the program wants, who forced and since when', async () => {
+  await test.step('the panel of the forces shows the program’s value, the author and the scan', async () => {
     const jo = await openAs('Ada');
     await jo.page.getByRole('button', { name: '1 forced' }).click();
     await expect(jo.forces.row('motor')).toContainText('Mika');
@@ -49,7 +49,7 @@ test('a forced output stays as it is until it is released', async ({ openAs }) =
     await mika.page.getByRole('tab', { name: 'Watch', exact: true }).click();
   });
 
-  await test.step('released, it follows the program', async () => {
+  await test.step('after the release it follows the program', async () => {
     await mika.watch.releaseOf('motor').click();
     await mika.watch.shows('motor', 'TRUE');
     await expect(mika.watch.releaseOf('motor')).toBeHidden();

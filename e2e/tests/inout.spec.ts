@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('a change of an in-out goes to the variable that was passed, or to what another call passes', async ({
+test('a write to an in-out goes to the variable that was passed, or to that of a different call', async ({
   openAs,
 }) => {
   const mika = await openAs('Mika');
@@ -8,13 +8,13 @@ test('a change of an in-out goes to the variable that was passed, or to what ano
   await mika.runs();
   const level = 'Main.buffer.level';
 
-  await test.step('the row shows what it is bound to, by which call and since when', async () => {
+  await test.step('the row shows its binding, the call and the scan', async () => {
     await mika.watch.add(level);
     await expect(mika.watch.row(level)).toContainText('bufferLevel (D110)');
     await expect(mika.watch.binding(level)).toContainText(/By reference.*Main\.st:30.*bound in scan/);
   });
 
-  await test.step('what is typed there arrives at the variable, and a colleague sees it and by whom', async () => {
+  await test.step('a value written there reaches the variable, and a colleague sees it with its author', async () => {
     await jo.watch.add('bufferLevel');
     await mika.watch.set(level, '1000');
     for (const [ide, path] of [
@@ -25,13 +25,13 @@ test('a change of an in-out goes to the variable that was passed, or to what ano
     await expect(jo.watch.writtenBy('bufferLevel', 'Mika')).toBeVisible();
   });
 
-  await test.step('what does not fit is refused, with the variable, its type and its range', async () => {
+  await test.step('a value that does not fit is refused, with the variable, its type and its range', async () => {
     await mika.watch.write(level, '40000');
     await expect(mika.watch.refusal).toContainText('Main.buffer.level -> bufferLevel (D110): 40000 is outside of INT');
     await mika.watch.entry(level).press('Escape');
   });
 
-  await test.step('a force holds the variable; both names are marked, and each releases it', async () => {
+  await test.step('a force holds the variable; both rows are marked, and each can release it', async () => {
     await mika.watch.entry(level).fill('77');
     await mika.watch.entry(level).press('F7');
     await jo.watch.shows('bufferLevel', '77');
@@ -52,7 +52,7 @@ test('a change of an in-out goes to the variable that was passed, or to what ano
     await mika.watch.shows('Main.spare', '300');
   });
 
-  await test.step('the other call is picked, and what is written goes there', async () => {
+  await test.step('the other call is chosen, and writes go to its variable', async () => {
     await mika.watch.pickCall(level, /bufferLevel/);
     await expect(mika.watch.binding(level)).toContainText('chosen from 2 calls');
     await mika.watch.set(level, '2000');

@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('the list of instances: what they cost, clone, off and on, export and import', async ({ openAs }) => {
+test('the list of instances: load, clone, power off and on, export and import', async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -8,13 +8,13 @@ test('the list of instances: what they cost, clone, off and on, export and impor
   await ann.top.showInstances();
   const list = ann.instances;
 
-  await test.step('each with its state and its load', async () => {
+  await test.step('each instance has its state and its load', async () => {
     await expect(list.row('line-1')).toContainText('Running');
     await expect(list.row('line-1')).toContainText(/\d MiB/);
     await expect(list.row('line-1')).toContainText('CJ1M-CPU63');
   });
 
-  await test.step('a clone is a PLC of its own', async () => {
+  await test.step('a clone is a separate PLC', async () => {
     await list.choose('line-1');
     await list.pressAndName('Clone…', 'copy');
     await expect(list.row('copy')).toContainText('Running');
@@ -23,7 +23,7 @@ test('the list of instances: what they cost, clone, off and on, export and impor
     await list.dialog.getByRole('searchbox').fill('');
   });
 
-  await test.step('switched off it costs nothing; switched on it goes on where it was', async () => {
+  await test.step('switched off it has no load; switched on it continues where it was', async () => {
     await list.choose('copy');
     await list.press('Switch off');
     await expect(list.row('copy')).toContainText('Off');
@@ -34,7 +34,7 @@ test('the list of instances: what they cost, clone, off and on, export and impor
     expect(await ann.watch.number('Main.parts.total')).toBeGreaterThan(0);
   });
 
-  await test.step('exported and imported it is the same run', async () => {
+  await test.step('after export and import it is the same run', async () => {
     await ann.top.showInstances();
     await list.choose('copy');
     const file = await list.export();
@@ -48,7 +48,7 @@ test('the list of instances: what they cost, clone, off and on, export and impor
     await ann.runs();
   });
 
-  await test.step('what is no run is refused in the dialog, which stays', async () => {
+  await test.step('a file that is not a run is refused in the dialog, which stays open', async () => {
     await ann.top.showInstances();
     await list.press('Import…');
     const asking = ann.page.getByRole('dialog', { name: 'Import a run' });
@@ -63,7 +63,7 @@ test('the list of instances: what they cost, clone, off and on, export and impor
     await expect(asking).toBeHidden();
   });
 
-  await test.step('a row has the same in its menu, limits too', async () => {
+  await test.step('the menu of a row has the same actions, including limits', async () => {
     await list.row('back').click({ button: 'right' });
     await ann.page.getByRole('menuitem', { name: 'Limits…' }).click();
     const limits = ann.page.getByRole('dialog', { name: 'Limits of back' });
@@ -75,7 +75,7 @@ test('the list of instances: what they cost, clone, off and on, export and impor
     await ann.page.keyboard.press('Escape');
   });
 
-  await test.step('and deleted it is gone', async () => {
+  await test.step('a deleted instance is gone', async () => {
     await ann.top.showInstances();
     await list.delete('back');
     await expect(list.row('copy')).toBeVisible();

@@ -7,7 +7,7 @@ interface InstanceInfo {
 
 const ERROR = 'Battery error';
 
-test('kill -9 of the PLC is shown, and its values go on', async ({ openAs, server }, info) => {
+test('kill -9 of the PLC is shown, and its values continue', async ({ openAs, server }, info) => {
   const mika = await openAs('Mika');
   await mika.runs();
   await mika.watch.set('start', 'TRUE');
@@ -20,7 +20,7 @@ test('kill -9 of the PLC is shown, and its values go on', async ({ openAs, serve
   const killedAt = Date.now();
   process.kill(pid, 'SIGKILL');
 
-  await test.step('it is shown', async () => {
+  await test.step('the page shows it', async () => {
     const shownAfter = async () => {
       const other = (await states()).find(({ at, text }) => at >= killedAt && !text.includes('Running'));
       return other ? other.at - killedAt : null;
@@ -32,7 +32,7 @@ test('kill -9 of the PLC is shown, and its values go on', async ({ openAs, serve
     expect((await states()).some(({ text }) => text.includes('Restarting'))).toBe(true);
   });
 
-  await test.step('it runs again, from where it was', async () => {
+  await test.step('the PLC runs again from where it was', async () => {
     await expect(mika.top.state).toContainText('Running');
     const back = (await states()).at(-1)?.at ?? Number.NaN;
     console.log(`    running again ${back - killedAt} ms after kill -9`);
@@ -45,7 +45,7 @@ test('kill -9 of the PLC is shown, and its values go on', async ({ openAs, serve
     expect(await processOf(server)).not.toBe(pid);
   });
 
-  await test.step('the error is still generated, and the history still knows it', async () => {
+  await test.step('the error is still generated, and the history still lists it', async () => {
     await mika.watch.add('A402.04');
     await mika.watch.shows('A402.04', 'TRUE');
     await mika.showPanel('History');

@@ -4,7 +4,7 @@ import type { Ide } from '../pages/ide';
 
 const THEMES = ['dark', 'light', 'high contrast'];
 
-test('everybody can read it: no serious finding in any theme', { tag: '@all' }, async ({ openAs }) => {
+test('accessibility: no serious finding in any theme', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();
@@ -36,7 +36,7 @@ test('everybody can read it: no serious finding in any theme', { tag: '@all' }, 
   });
 });
 
-test('at 1024 x 700 nothing is out of reach', async ({ openAs }) => {
+test('at 1024 x 700 everything is in reach', async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.page.setViewportSize({ width: 1024, height: 700 });
   await mika.page.reload();
@@ -92,7 +92,7 @@ test('by keyboard alone', async ({ openAs }) => {
   await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();
   const press = (key: string) => mika.page.keyboard.press(key);
 
-  await test.step('F6 goes round the panes and comes back to the first', async () => {
+  await test.step('F6 goes through the panes and returns to the first', async () => {
     const round = await roundOfPanes(mika, 'F6');
     expect(round.slice().sort()).toEqual([
       'debug',
@@ -108,7 +108,7 @@ test('by keyboard alone', async ({ openAs }) => {
     expect(back.slice().sort()).toEqual(round.slice().sort());
   });
 
-  await test.step('in the editor F6 lands in the text', async () => {
+  await test.step('in the editor F6 moves the focus into the text', async () => {
     await mika.goToPane('editor');
     await mika.page.keyboard.type('x');
     await expect(mika.statusBar).toContainText('Not saved');
@@ -126,7 +126,7 @@ test('by keyboard alone', async ({ openAs }) => {
     await mika.watch.shows('motor', 'TRUE');
   });
 
-  await test.step('F5 pauses, F8 does one scan, F5 goes on', async () => {
+  await test.step('F5 pauses, F8 runs one scan, F5 continues', async () => {
     await press('F5');
     await expect(mika.top.state).toContainText('Paused');
     const scan = await mika.top.scan();

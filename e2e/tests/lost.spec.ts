@@ -3,27 +3,24 @@ import { expect, test } from '../fixtures/test';
 
 test.use({ ownServer: true });
 
-/** Only what hangs takes so long: the page waits for a word of the server, and for longer in front of each try. */
+/** Only a failure takes this long: the page waits for a message of the server, and longer before each attempt. */
 const LONG = 90_000;
 
-/** Each 5 s a server that has nothing else to say; the page gives it up after 12 s. */
+/** The message that an idle server sends every 5 s; the page assumes a lost connection after 12 s. */
 const saysThatItLives = (socket: Socket) =>
   socket.waitForEvent('framereceived', {
     predicate: ({ payload }) => String(payload).includes('"alive"'),
     timeout: LONG,
   });
 
-test('without a server the page says so, keeps what was typed, and comes back by itself', async ({
-  openAs,
-  server,
-}) => {
+test('without a server the page says so, keeps the entries, and reconnects by itself', async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   const main = mika.editor('Main.st');
   await mika.runs();
   await main.addBelow('uptime : TIME;', '  unsaved   : INT;');
   await expect(mika.statusBar).toContainText('Not saved');
 
-  await test.step('the server is gone: banner, grey, nothing to press', async () => {
+  await test.step('the server is gone: banner, grey values, disabled controls', async () => {
     await server.kill();
     await expect(mika.banner).toContainText('No connection to line-1 since');
     await expect(mika.banner).toContainText('Your unsaved text is kept in this browser');
@@ -36,13 +33,13 @@ test('without a server the page says so, keeps what was typed, and comes back by
     expect(await mika.top.scan()).toBe(scan);
   });
 
-  await test.step('an entry is not lost, and says that it was not sent', async () => {
+  await test.step('an entry is kept, with a note that it was not sent', async () => {
     await mika.watch.write('start', 'TRUE');
     await expect(mika.watch.refusal).toContainText('Not sent.');
     await expect(mika.watch.entry('start')).toHaveValue('TRUE');
   });
 
-  await test.step('the server is back: the page is, too, and the text is still there', async () => {
+  await test.step('the server is back: the page reconnects, and the text is still there', async () => {
     await server.startAgain();
     await expect(mika.banner).toBeHidden({ timeout: LONG });
     await mika.runs();
@@ -56,7 +53,7 @@ test('without a server the page says so, keeps what was typed, and comes back by
   });
 });
 
-test('a server that is frozen is noticed, too, and goes on where it stood', { tag: '@all' }, async ({
+test('a frozen server is noticed, too, and the page continues when the server does', { tag: '@all' }, async ({
   openAs,
   server,
 }) => {
@@ -69,7 +66,7 @@ test('a server that is frozen is noticed, too, and goes on where it stood', { ta
   await mika.watch.shows('motor', 'TRUE');
   await main.addBelow('uptime : TIME;', '  unsaved   : INT;');
 
-  await test.step('paused, nothing changes: that is no loss', async () => {
+  await test.step('while the PLC is paused nothing changes, and the connection counts as alive', async () => {
     await mika.page.keyboard.press('F5');
     await expect(mika.top.state).toContainText('Paused');
     for (let told = 0; told < 3; told += 1) await saysThatItLives(await socket);
@@ -79,7 +76,7 @@ test('a server that is frozen is noticed, too, and goes on where it stood', { ta
     await mika.runs();
   });
 
-  await test.step('frozen: no connection is closed, and yet the page says so', async () => {
+  await test.step('frozen: no connection is closed, but the page notices', async () => {
     server.freeze();
     await expect(mika.banner).toContainText('No connection to line-1 since', { timeout: LONG });
     await expect(mika.top.state).toContainText('State unknown');
@@ -91,7 +88,7 @@ test('a server that is frozen is noticed, too, and goes on where it stood', { ta
     await expect(mika.banner).toContainText('Attempt 2', { timeout: LONG });
   });
 
-  await test.step('it goes on: the page is back, and so is everything that was there', async () => {
+  await test.step('the server continues: the page reconnects, and nothing was lost', async () => {
     server.thaw();
     await expect(mika.banner).toBeHidden({ timeout: LONG });
     await mika.runs();

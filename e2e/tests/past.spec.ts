@@ -1,8 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('who last wrote a variable: a person, then a statement, and the way to it', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('who last wrote a variable: a person, then a statement, and going to it', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -10,7 +8,7 @@ test('who last wrote a variable: a person, then a statement, and the way to it',
   await ann.top.press('Pause');
   const { writer } = ann.past;
 
-  await test.step('a command says who entered it', async () => {
+  await test.step('for a command the dialog says who entered it', async () => {
     await ann.watch.fromMenu('start', 'Who last wrote this');
     await expect(writer).toContainText('Written by a command');
     await expect(writer).toContainText('Ann');
@@ -18,7 +16,7 @@ test('who last wrote a variable: a person, then a statement, and the way to it',
     await writer.getByRole('button', { name: 'Close' }).first().click();
   });
 
-  await test.step('a statement says where it stands, in which instance', async () => {
+  await test.step('for a statement the dialog says in which file, line and instance', async () => {
     await ann.watch.fromMenu('Main.parts.total', 'Who last wrote this');
     await expect(writer).toContainText('Written by the program');
     await expect(writer).toContainText('PartCounter.st:');
@@ -26,13 +24,13 @@ test('who last wrote a variable: a person, then a statement, and the way to it',
     await expect(writer).toContainText('total');
   });
 
-  await test.step('before that it was written by the part before', async () => {
+  await test.step('the previous write came from the previous part', async () => {
     const total = await ann.watch.number('Main.parts.total');
     await writer.getByRole('button', { name: 'Previous write' }).click();
     await expect(writer.getByRole('definition').last()).toHaveText(String(total - 1));
   });
 
-  await test.step('it leads to the moment in front of it, with the statement in sight', async () => {
+  await test.step('it goes to the moment before the write, and shows the statement', async () => {
     const before = (await ann.watch.number('Main.parts.total')) - 2;
     await writer.getByRole('button', { name: 'Go there' }).click();
     await expect(writer).toBeHidden();
@@ -42,7 +40,7 @@ test('who last wrote a variable: a person, then a statement, and the way to it',
   });
 });
 
-test('what changed in a stretch that is selected by keyboard', { tag: '@all' }, async ({ openAs }) => {
+test('what changed in a range of scans that is selected by keyboard', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -74,7 +72,7 @@ test('what changed in a stretch that is selected by keyboard', { tag: '@all' }, 
   await expect.poll(() => ann.timeline.position()).toBe(before + 101);
 });
 
-test('back, branch, an error there, and what that made of the run', async ({ openAs }) => {
+test('go back, branch, raise an error there, and compare the runs', async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -95,7 +93,7 @@ test('back, branch, an error there, and what that made of the run', async ({ ope
     await expect(ann.top.state).toContainText('Paused');
   });
 
-  await test.step('both runs part in the scan in front of which it was raised', async () => {
+  await test.step('the runs diverge in the scan before which the error was raised', async () => {
     await ann.past.compareWith('line-1');
     const { comparison } = ann.past;
     await expect(comparison).toContainText('The runs diverge in scan');
@@ -107,7 +105,7 @@ test('back, branch, an error there, and what that made of the run', async ({ ope
     await expect(comparison.getByRole('row').filter({ hasText: 'basicIoError' }).first()).toContainText('TRUE');
   });
 
-  await test.step('the timeline shows where they differ, and the way goes there in both', async () => {
+  await test.step('the timeline shows where they differ, and leads there in both runs', async () => {
     await expect(ann.timeline.mark(/Difference/)).toHaveCount(1);
     const [other] = await Promise.all([
       ann.page.context().waitForEvent('page'),
@@ -118,7 +116,7 @@ test('back, branch, an error there, and what that made of the run', async ({ ope
   });
 });
 
-test('the run once more, with the error one scan later', { tag: '@all' }, async ({ openAs }) => {
+test('a replay of the run, with the error one scan later', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -128,7 +126,7 @@ test('the run once more, with the error one scan later', { tag: '@all' }, async 
   await ann.top.scansGoOn();
   await ann.top.press('Pause');
 
-  await test.step('the mark of the error asks for it', async () => {
+  await test.step('the menu of the error’s mark begins it', async () => {
     await ann.timeline.mark(/^Error: .*Basic I\/O Unit error/).click({ button: 'right' });
     await ann.page.getByRole('menuitem', { name: 'Replay with it one scan later…' }).click();
     await ann.past.replay.getByRole('textbox', { name: 'Name of the new instance' }).fill('later');
@@ -136,7 +134,7 @@ test('the run once more, with the error one scan later', { tag: '@all' }, async 
     await expect(ann.past.replay).toBeHidden();
   });
 
-  await test.step('what came of it is compared with the original', async () => {
+  await test.step('the result is compared with the original', async () => {
     const banner = ann.page.getByRole('region', { name: 'later is ready:' });
     await banner.getByRole('button', { name: 'Compare with the original' }).click();
     const bar = ann.page.getByRole('toolbar', { name: 'Compare runs' });
@@ -149,7 +147,7 @@ test('the run once more, with the error one scan later', { tag: '@all' }, async 
   });
 });
 
-test('the address of a scan is opened by a colleague', { tag: '@all' }, async ({ openAs }) => {
+test('a colleague opens the address of a scan', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -160,14 +158,14 @@ test('the address of a scan is opened by a colleague', { tag: '@all' }, async ({
   await expect(ann.page).toHaveURL(new RegExp(`/i/\\d+/scan/${scan}$`));
   const path = new URL(ann.page.url()).pathname;
 
-  await test.step('while that scan is shown, it is there at once, with the panel', async () => {
+  await test.step('while that scan is shown, it opens at once, with the panel', async () => {
     const bob = await openAs('Bob', `${path}?panel=history`);
     await expect(bob.timeline.banner).toContainText('shown by Ann');
     await expect.poll(() => bob.timeline.position()).toBe(scan);
     await expect(bob.page.getByRole('tab', { name: 'History' })).toHaveAttribute('aria-selected', 'true');
   });
 
-  await test.step('while the PLC runs and others look at it, it asks first', async () => {
+  await test.step('while the PLC runs and others look at it, the page asks first', async () => {
     await ann.timeline.returnToLive();
     await expect(ann.page).toHaveURL(/\/i\/\d+$/);
     await ann.runs();
@@ -181,7 +179,7 @@ test('the address of a scan is opened by a colleague', { tag: '@all' }, async ({
     await cid.timeline.returnToLive();
   });
 
-  await test.step('what there is not is said in words', async () => {
+  await test.step('a scan that does not exist is reported in words', async () => {
     const dan = await openAs('Dan', '/i/4711/scan/3');
     await expect(dan.page.getByRole('alert').filter({ hasText: 'This server has no instance 4711' })).toBeVisible();
     await dan.runs();
@@ -209,7 +207,7 @@ test('the past before a build shows the text, the values and the version of its 
   await main.caretAfter('extra := extra + 1;');
   await main.type(' // mine');
 
-  await test.step('text, values and version are those of version 1, and nothing can be typed', async () => {
+  await test.step('text, values and version are those of version 1, and the text is read-only', async () => {
     await ann.timeline.goTo(10);
     await expect(ann.timeline.banner).toBeVisible();
     await expect(ann.statusBar).toContainText('Program version 1');
@@ -226,7 +224,7 @@ test('the past before a build shows the text, the values and the version of its 
     await expect(main.line('typed')).toHaveCount(0);
   });
 
-  await test.step('live again, the own text is back, with what is not saved', async () => {
+  await test.step('live again, the edited text is back, including unsaved changes', async () => {
     await ann.timeline.returnToLive();
     await expect(ann.statusBar).toContainText('Program version 2');
     await expect(ann.top.picker).toContainText('version 2');
@@ -238,5 +236,5 @@ test('the past before a build shows the text, the values and the version of its 
   });
 });
 
-/** As the page writes it, with thin gaps. */
+/** A number as the page shows it, with thin gaps. */
 const grouped = (scan: number) => String(scan).replace(/\B(?=(\d{3})+(?!\d))/g, '\u2009');

@@ -4,7 +4,7 @@ import { History } from '../pages/history';
 
 const ERROR = 'Battery error';
 
-test('what was tested is filtered, printed, saved and read again', async ({ openAs }) => {
+test('the test record is filtered, printed, saved and imported again', async ({ openAs }) => {
   const mika = await openAs('Mika');
   const history = new History(mika.page);
   await mika.runs();
@@ -13,13 +13,13 @@ test('what was tested is filtered, printed, saved and read again', async ({ open
   await mika.showPanel('History');
   const row = mika.history(ERROR);
 
-  await test.step('the row tells when, who, how often, and what the program did', async () => {
+  await test.step('the row shows when, who, how often, and what the program did', async () => {
     await expect(row).toContainText(['Cleared']);
     await expect(row).toContainText(['Mika']);
     await expect(row).toContainText([/Reacted|No effect|Never read/]);
   });
 
-  await test.step('filters leave what is wanted, and say when nothing is left', async () => {
+  await test.step('filters reduce the rows, and a message says when none is left', async () => {
     const all = await history.rows().count();
     expect(all).toBeGreaterThan(20);
     await history.filter('State', 'Cleared');
@@ -46,7 +46,7 @@ test('what was tested is filtered, printed, saved and read again', async ({ open
     await tab.close();
   });
 
-  await test.step('CSV and XML are saved, and the XML is read again', async () => {
+  await test.step('CSV and XML are saved, and the XML is imported again', async () => {
     const csv = await history.save('Save as CSV');
     expect(await readFile(await csv.path(), 'utf8')).toMatch(/battery-error.*,cleared,/);
     const xml = await history.save('Save as XML');
@@ -72,7 +72,7 @@ test('what was tested is filtered, printed, saved and read again', async ({ open
   });
 });
 
-test('every version of the program has a history of its own', { tag: '@all' }, async ({ openAs }) => {
+test('every version of the program has its own history', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const history = new History(mika.page);
   await mika.runs();
@@ -84,12 +84,12 @@ test('every version of the program has a history of its own', { tag: '@all' }, a
   await main.build();
   await mika.showPanel('History');
 
-  await test.step('the new version begins with nothing tested', async () => {
+  await test.step('the new version begins without tested errors', async () => {
     await expect(mika.page.getByRole('button', { name: 'History of: Version 2, running' })).toBeVisible();
     await expect(mika.history(ERROR)).toContainText(['Never']);
   });
 
-  await test.step('the old one is shown as one that runs no more', async () => {
+  await test.step('the old version is marked as no longer running', async () => {
     await history.showVersion(/^Version 1/);
     await expect(mika.page.locator('[data-pane=history]')).toContainText('Version 1 no longer runs');
     await expect(mika.history(ERROR)).toContainText(['Cleared']);

@@ -10,27 +10,27 @@ test('a warm restart keeps the retained memory, a cold one clears it', async ({ 
   }
   const scan = await ann.top.scan();
 
-  await test.step('warm: D is kept, W is not, and the scans go on counting', async () => {
+  await test.step('warm: D is kept, W is not, and the scan count continues', async () => {
     await ann.top.restart('Warm restart');
     await ann.watch.shows('W500', /^(16#0+|0)$/);
     await ann.watch.shows('D500', /4711|1267/);
     await ann.top.scansGoOn(scan);
   });
 
-  await test.step('power cycle: as the device, D is kept', async () => {
+  await test.step('power cycle: D is kept, as in the device', async () => {
     await ann.top.restart('Power cycle');
     await expect(ann.timeline.mark(/[Pp]ower/).first()).toBeVisible();
     await ann.watch.shows('D500', /4711|1267/);
   });
 
-  await test.step('cold: everything begins anew', async () => {
+  await test.step('cold: everything is initialized', async () => {
     await ann.top.restart('Cold restart');
     await ann.watch.shows('D500', /^(16#0+|0)$/);
     await ann.runs();
   });
 });
 
-test('a new run begins at scan 0 with an empty timeline, after a question', { tag: '@all' }, async ({ openAs }) => {
+test('a new run begins at scan 0 with an empty timeline, after confirmation', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -51,7 +51,7 @@ test('a new run begins at scan 0 with an empty timeline, after a question', { ta
   await expect.poll(() => ann.top.scan()).toBeLessThan(300);
 });
 
-test('in RUN a tool may only look, and the page says so', { tag: '@all' }, async ({ openAs }) => {
+test('in RUN tools may only read, and the page says so', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.top.chooseMode('RUN');

@@ -5,19 +5,19 @@ const BATTERY = 'Battery error';
 const MEMORY = 'Memory error';
 const SETUP = 'PLC Setup error';
 
-test('a group and two more are raised in one scan, with their details; the fatal one stops, and is recovered', async ({
+test('a group and two more errors are raised in one scan, with their details; the fatal one stops the PLC, and is recovered', async ({
   openAs,
 }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { simulator } = mika;
 
-  await test.step('before anything was raised, the panel says how to begin', async () => {
+  await test.step('while no error was raised yet, the panel says how to begin', async () => {
     await expect(mika.page.getByRole('region', { name: 'No error raised yet' })).toBeVisible();
     await expect(simulator.error(BATTERY)).toContainText('Never');
   });
 
-  await test.step('a box of a group ticks what is in it; some of it is half', async () => {
+  await test.step('the box of a group ticks its errors; it is half if some are ticked', async () => {
     await simulator.box('Units').check();
     await expect(simulator.box(BASIC)).toBeChecked();
     await expect(simulator.box('Special I/O Unit error')).toBeChecked();
@@ -30,7 +30,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
   await simulator.generateButton.click();
   await expect(simulator.dialog).toContainText('Nothing is written until you choose Generate');
 
-  await test.step('List: a table of choices, with what they add and what will be written', async () => {
+  await test.step('List: a table of choices, with the number each adds and what will be written', async () => {
     const page = simulator.dialogPage(MEMORY);
     await page.getByRole('radio', { name: /I\/O table checksum/ }).check();
     await expect(page).toContainText('+3');
@@ -40,7 +40,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
     await expect(preview).toContainText(/A401\.15\s*0 → 1/);
   });
 
-  await test.step('Edit: a refused entry says why, and nothing can be generated', async () => {
+  await test.step('Edit: a refused entry has a reason, and nothing can be generated', async () => {
     await simulator.step(SETUP).click();
     const page = simulator.dialogPage(SETUP);
     const entry = page.getByRole('textbox').first();
@@ -57,7 +57,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
     await expect(page.getByRole('region', { name: 'What will be written' })).toContainText(/0000 → 01A0/);
   });
 
-  await test.step('Spin: a number in its range, by Back and Next', async () => {
+  await test.step('Spin: a number in its range, reached by Back and Next', async () => {
     await simulator.dialog.getByRole('button', { name: 'Next' }).click();
     const page = simulator.dialogPage(BASIC);
     await page.getByRole('spinbutton', { name: 'Rack number' }).fill('2');
@@ -82,7 +82,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
     await expect(simulator.word('A400')).toHaveText('80F4');
   });
 
-  await test.step('the PLC stopped; recovered, it goes on, and the others are still there', async () => {
+  await test.step('the PLC is stopped; after recovery it continues, and the other errors are still present', async () => {
     await expect(mika.top.state).toContainText('Fatal error');
     await expect(simulator.error(MEMORY)).toContainText('Stopped');
     await mika.banner.getByRole('button', { name: 'Recover and go on' }).click();
@@ -94,7 +94,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
     await expect(simulator.word('A400')).not.toHaveText('0000');
   });
 
-  await test.step('never, generated and cleared have each their icon', async () => {
+  await test.step('never, generated and cleared each have their icon', async () => {
     const icon = (name: string, state: string) => simulator.error(name).locator(`.st.${state} svg`).first().innerHTML();
     const icons = [
       await icon('Special I/O Unit error', 'never'),
@@ -104,14 +104,14 @@ test('a group and two more are raised in one scan, with their details; the fatal
     expect(new Set(icons).size).toBe(3);
   });
 
-  await test.step('Clear all recovers the rest', async () => {
+  await test.step('Clear all recovers the remaining errors', async () => {
     await mika.page.getByRole('button', { name: 'Clear all' }).click();
     await expect(simulator.error(BASIC)).toContainText('Cleared');
     await expect(simulator.word('A400')).toHaveText('0000');
   });
 });
 
-test('the reaction stands in the tree, in words, and in the editor', { tag: '@all' }, async ({ openAs }) => {
+test('the tree, the details and the editor show the reaction', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { simulator, page } = mika;
@@ -126,7 +126,7 @@ test('the reaction stands in the tree, in words, and in the editor', { tag: '@al
     await expect(simulator.group('Units')).toContainText(/^Units1 of/);
   });
 
-  await test.step('its readers are links, and marked in the text as long as it is selected', async () => {
+  await test.step('its readers are links, and the editor marks them while it is selected', async () => {
     await simulator.reaction
       .getByRole('group', { name: 'Read at' })
       .getByRole('button', { name: /^ErrorHandler\.st:\d+$/ })
@@ -150,9 +150,7 @@ test('the reaction stands in the tree, in words, and in the editor', { tag: '@al
   });
 });
 
-test('faults with a shape: for some scans, again and again, when a condition holds', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('shaped faults: for some scans, intermittent, when a condition holds', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { simulator } = mika;
@@ -182,7 +180,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.error(BATTERY)).toContainText('Cleared');
   });
 
-  await test.step('while one chatters, it is said what another one would write', async () => {
+  await test.step('while an error chatters, the preview of a different one is shown', async () => {
     await simulator.select(BATTERY);
     await simulator.shape('How', 'Chatters: on and off, scan by scan');
     await simulator.generateButton.click();
@@ -193,7 +191,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.armed).toHaveCount(0);
   });
 
-  await test.step('a scan that goes by while one thinks is over, without a key being pressed', async () => {
+  await test.step('a scan in the form that passes meanwhile is reported as over, without a key press', async () => {
     await simulator.select(BASIC);
     await simulator.shape('When', 'At a scan');
     await simulator.details.getByRole('textbox', { name: 'Scan' }).fill(String((await mika.top.scan()) + 200));
@@ -201,7 +199,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.generateButton).toBeDisabled();
   });
 
-  await test.step('a condition with an unknown name is refused below the row, with the names that come near', async () => {
+  await test.step('a condition with an unknown name is refused below the row, with similar names', async () => {
     await simulator.select(BASIC);
     await simulator.shape('When', 'When a condition holds');
     await simulator.details.getByRole('combobox', { name: 'Condition' }).fill('strat');
@@ -213,7 +211,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.error(BASIC)).toContainText('Armed');
   });
 
-  await test.step('it begins when the condition holds', async () => {
+  await test.step('the fault begins when the condition holds', async () => {
     await mika.watch.set('start', 'TRUE');
     await expect(simulator.error(BASIC)).toContainText('Generated');
     await mika.watch.shows('lamp', 'TRUE');
@@ -252,7 +250,7 @@ test('two people: the second sees the error, and may change its details', async 
   await mika.simulator.generate(BASIC);
   await expect(jo.simulator.error(BASIC)).toContainText('Generated');
 
-  await test.step('raised once more it is refused, and it is said by whom it was', async () => {
+  await test.step('raising it again is refused, with the name of the person who raised it', async () => {
     await jo.simulator.select(BASIC);
     await expect(jo.simulator.details).toContainText('Generated by Mika');
     await jo.simulator.details.getByRole('spinbutton', { name: 'Rack number' }).fill('3');
@@ -260,14 +258,14 @@ test('two people: the second sees the error, and may change its details', async 
     await expect(jo.simulator.refusal).toContainText('Already generated by Mika (Rack number 1');
   });
 
-  await test.step('with other details, on purpose', async () => {
+  await test.step('with different details it is raised again on purpose', async () => {
     await jo.simulator.refusal.getByRole('button', { name: 'Change details' }).click();
     await expect(jo.simulator.refusal).toHaveCount(0);
     await expect(mika.simulator.details).toContainText('Generated by Jo');
     await expect(mika.simulator.details).toContainText('Rack number 3');
   });
 
-  await test.step('and recovered for both', async () => {
+  await test.step('it is recovered for both', async () => {
     await jo.simulator.recover(BASIC);
     await expect(mika.simulator.error(BASIC)).toContainText('Cleared');
   });

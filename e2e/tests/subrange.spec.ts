@@ -28,7 +28,9 @@ END_VAR
 END_PROGRAM
 `;
 
-test('a value outside of its subrange is limited, listed, marked, and leads to the source', async ({ openAs }) => {
+test('a value outside its subrange is limited, listed and marked, and the list leads to the source', async ({
+  openAs,
+}) => {
   const jo = await openAs('Jo');
   await jo.runs();
   await jo.top.newProject('Subranges');
@@ -40,14 +42,14 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
   await jo.runs();
   for (const path of ['Main.x', 'Main.z', 'Main.err', 'Main.lamp', 'Main.text']) await jo.watch.add(path);
 
-  await test.step('enumerations are shown by name and written so, wide strings in their quotes', async () => {
+  await test.step('enumerations are shown and written by name, wide strings in quotes', async () => {
     await jo.watch.shows('Main.lamp', 'GREEN');
     await jo.watch.set('Main.lamp', 'Color#BLUE');
     await jo.watch.shows('Main.lamp', 'BLUE');
     await jo.watch.shows('Main.text', '"Grüße"');
   });
 
-  await test.step('values stay after their own lines with the find widget open and with the checks shown', async () => {
+  await test.step('values stay at the ends of their lines with the find widget open and with the checks shown', async () => {
     await main.caretAfter('z := x + y;');
     await jo.page.keyboard.press('Control+F');
     await expect(main.region.getByRole('textbox', { name: 'Find' })).toBeFocused();
@@ -57,7 +59,7 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
     for (const name of ['err', 'z', 'x']) await expect.poll(() => main.valuesAreBeside(name), name).toBe(true);
   });
 
-  await test.step('a force gives its colour to the value in the text at once, and takes it away', async () => {
+  await test.step('a force colours the value in the text at once, and its release removes the colour', async () => {
     await expect(main.forcedValue('err')).toHaveCount(0);
     await jo.watch.fromMenu('Main.err', 'Force to TRUE');
     await expect(main.forcedValue('err').first()).toBeVisible();
@@ -67,13 +69,13 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
     await jo.page.keyboard.press('Escape');
   });
 
-  await test.step('nothing is listed as long as all is well', async () => {
+  await test.step('nothing is listed while there is no violation', async () => {
     await jo.diagnostics.show();
     await expect(jo.page.getByText('No violations.')).toBeVisible();
     await jo.showPanel('Watch');
   });
 
-  await test.step('the operation goes on with the limited value, and the program sees it', async () => {
+  await test.step('the program continues with the limited value', async () => {
     await jo.watch.set('Main.x', '1200');
     await jo.watch.shows('Main.z', '1005');
     await jo.watch.shows('Main.err', 'TRUE');
@@ -83,7 +85,7 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
   await mika.runs();
   await mika.top.goTo(/Subranges/);
   for (const ide of [jo, mika]) {
-    await test.step('everybody sees place, instance, value and how often', async () => {
+    await test.step('everybody sees place, instance, value and count', async () => {
       await ide.diagnostics.show();
       const read = ide.diagnostics.entry('x was 1200, outside the range 0..1000');
       await expect(read).toContainText('Main.st:22:');
@@ -91,13 +93,13 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
     });
   }
 
-  await test.step('a click goes to the source, which is marked', async () => {
+  await test.step('a click goes to the source line, which is marked', async () => {
     await jo.diagnostics.entry('open was 1005').click();
     await expect(jo.statusBar).toContainText('Ln 9,');
     await expect(main.region.locator('.squiggly-warning').first()).toBeVisible();
   });
 
-  await test.step('the view of embedded checks shows them in the text, and those that are not needed', async () => {
+  await test.step('the view of embedded checks shows the checks in the text, and those proved unnecessary', async () => {
     await main.replaceWith(PROGRAM);
     await expect(main.region.getByText('⊂ 0..1000')).toHaveCount(0);
     await main.region.getByRole('button', { name: 'Show embedded checks' }).click();
@@ -107,7 +109,7 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
     await expect(main.region.getByText('⊂ 0..1000')).toHaveCount(0);
   });
 
-  await test.step('back in range, the list is cleared for everybody', async () => {
+  await test.step('after the value is back in range, somebody clears the list for everybody', async () => {
     await jo.showPanel('Watch');
     await jo.watch.set('Main.x', '12');
     await jo.watch.shows('Main.z', '17');

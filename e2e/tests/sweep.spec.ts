@@ -1,13 +1,13 @@
 import { expect, test } from '../fixtures/test';
 
-test('every error from two states: what nobody handles is found, looked at, accepted, mended, and compared', async ({
+test('every error from two states: unhandled ones are found, inspected, accepted, corrected, and compared', async ({
   openAs,
 }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   const sweeps = ann.sweeps;
 
-  await test.step('two states are kept: one now, one by going back to it', async () => {
+  await test.step('two states are kept: the current one, and one of the past', async () => {
     const before = await ann.top.scan();
     await ann.watch.set('start', 'TRUE');
     await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(0);
@@ -18,14 +18,14 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await ann.timeline.returnToLive();
   });
 
-  await test.step('the list teaches what a sweep is, and has both states', async () => {
+  await test.step('the list explains what a sweep is, and has both states', async () => {
     await sweeps.showList();
     await expect(sweeps.pane).toContainText('No sweep yet');
     await expect(sweeps.states.getByRole('row')).toHaveCount(3);
     await expect(sweeps.states.getByRole('row').filter({ hasText: 'Idle' })).toContainText('line-1');
   });
 
-  await test.step('the dialog says how much work it will be', async () => {
+  await test.step('the dialog says how many runs there will be', async () => {
     await sweeps.ask({ errors: 'Non-fatal only', states: [] });
     await expect(sweeps.dialog).toContainText('No state is selected.');
     await expect(sweeps.dialog.getByRole('button', { name: /^Run \d/ })).toBeDisabled();
@@ -35,7 +35,7 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await sweeps.dialog.getByRole('button', { name: 'Cancel' }).click();
   });
 
-  await test.step('it runs, and the PLC goes on meanwhile', async () => {
+  await test.step('the sweep runs, and the PLC keeps running', async () => {
     await sweeps.run({ errors: 'Non-fatal only', states: ['Running', 'Idle'] });
     await expect(sweeps.tab).toHaveAccessibleName(/^Error sweep \d\d:\d\d/);
     await ann.top.scansGoOn();
@@ -45,14 +45,14 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await expect(sweeps.progress).toHaveAttribute('aria-valuenow', String(all));
   });
 
-  await test.step('a forgotten handler is named, one that reacts says when', async () => {
+  await test.step('an error without a handler is named; for a handled one the delay is shown', async () => {
     for (const state of ['Running', 'Idle'])
       await expect(await sweeps.cell('Battery error', state)).toContainText('Never read');
     await expect(await sweeps.cell('Basic I/O Unit error', 'Running')).toContainText('1 scan');
     await expect(sweeps.counts.getByRole('button', { name: /^Never read/ })).toBeEnabled();
   });
 
-  await test.step('a cell tells who read what, and leads there', async () => {
+  await test.step('a cell shows the readers, and leads to their lines', async () => {
     await sweeps.choose('Basic I/O Unit error', 'Running');
     await expect(sweeps.details).toContainText('Reacted');
     await expect(sweeps.details.getByRole('listitem').filter({ hasText: 'motor' })).toContainText('TRUE → FALSE');
@@ -64,7 +64,7 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await sweeps.tab.click();
   });
 
-  await test.step('by keyboard: to the cell, to what can be done, and back', async () => {
+  await test.step('by keyboard: to the cell, to its actions, and back', async () => {
     await sweeps.choose('Battery error', 'Running');
     await ann.page.keyboard.press('Home');
     await expect(sweeps.details).toContainText('Battery error, while Idle');
@@ -88,14 +88,14 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await expect(sweeps.details.getByRole('button', { name: 'Accept…' })).toBeVisible();
   });
 
-  await test.step('only findings: what reacts is out of sight', async () => {
+  await test.step('only findings: handled errors are hidden', async () => {
     await sweeps.pane.getByRole('switch', { name: 'Only findings' }).check();
     await expect(sweeps.row('Basic I/O Unit error')).toHaveCount(0);
     await expect(sweeps.row('Battery error')).toBeVisible();
     await sweeps.pane.getByRole('switch', { name: 'Only findings' }).uncheck();
   });
 
-  await test.step('the handler is mended, the sweep run again from the same states', async () => {
+  await test.step('the handler is corrected, the sweep is run again from the same states', async () => {
     await sweeps.narrow();
     await ann.explorer.item('Globals.st').click();
     await ann.editor('Globals.st').addBelow('cpuBusError', '  batteryError AT A402.04 : BOOL;');
@@ -112,7 +112,7 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await expect(await sweeps.cell('Battery error', 'Running')).toContainText('1 scan');
   });
 
-  await test.step('each has the test record of its own version', async () => {
+  await test.step('each sweep has the test record of its own version', async () => {
     await expect(sweeps.record).toHaveAttribute('href', /version=2$/);
     await sweeps.showList();
     await sweeps.open(1);
@@ -123,7 +123,7 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await sweeps.open(0);
   });
 
-  await test.step('compared, it is better there and the same elsewhere', async () => {
+  await test.step('the comparison says better for this error and the same elsewhere', async () => {
     await sweeps.compareWith(0);
     await expect(sweeps.change('Battery error', 'Idle')).toContainText(/Never read.*1 scan.*Better/);
     await expect(sweeps.changes.getByRole('row')).toHaveCount(3);
@@ -131,7 +131,7 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await expect(sweeps.change('Basic I/O Unit error', 'Idle')).toContainText('Same');
   });
 
-  await test.step('the run of a cell is a PLC of its own, paused there with the error', async () => {
+  await test.step('the run of a cell opens as a separate PLC, paused with the error', async () => {
     await sweeps.showList();
     await sweeps.open(0);
     await sweeps.choose('Basic I/O Unit error', 'Running');

@@ -2,7 +2,7 @@ import { expect, test } from '../fixtures/test';
 
 test.use({ ownServer: true });
 
-test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes on; it outlives the server', {
+test('everybody shares a sweep: a colleague sees it, one cancels it, the other resumes it; it survives a killed server', {
   tag: '@all',
 }, async ({ openAs, server }) => {
   const ann = await openAs('Ann');
@@ -10,7 +10,7 @@ test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes
   await ann.runs();
   await ben.runs();
 
-  await test.step('Ben sees in his list what Ann began', async () => {
+  await test.step('Ben sees Ann’s sweep in his list', async () => {
     await ben.sweeps.showList();
     await expect(ben.sweeps.pane).toContainText('No sweep yet');
     await ann.sweeps.run({ errors: 'Non-fatal only', scans: 10_000 });
@@ -21,7 +21,7 @@ test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes
     await expect(ben.statusBar).toContainText(/Sweep \d+ %/);
   });
 
-  await test.step('Ben cancels it; what was found stays', async () => {
+  await test.step('Ben cancels it; its results stay', async () => {
     await ben.sweeps.open(0);
     await expect.poll(async () => Number(await ben.sweeps.progress.getAttribute('aria-valuenow'))).toBeGreaterThan(0);
     await ben.sweeps.press('Cancel');
@@ -38,7 +38,7 @@ test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes
     await expect(ann.sweeps.pane).toContainText('Interrupted');
   });
 
-  await test.step('resumed once more, it comes to its end for both', async () => {
+  await test.step('resumed again, it is completed for both', async () => {
     await ann.sweeps.press('Resume');
     await ann.sweeps.finishes();
     await ben.sweeps.finishes();

@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('everybody goes back in time, sees the values of then, and returns to live', async ({ openAs }) => {
+test('everybody goes back in time, sees the old values, and returns to live', async ({ openAs }) => {
   const ann = await openAs('Ann');
   const bob = await openAs('Bob');
   await ann.runs();
@@ -18,7 +18,7 @@ test('everybody goes back in time, sees the values of then, and returns to live'
 
   const written = await ann.timeline.position();
 
-  await test.step('one scan before, it was not written yet; the other browser sees the past too', async () => {
+  await test.step('one scan earlier the variable was not written yet; the other browser shows the past, too', async () => {
     await ann.timeline.goTo(written - 1);
     await ann.watch.shows('start', 'FALSE');
     await ann.watch.shows('motor', 'FALSE');
@@ -27,7 +27,7 @@ test('everybody goes back in time, sees the values of then, and returns to live'
     await expect.poll(() => bob.timeline.position()).toBe(written - 1);
   });
 
-  await test.step('keys and controls go scan by scan, and from mark to mark', async () => {
+  await test.step('keys and buttons go scan by scan, and from mark to mark', async () => {
     await ann.timeline.axis.focus();
     await ann.page.keyboard.press('ArrowRight');
     await ann.watch.shows('start', 'TRUE');
@@ -37,7 +37,7 @@ test('everybody goes back in time, sees the values of then, and returns to live'
     await ann.watch.shows('start', 'TRUE');
   });
 
-  await test.step('the past cannot be changed, and says so', async () => {
+  await test.step('the past cannot be changed, and the page says so', async () => {
     await expect(ann.watch.entry('start')).not.toBeEditable();
     await expect(ann.watch.entry('start')).toHaveAccessibleDescription(/the past/);
     await expect(ann.top.mode('RUN')).toBeDisabled();
@@ -45,7 +45,7 @@ test('everybody goes back in time, sees the values of then, and returns to live'
     await expect(ann.page.getByRole('button', { name: 'Generate', exact: true })).toBeDisabled();
   });
 
-  await test.step('live goes on where it was', async () => {
+  await test.step('the live PLC continues where it was', async () => {
     await bob.timeline.returnToLive();
     await expect(ann.timeline.banner).toBeHidden();
     await ann.runs();
@@ -53,15 +53,13 @@ test('everybody goes back in time, sees the values of then, and returns to live'
   });
 });
 
-test('marks that lie close are looked at closer, and the run shows where it was stopped', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('close marks can be enlarged, and the run shows where it was stopped', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   for (const mode of ['PROGRAM', 'MONITOR', 'RUN', 'MONITOR'] as const) await ann.top.chooseMode(mode);
   await ann.top.scansGoOn(400);
 
-  await test.step('a group becomes the part of the run that it lies in, then a list', async () => {
+  await test.step('a group of marks zooms in, then opens a list', async () => {
     const group = ann.timeline.mark(/^\d+ marks, .*Mode \d/);
     await expect(group).toHaveCount(1);
     const list = ann.page.getByRole('menu', { name: 'Marks' });
@@ -73,7 +71,7 @@ test('marks that lie close are looked at closer, and the run shows where it was 
     await expect(ann.timeline.banner).toBeVisible();
   });
 
-  await test.step('a scan that there is not says so, until another is shown', async () => {
+  await test.step('a message about a wrong scan stays until a different scan is shown', async () => {
     const box = ann.timeline.region.getByRole('textbox', { name: 'Go to scan' });
     await box.fill('1.5');
     await box.press('Enter');
@@ -87,7 +85,7 @@ test('marks that lie close are looked at closer, and the run shows where it was 
   });
 });
 
-test('a branch begins as the PLC was then, and goes its own way', { tag: '@all' }, async ({ openAs }) => {
+test('a branch begins with the state of a past scan, and runs on its own', { tag: '@all' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -98,7 +96,7 @@ test('a branch begins as the PLC was then, and goes its own way', { tag: '@all' 
   await ann.timeline.goTo(before);
   await ann.watch.shows('start', 'FALSE');
 
-  await test.step('it waits where it was cut off, without what came later', async () => {
+  await test.step('the branch is paused at its first scan, without later commands', async () => {
     await ann.timeline.branch('what-if');
     await expect(ann.top.picker).toContainText('what-if');
     await expect(ann.top.state).toContainText('Paused');
@@ -107,13 +105,13 @@ test('a branch begins as the PLC was then, and goes its own way', { tag: '@all' 
     await expect(ann.timeline.mark(/Write: /)).toHaveCount(0);
   });
 
-  await test.step('it goes its own way', async () => {
+  await test.step('it runs on its own', async () => {
     await ann.top.press('Continue');
     await ann.top.scansGoOn(before);
     await ann.watch.shows('motor', 'FALSE');
   });
 
-  await test.step('the first one is still shown in the past', async () => {
+  await test.step('the original PLC still shows the past', async () => {
     await ann.top.goTo(/Conveyor \/ line-1/i);
     await expect(ann.timeline.banner).toContainText('shown by Ann');
     await ann.timeline.returnToLive();

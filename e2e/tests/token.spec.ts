@@ -3,7 +3,7 @@ import { Ide } from '../pages/ide';
 
 test.use({ ownServer: true });
 
-test('a colleague who follows a link is asked for the token, and comes to where the link leads', {
+test('a colleague who follows a link is asked for the token, and then reaches the target of the link', {
   tag: '@all',
 }, async ({ browser, server, openAs }) => {
   const mika = await openAs('Mika');
@@ -13,21 +13,21 @@ test('a colleague who follows a link is asked for the token, and comes to where 
   const page = await (await browser.newContext()).newPage();
   const token = page.getByLabel('Token');
 
-  await test.step('the address alone is refused, with a field for the token', async () => {
+  await test.step('the plain address is refused, with a field for the token', async () => {
     await page.goto(link);
     await expect(page.getByRole('heading', { level: 1 })).toHaveText('This server requires its token');
     await expect(page.getByRole('alert')).toHaveCount(0);
     expect((await page.request.get(`${origin}/api/projects`)).status()).toBe(401);
   });
 
-  await test.step('a wrong token is refused there', async () => {
+  await test.step('a wrong token is refused', async () => {
     await token.fill('wrong');
     await page.getByRole('button', { name: 'Open' }).click();
     await expect(page.getByRole('alert')).toContainText('not the token of this server');
   });
 
   const jo = new Ide(page);
-  await test.step('the right one leads to where the link leads', async () => {
+  await test.step('the right token opens the target of the link', async () => {
     await token.fill(searchParams.get('token') ?? '');
     await token.press('Enter');
     await jo.runs();
@@ -40,7 +40,7 @@ test('a colleague who follows a link is asked for the token, and comes to where 
     await jo.runs();
   });
 
-  await test.step('once the token is not known any more, the page itself asks for it', async () => {
+  await test.step('after the browser lost the token, the page itself asks for it', async () => {
     await page.context().clearCookies();
     await server.kill();
     await server.startAgain();

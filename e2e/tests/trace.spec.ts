@@ -10,7 +10,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
   await mika.runs();
   await mika.watch.set('start', 'TRUE');
 
-  await test.step('signals are added by typing, a wrong one says so', async () => {
+  await test.step('signals are added by typing; a wrong one is refused', async () => {
     await trace.show();
     await expect(trace.pane).toContainText('No signals yet');
     await trace.add('Main.belt.position');
@@ -36,14 +36,14 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     await expect(others.state).toHaveText('Recording');
   });
 
-  await test.step('armed on a rising edge, it waits, and an error makes it fire', async () => {
+  await test.step('armed on a rising edge, the trace waits, and an error triggers it', async () => {
     await trace.enter('Buffer', '400');
     await trace.arm('A402.12', 'rises');
     await trace.enter('Before', '70');
     await expect(trace.pane).toContainText('280 of 400 scans');
     await expect(trace.state).toHaveText('Armed');
     await expect(others.state).toHaveText('Armed');
-    // all that is wanted in front of the trigger is there
+    // all scans before the trigger are recorded
     const rows = async () => (await server.get<{ rows: number }[]>(`/instances/${server.instance}/traces`))[0]?.rows;
     await expect.poll(rows).toBeGreaterThan(280);
     await mika.simulator.generate('Basic I/O Unit error');
@@ -81,7 +81,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     });
   });
 
-  await test.step('it is kept, and the next one compared with it', async () => {
+  await test.step('the trace is kept, and the next one is compared with it', async () => {
     await trace.choose('Export', 'Keep as a record...');
     await mika.page.getByRole('dialog').getByLabel('Name').fill('first jam');
     await mika.page.getByRole('dialog').getByRole('button', { name: 'Keep' }).click();
@@ -93,7 +93,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     );
   });
 
-  await test.step('the last 1,000 scans are recorded afterwards, of any signals', async () => {
+  await test.step('a retrospective trace records any signals of the last 1,000 scans', async () => {
     await trace.choose('Choose a trace', 'Record earlier scans...');
     const dialog = mika.page.getByRole('dialog');
     await dialog.getByLabel('Signals, one per line').fill('Main.uptime\nMain.belt.position\nlamp');

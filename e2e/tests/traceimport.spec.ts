@@ -5,13 +5,13 @@ import { Verify } from '../pages/verify';
 const SCANS = 20;
 const WRONG = 12;
 
-/** Nobody presses start: the conveyor stands still. In one scan the controller counts parts that are not there. */
+/** Nobody presses start, so the conveyor does not move. In one scan the controller counts parts that do not exist. */
 function recorded({ head = 'scan,start,motor,partsTotal', wrong = true } = {}): string {
   const rows = Array.from({ length: SCANS }, (_, scan) => `${scan},FALSE,FALSE,${wrong && scan === WRONG ? 7 : 0}`);
   return `${head}\n${rows.join('\n')}\n`;
 }
 
-test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, async ({ openAs }) => {
+test('a controller log is mapped, verified and kept', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const trace = new TraceImport(mika.page);
   const verify = new Verify(mika.page);
@@ -19,14 +19,14 @@ test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, 
   await trace.open();
   await expect(trace.start).toBeDisabled();
 
-  await test.step('a broken file is refused with its row, and nothing of it is there', async () => {
+  await test.step('a broken file is refused with its row, and nothing is imported', async () => {
     await trace.choose('broken.csv', 'scan,start\n0,1\n1,1,1,1\n');
     await expect(trace.dialog).toContainText('broken.csv could not be read. Nothing was imported.');
     await expect(trace.problem('row 3')).toBeVisible();
     await expect(trace.start).toBeDisabled();
   });
 
-  await test.step('unknown columns, gaps and cells that are none are told with row and column', async () => {
+  await test.step('unknown columns, gaps and invalid cells are reported with row and column', async () => {
     await trace.choose('line.csv', 'scan,start,motor,sped\n0,FALSE,FALSE,1\n1,maybe,FALSE,2\n5,FALSE,FALSE,3\n');
     await expect(trace.column('start')).toContainText('Proposed');
     await expect(trace.problem('sped')).toContainText('column sped');
@@ -36,7 +36,7 @@ test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, 
     await expect(trace.start).toBeDisabled();
   });
 
-  await test.step('the mapping is mended, by hand and with what the program offers', async () => {
+  await test.step('the mapping is corrected by hand and by completion', async () => {
     await trace.role('sped').selectOption('an input');
     await trace.variable('sped').fill('Main.belt.pos');
     await mika.page.getByRole('option', { name: 'Main.belt.position' }).click();
@@ -46,7 +46,7 @@ test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, 
     await expect(trace.verdict).toContainText('It cannot be verified yet: 1 problem.');
   });
 
-  await test.step('the mended file keeps what was mapped by hand', async () => {
+  await test.step('the corrected file keeps the manual mapping', async () => {
     await trace.choose('line.csv', recorded({ head: 'scan,sped,motor,partsTotal' }));
     await expect(trace.role('sped')).toHaveValue('ignore');
     await expect(trace.variable('sped')).toHaveValue('Main.belt.position');
@@ -56,7 +56,7 @@ test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, 
     await expect(trace.verdict).toContainText(`Scans 0 to ${SCANS - 1} can be verified.`);
   });
 
-  await test.step('a mapping is saved, and fits again', async () => {
+  await test.step('a mapping is saved, and loaded again', async () => {
     await trace.saveAs('Line 1');
     await expect(trace.verdict).toContainText('Saved as “Line 1”.');
     await trace.variable('sped').fill('lamp');
@@ -65,7 +65,7 @@ test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, 
     await expect(trace.verdict).toContainText('can be verified');
   });
 
-  await test.step('put away and opened again, it is as it was left', async () => {
+  await test.step('closed and opened again, the dialog is as it was left', async () => {
     await trace.dialog.getByRole('button', { name: 'Cancel' }).click();
     await expect(trace.dialog).toBeHidden();
     await trace.open();
@@ -83,7 +83,7 @@ test('the trace of a controller is mapped, verified and kept', { tag: '@all' }, 
     await expect(verify.facts).toContainText('line.csv');
   });
 
-  await test.step('it is kept, found again by a colleague, taken out, and deleted', async () => {
+  await test.step('the verification is kept; a colleague opens, exports and deletes it', async () => {
     await verify.press('Export');
     await mika.page.getByRole('menuitem', { name: /^Keep as a record/ }).click();
     const keeping = mika.page.getByRole('dialog', { name: 'Keep the verification' });

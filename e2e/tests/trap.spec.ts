@@ -10,7 +10,7 @@ CONFIGURATION Plant
 END_CONFIGURATION
 `;
 
-/** A program whose line 9 is at fault as soon as `go` is on. */
+/** A program whose line 9 causes a run-time error as soon as `go` is TRUE. */
 function program(fault: string): string {
   return `PROGRAM Main
 VAR
@@ -32,7 +32,7 @@ const FAULTS = [
   { name: 'loops for ever', fault: 'WHILE go DO result := 0; END_WHILE;', said: /does not end/ },
 ];
 
-test('a program that goes wrong stops with file and line, and nothing else stops with it', async ({ openAs }) => {
+test('a program with a run-time error stops with file and line, and no other PLC stops', async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const mika = await openAs('Mika');
@@ -40,7 +40,7 @@ test('a program that goes wrong stops with file and line, and nothing else stops
   const main = mika.editor('Main.st');
   await ready(mika);
 
-  await test.step('a program without variables has nothing to offer, and says so', async () => {
+  await test.step('for a program without variables the page says that there are none', async () => {
     await mika.page.getByRole('button', { name: "Add the program's variables" }).click();
     await expect(mika.page.getByText('The running program has no variables.')).toBeVisible();
   });
@@ -70,7 +70,7 @@ test('a program that goes wrong stops with file and line, and nothing else stops
       await expect(jo.banner).toBeHidden();
     });
 
-    await test.step(`${name}: mended and restarted it runs again`, async () => {
+    await test.step(`${name}: corrected and restarted, it runs again`, async () => {
       await main.replaceWith(program('result := 5;'));
       await main.build();
       await expect(main.outcome).toContainText('Built');
@@ -82,7 +82,7 @@ test('a program that goes wrong stops with file and line, and nothing else stops
   }
 });
 
-test('after the cause is mended by hand, a stopped program goes on with its variables', { tag: '@all' }, async ({
+test('after its cause is corrected by hand, a stopped program continues with its variables', { tag: '@all' }, async ({
   openAs,
 }) => {
   const mika = await openAs('Mika');
@@ -107,7 +107,7 @@ test('after the cause is mended by hand, a stopped program goes on with its vari
   await mika.watch.shows('Main.index', '3');
 });
 
-/** A new project has something to edit, and its PLC is there. */
+/** Waits until a new project has a text to edit, and its PLC exists. */
 async function ready(ide: Ide): Promise<void> {
   const main = ide.editor('Main.st');
   if (!(await main.region.isVisible())) await ide.page.screenshot({ path: 'test-results/new-project.png' });

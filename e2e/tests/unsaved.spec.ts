@@ -1,14 +1,14 @@
 import type { Locator } from '@playwright/test';
 import { expect, test } from '../fixtures/test';
 
-/** Whether all of it lies within another element, so that it can be pressed. */
+/** Whether an element lies completely within a second one, so that it can be clicked. */
 async function within(part: Locator, whole: Locator): Promise<boolean> {
   const [inner, outer] = [await part.boundingBox(), await whole.boundingBox()];
   if (!inner || !outer) return false;
   return inner.x >= outer.x && inner.x + inner.width <= outer.x + outer.width && inner.y >= outer.y;
 }
 
-test('what is typed is never lost unsaid: closing asks, a build that fails says why, Save and Build are in reach', async ({
+test('no text is lost silently: closing asks, a failed build says why, Save and Build are in reach', async ({
   openAs,
 }) => {
   const mika = await openAs('Mika');
@@ -18,7 +18,7 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
   const dialog = page.getByRole('dialog');
   const close = () => page.getByTestId('close:Main.st').click();
 
-  await test.step('a tab with unsaved text asks; Escape leaves all as it was', async () => {
+  await test.step('closing a tab with unsaved text asks; Escape changes nothing', async () => {
     await main.addBelow('uptime : TIME;', '  kept : INT;');
     await close();
     await expect(dialog).toContainText('Save the changes of Main.st?');
@@ -26,7 +26,7 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
     await expect(main.line('kept : INT;')).toBeVisible();
   });
 
-  await test.step('kept in the browser it comes back, discarded it does not', async () => {
+  await test.step('a text kept in the browser comes back, a discarded one does not', async () => {
     await close();
     await dialog.getByRole('button', { name: 'Keep in this browser' }).click();
     await expect(main.region).toBeHidden();
@@ -43,7 +43,7 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
     await mika.explorer.tree.getByRole('treeitem', { name: 'Main', exact: true }).first().dblclick();
   });
 
-  await test.step('a build that fails opens the problems', async () => {
+  await test.step('a failed build opens the problems', async () => {
     await main.addBelow('uptime : TIME;', '  broken : NOTYPE;');
     await expect(mika.problems.list).toBeHidden();
     await page.keyboard.press('Control+Shift+b');
@@ -51,7 +51,7 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
     await expect(mika.problems.list).toContainText('NOTYPE');
   });
 
-  await test.step('saved from the question, it is closed and stored', async () => {
+  await test.step('Save in the question stores the text and closes the tab', async () => {
     await main.addBelow('broken : NOTYPE;', '  stored : INT;');
     await close();
     await dialog.getByRole('button', { name: 'Save' }).click();
@@ -61,7 +61,7 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
     await expect(page.getByRole('tab', { name: 'Main.st, Not saved' })).toHaveCount(0);
   });
 
-  await test.step('Save and Build are in reach beside everything that the bar says', async () => {
+  await test.step('Save and Build are in reach beside all texts of the bar', async () => {
     await main.caretAfter('broken : NOTYPE;');
     for (let letter = 0; letter < ' broken : NOTYPE;'.length; letter += 1) await page.keyboard.press('Backspace');
     await page.keyboard.press('Control+Shift+b');
@@ -85,7 +85,7 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
   });
 });
 
-test('a project needs its model; nothing that a page asks of itself is refused', { tag: '@all' }, async ({
+test('a project needs its model; none of the page’s own requests is refused', { tag: '@all' }, async ({
   openAs,
   server,
 }) => {
@@ -99,7 +99,7 @@ test('a project needs its model; nothing that a page asks of itself is refused',
   await mika.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).first().dblclick();
   const belt = mika.editor('Belt.st');
   await belt.caretAfter('position := position + STEP;');
-  // What is typed before a point is no variable most of the time.
+  // Most of the time the text before a point is not a variable.
   const asked = page.waitForResponse(/symbols\?.*path=Main\.belt\.nothing/);
   await page.keyboard.type(' nothing.');
   await asked;
@@ -129,7 +129,7 @@ test('a project needs its model; nothing that a page asks of itself is refused',
   await expect(dialog).toBeHidden();
   await expect(mika.top.picker).toContainText('late');
   const late = page.url();
-  // By its address, while the tabs are still those of the other project.
+  // Opened by its address, while the tabs are still those of the other project.
   const { origin } = new URL(server.address);
   await page.goto(`${origin}/i/${server.instance}`);
   await expect(belt.region).toBeVisible();

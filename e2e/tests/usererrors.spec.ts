@@ -6,14 +6,12 @@ import { UserErrors } from '../pages/usererrors';
 
 const BROKEN = resolve(import.meta.dirname, '../../backend/tests/plcmodel/broken_user_errors');
 
-test('errors of the own machine: defined in the browser, built, raised, recorded', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('user-defined errors: edited in the browser, built, raised, recorded', { tag: '@all' }, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const own = new UserErrors(jo.page);
 
-  await test.step('the first one starts from an example', async () => {
+  await test.step('the first error starts from an example', async () => {
     await own.open();
     await expect(own.pane).toContainText('No user-defined errors yet');
     await own.pane.getByRole('button', { name: /Pump overheated/ }).click();
@@ -21,7 +19,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     await expect(own.field('Id')).toHaveValue('pump-overheated');
   });
 
-  await test.step('what is wrong stands under its field while one types', async () => {
+  await test.step('problems are shown below their fields during typing', async () => {
     await own.field('Flag address').fill('W999.00');
     await expect(own.wrong('the last word is W511')).toBeVisible();
     await expect(own.error('Pump overheated')).toContainText('1 problem');
@@ -29,7 +27,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     await expect(own.wrong(/./)).toHaveCount(0);
   });
 
-  await test.step('a second one follows its name, and gets details', async () => {
+  await test.step('the id of a second error follows its name, and it gets details', async () => {
     await own.button('New error').click();
     await own.field('Name').fill('Guard open');
     await expect(own.field('Id')).toHaveValue('guard-open');
@@ -42,7 +40,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     await expect(own.wrong(/./)).toHaveCount(0);
   });
 
-  await test.step('it is there for keyboards and screen readers', async () => {
+  await test.step('the page can be used with keyboard and screen reader', async () => {
     await own.list.focus();
     await jo.page.keyboard.press('ArrowUp');
     await expect(own.error('Pump overheated')).toHaveAttribute('aria-selected', 'true');
@@ -53,7 +51,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     expect(violations.map(({ id, nodes }) => `${id}: ${nodes[0]?.html}`)).toEqual([]);
   });
 
-  await test.step('what is not saved stays when the tab is closed, and the page is loaded anew', async () => {
+  await test.step('unsaved edits survive closing the tab and reloading the page', async () => {
     await jo.page.getByTestId('close:usererrors').click();
     await jo.page.getByRole('dialog').getByRole('button', { name: 'Keep in this browser' }).click();
     await expect(own.pane).toBeHidden();
@@ -64,7 +62,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     await expect(own.pane).toContainText('Not saved');
   });
 
-  await test.step('saved and built, they stand in the error simulator', async () => {
+  await test.step('saved and built, the errors are in the error simulator', async () => {
     await own.save();
     await own.button('Build').click();
     await expect(own.pane.getByText(/^Saved as version/)).toBeHidden();
@@ -72,7 +70,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     await expect(jo.simulator.error('Guard open')).toContainText('Never');
   });
 
-  await test.step('raised, its flag and code are in the memory, and it stands in the history', async () => {
+  await test.step('raised, its flag and code are in the memory, and the history lists it', async () => {
     await jo.watch.add('W10');
     await jo.simulator.generate('Guard open');
     await jo.watch.shows('W10', '16#0010');
@@ -81,7 +79,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     await expect(jo.history('Guard open')).toContainText('Generated');
   });
 
-  await test.step('while it is there, a program without it is refused in words', async () => {
+  await test.step('while it is present, a program without it is refused with a message', async () => {
     await own.open();
     await own.error('Guard open').click();
     await own.button('Delete').click();
@@ -91,9 +89,9 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
   });
 });
 
-test('a file is imported whole or not at all, and of two savers the second decides', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('a file is imported as a whole or not at all; of two people who save, the second decides', {
+  tag: '@all',
+}, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const own = new UserErrors(jo.page);
@@ -107,20 +105,20 @@ test('a file is imported whole or not at all, and of two savers the second decid
     await expect(own.pane).toContainText('No user-defined errors yet');
   });
 
-  await test.step('a right one is there', async () => {
+  await test.step('a valid file is imported', async () => {
     await own.import('good.xml', readFileSync(`${BROKEN}/GOOD.xml`, 'utf-8'));
     await expect(own.error('Pump hot')).toBeVisible();
     await expect(own.field('Name in Japanese')).toHaveValue('ポンプ過熱');
   });
 
-  await test.step('exported, it is the file', async () => {
+  await test.step('the export is the file', async () => {
     const download = jo.page.waitForEvent('download');
     await own.button('Export').click();
     expect((await download).suggestedFilename()).toBe('errors.xml');
     expect(readFileSync(await (await download).path(), 'utf-8')).toContain('Id="pump-hot"');
   });
 
-  await test.step('two people save: the second sees it, and keeps theirs or takes the other', async () => {
+  await test.step('two people save: the second is told, and keeps their own version or takes the other', async () => {
     const ada = await openAs('Ada');
     const theirs = new UserErrors(ada.page);
     await theirs.open();

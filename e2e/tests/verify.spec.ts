@@ -13,7 +13,7 @@ interface Verified {
   differing: number;
 }
 
-/** Disturbs a scan, which it gives. A verification that runs freely may skip scans on a loaded machine, this one, too: then again. */
+/** Disturbs a scan, and returns its number. On a loaded machine a free-running verification may skip this scan: then it tries again. */
 async function disturbUntilItDiffers(server: Server, disturbance: object): Promise<number> {
   const verified = async () => {
     const [found] = await server.get<Verified[]>(`/instances/${server.instance}/verifications`);
@@ -33,7 +33,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
   await ada.runs();
   await ada.watch.set('start', 'TRUE');
 
-  await test.step('lines that are selected in the editor are the range', async () => {
+  await test.step('the selected lines of the editor are the range', async () => {
     await verify.show();
     await expect(verify.pane).toContainText('Is the result right?');
     await ada.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).dblclick();
@@ -65,7 +65,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
   await others.show();
 
   let scan = 0;
-  await test.step('a bit is flipped: the difference stands at its scan, with its variable, bit and disturbance', async () => {
+  await test.step('a bit is flipped: the difference is shown at its scan, with its variable, bit and disturbance', async () => {
     const flip = { kind: 'flip', path: 'Main.belt.position', bit: 9 };
     scan = await disturbUntilItDiffers(server, flip);
     await expect.poll(() => verify.count('differ')).toBe(1);
@@ -81,7 +81,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
     await expect(verify.source).toContainText('position := position + STEP;');
   });
 
-  await test.step('a colleague sees the same, and only the differences when wanted', async () => {
+  await test.step('a colleague sees the same, and can filter by differences', async () => {
     await expect.poll(() => others.count('differ')).toBe(1);
     await others.press('Only differences');
     await expect(others.rows).toHaveCount(1);
@@ -99,7 +99,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
     await expect(verify.cell(scan, 'input:position')).toContainText('16#');
   });
 
-  await test.step('it is exported, stopped and kept', async () => {
+  await test.step('the verification is exported, stopped and kept', async () => {
     await verify.press('Stop');
     await expect(verify.state).toHaveAttribute('data-state', 'stopped');
     expect(await verify.export('CSV table')).toContain(String(scan));
@@ -116,7 +116,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
     expect(records.map(({ name, by }) => [name, by])).toEqual([['flipped bit', 'Ada']]);
   });
 
-  await test.step('afterwards the same stretch of the past says the same', async () => {
+  await test.step('verifying the same past scans afterwards gives the same result', async () => {
     await verify.press('Choose a verification');
     await ada.page.getByRole('menuitem', { name: 'Verify this range again...' }).click();
     await verify.dialog.getByRole('radio', { name: 'Past scans' }).click();
@@ -132,7 +132,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
   });
 });
 
-test('set data shows whether the input or the logic made a wrong result', { tag: '@all' }, async ({
+test('set data shows whether the input or the logic caused a wrong result', { tag: '@all' }, async ({
   openAs,
   server,
 }) => {
@@ -166,7 +166,7 @@ test('set data shows whether the input or the logic made a wrong result', { tag:
   const monitor = await verify.cell(scan, "output:barrier:A'").innerText();
   expect(a).not.toBe(monitor);
 
-  await test.step('what is no value is refused in its row, and stays as typed', async () => {
+  await test.step('an invalid value is refused in its row, and stays as typed', async () => {
     await verify.press('Try different inputs');
     const box = verify.table.getByRole('textbox');
     await expect(box).toBeFocused();
@@ -178,7 +178,7 @@ test('set data shows whether the input or the logic made a wrong result', { tag:
     await expect(box).toBeHidden();
   });
 
-  await test.step('with other inputs the reference gives A, too; A itself never changes', async () => {
+  await test.step('with different inputs the reference also gives A; A itself never changes', async () => {
     await verify.set(scan, 'input:position', a.includes('TRUE') ? '10' : '300');
     await expect(verify.cell(scan, "output:barrier:A'")).toHaveText(a);
     await expect(verify.cell(scan, 'output:barrier:A')).toHaveText(a);
@@ -186,19 +186,19 @@ test('set data shows whether the input or the logic made a wrong result', { tag:
     await expect(verify.facts).toContainText('the input data explains the difference');
   });
 
-  await test.step('on the recorded inputs all is as it was', async () => {
+  await test.step('on the recorded inputs the result is the old one', async () => {
     await verify.choose('Monitor runs on', 'Recorded');
     await expect(verify.cell(scan, "output:barrier:A'")).toHaveText(monitor);
     await expect(verify.cell(scan, 'output:barrier:A')).toHaveText(a);
     await expect(verify.cell(scan, 'from')).toHaveText('Recorded');
   });
 
-  await test.step('the record of used variables tells every read and write', async () => {
+  await test.step('the record of used variables lists every read and write', async () => {
     await verify.press('Used variables');
     await expect(verify.facts.getByRole('row').filter({ hasText: 'barrier' })).toContainText('written');
   });
 
-  await test.step('from there one goes to the scan', async () => {
+  await test.step('from there the user goes to the scan', async () => {
     await verify.press('Go to this scan');
     await expect(ada.timeline.banner).toBeVisible();
   });

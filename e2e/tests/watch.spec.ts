@@ -5,22 +5,22 @@ test('a watch list is shared, and two people change it at once', async ({ openAs
   const mika = await openAs('Mika');
   await mika.runs();
 
-  await test.step('what Mika adds is kept in a list of his own', async () => {
+  await test.step('Mika’s entries are stored in his own list', async () => {
     await mika.watch.add('Main.heartbeat');
     await mika.watch.list('Share with everybody');
     await expect(mika.watch.picker).toContainText('shared');
     await mika.watch.renameList('Belt 3');
     const lists = () => server.get<{ name: string }[]>(`/projects/${server.project}/watch-lists`);
-    await expect.poll(async () => (await lists()).map(({ name }) => name)).toEqual(['Belt 3']); // it is saved a moment later
+    await expect.poll(async () => (await lists()).map(({ name }) => name)).toEqual(['Belt 3']); // the list is saved a moment later
   });
 
   const jo = await openAs('Jo');
-  await test.step('Jo, who has none yet, sees the shared one', async () => {
+  await test.step('Jo, who has no list yet, sees the shared one', async () => {
     await expect(jo.watch.picker).toContainText('Belt 3');
     await expect(jo.watch.row('Main.heartbeat')).toBeVisible();
   });
 
-  await test.step('each sees what the other adds, in a moment', async () => {
+  await test.step('each sees the other’s additions after a moment', async () => {
     await jo.watch.add('D100');
     await expect(mika.watch.row('D100')).toBeVisible();
     await mika.watch.remove('Main.uptime');
@@ -32,7 +32,7 @@ test('a watch list is shared, and two people change it at once', async ({ openAs
     }
   });
 
-  await test.step('a list of her own is nobody else’s business; deleting the shared one can be taken back', async () => {
+  await test.step('Jo’s own list is private; deleting the shared one can be undone', async () => {
     await jo.watch.list('Duplicate as my own');
     await expect(jo.watch.picker).toContainText('private');
     await mika.watch.picker.click();
@@ -55,14 +55,14 @@ test('a watch list is shared, and two people change it at once', async ({ openAs
   });
 });
 
-test('addresses, ranges, parts, formats and what is refused', { tag: '@all' }, async ({ openAs }) => {
+test('addresses, ranges, parts, formats and refusals', { tag: '@all' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch } = mika;
   await watch.list('New list');
   await expect(mika.page.getByText('Nothing watched yet')).toBeVisible();
 
-  await test.step('a range shows its words, which are written one by one', async () => {
+  await test.step('a range shows its words, each of which can be written', async () => {
     await watch.add('W10:3');
     for (const word of ['W10', 'W11', 'W12']) await watch.shows(word, '16#0000');
     await watch.set('W11', '4660');
@@ -78,7 +78,7 @@ test('addresses, ranges, parts, formats and what is refused', { tag: '@all' }, a
     await watch.shows('Main.parts.total.%B1', '16#00');
   });
 
-  await test.step('the format of a range is that of its words, and of what is typed there', async () => {
+  await test.step('the format of a range applies to its words, and to entries there', async () => {
     await watch.fromMenu('W10:3', 'BCD', 'menuitemradio');
     await watch.shows('W10', '0000');
     await watch.set('W10', '1234');
@@ -90,7 +90,7 @@ test('addresses, ranges, parts, formats and what is refused', { tag: '@all' }, a
     await watch.shows('W10', "'AB'");
   });
 
-  await test.step('what is out of range stays, says why, and is corrected with one click', async () => {
+  await test.step('an entry out of range stays, with the reason, and one click corrects it', async () => {
     await watch.add('Main.belt.position');
     await watch.write('Main.belt.position', '99999');
     await expect(watch.refusal).toContainText('99999 is outside of INT');
@@ -100,7 +100,7 @@ test('addresses, ranges, parts, formats and what is refused', { tag: '@all' }, a
     await expect(watch.refusal).toBeHidden();
   });
 
-  await test.step('a name that is not known says which it may have been', async () => {
+  await test.step('for an unknown name similar ones are offered', async () => {
     await watch.add('Main.belt.positoin');
     await mika.page.getByRole('button', { name: 'Main.belt.position', exact: true }).click();
     await expect(watch.row('Main.belt.positoin')).toBeHidden();
@@ -131,7 +131,7 @@ test('groups, order, filter, CSV and dragging', { tag: '@all' }, async ({ openAs
     await expect.poll(() => watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
   });
 
-  await test.step('a column sorts inside of the groups, and gives the order back', async () => {
+  await test.step('a column sorts inside the groups, and restores the order', async () => {
     const head = watch.table.getByRole('columnheader', { name: 'Target variable' });
     await head.getByRole('button').click();
     await expect(head).toHaveAttribute('aria-sort', 'ascending');
@@ -141,7 +141,7 @@ test('groups, order, filter, CSV and dragging', { tag: '@all' }, async ({ openAs
     await expect.poll(() => watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
   });
 
-  await test.step('a filter leaves what is meant', async () => {
+  await test.step('a filter shows only matching rows', async () => {
     await page.getByRole('button', { name: 'Filter', exact: true }).click();
     await page.getByRole('textbox', { name: 'Filter by name, type or address' }).fill('bool');
     await expect.poll(() => watch.paths()).toEqual(['motor', 'Main.heartbeat']);
@@ -163,7 +163,7 @@ test('groups, order, filter, CSV and dragging', { tag: '@all' }, async ({ openAs
     await expect(watch.row('Main.consume')).toBeVisible();
   });
 
-  await test.step('the list goes out as CSV and comes in again; lines that are wrong are named', async () => {
+  await test.step('the list is exported as CSV and imported again; wrong lines are reported', async () => {
     const file = info.outputPath('list.csv');
     const download = page.waitForEvent('download');
     await watch.more('Export CSV');
@@ -190,7 +190,7 @@ test('the watch table by keyboard alone', { tag: '@all' }, async ({ openAs }) =>
   await page.keyboard.press('ArrowDown');
   await expect(watch.row('start')).toHaveAttribute('aria-selected', 'true');
 
-  await test.step('F2 or Enter to type, Enter to write, Escape back to the table', async () => {
+  await test.step('F2 or Enter starts an entry, Enter writes it, Escape returns to the table', async () => {
     await page.keyboard.press('F2');
     await page.keyboard.type('TRUE');
     await page.keyboard.press('Enter');
@@ -206,7 +206,7 @@ test('the watch table by keyboard alone', { tag: '@all' }, async ({ openAs }) =>
     await expect(watch.releaseOf('start')).toBeHidden();
   });
 
-  await test.step('Delete removes, Ctrl+Z takes it back', async () => {
+  await test.step('Delete removes, Ctrl+Z undoes it', async () => {
     await page.keyboard.press('Delete');
     await expect(watch.row('start')).toBeHidden();
     await page.keyboard.press('Control+z');

@@ -1,4 +1,4 @@
-/** Where a program halts, and what is seen and set there. */
+/** Where a program halts, and which values can be read and set there. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { breakAt, COUNTS, client, entered, FIRST, haltAfter, LAST, PROGRAM, value } from './session.mjs';
@@ -53,7 +53,7 @@ test('arrays are paged', async () => {
   );
 });
 
-test('a conditional breakpoint halts when its condition holds; reverse continue comes back to it', async () => {
+test('a conditional breakpoint halts when its condition holds; reverse continue returns to it', async () => {
   await entered();
   await breakAt(LAST, { condition: 'n = 5' });
   const frames = await haltAfter(() => client.continueRequest({ threadId: 1 }), 'breakpoint', LAST);
@@ -63,7 +63,7 @@ test('a conditional breakpoint halts when its condition holds; reverse continue 
   assert.equal(await value('n', back[0].id), '5');
 });
 
-test('a condition that is wrong is not verified, and says why', async () => {
+test('a breakpoint with a wrong condition is not verified, with the reason', async () => {
   await entered();
   const answer = await client.setBreakpointsRequest({
     source: { path: PROGRAM },
@@ -80,7 +80,7 @@ test('a hit count', async () => {
   assert.equal(await value('n', frames[0].id), '4');
 });
 
-test('a logpoint speaks and does not halt', async () => {
+test('a logpoint writes a message and does not halt', async () => {
   await entered();
   await client.setBreakpointsRequest({
     source: { path: PROGRAM },
@@ -102,7 +102,7 @@ test('a function breakpoint halts at the first statement of the POU', async () =
   await haltAfter(() => client.continueRequest({ threadId: 1 }), 'function breakpoint', COUNTS);
 });
 
-test('a data breakpoint halts behind the write', async () => {
+test('a data breakpoint halts after the write', async () => {
   await entered();
   const info = await client.dataBreakpointInfoRequest({ name: 'Main.b.total' });
   assert.equal(info.body.dataId, 'Main.b.total');

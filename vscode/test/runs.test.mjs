@@ -1,4 +1,4 @@
-/** Launching, stepping and ending; requests that cannot be. */
+/** Launching, stepping and ending; impossible requests. */
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -18,7 +18,7 @@ test('a path format other than path is refused', async () => {
   );
 });
 
-test('a program with errors is not launched, and the message says where', async () => {
+test('a program with errors is not launched, and the message has the place', async () => {
   const broken = join(HERE, 'broken.st');
   const said = client.waitForEvent('output');
   await assert.rejects(client.launch({ program: broken }), /1 error, nothing was started: .*broken\.st:5:6/);
@@ -58,7 +58,7 @@ test('our own requests: force, single scan, run to a line', async () => {
   await haltAfter(() => client.customRequest('scanbench/singleScan', {}), 'step', FIRST);
   const place = { source: { path: PROGRAM }, line: 21 };
   await haltAfter(() => client.customRequest('scanbench/runTo', place), 'goto', LAST);
-  assert.equal(await value('Main.n'), '101'); // forced in front of the program, which counts on
+  assert.equal(await value('Main.n'), '101'); // forced before the program, which then counts from there
   await client.customRequest('scanbench/release', {});
 });
 

@@ -1,4 +1,4 @@
-/** The debug adapter on stdio, spoken to by the client with which VS Code's own adapters are tested: one for each test. */
+/** The debug adapter on stdio, with the client that VS Code's own adapters are tested with: one for each test. */
 import assert from 'node:assert/strict';
 import { dirname, join, resolve } from 'node:path';
 import { afterEach, beforeEach } from 'node:test';
@@ -13,7 +13,7 @@ export const FIRST = { path: PROGRAM, line: 18 };
 export const LAST = { path: PROGRAM, line: 21 };
 const PATIENCE_MS = 60_000;
 
-/** The client of the test that runs. */
+/** The client of the running test. */
 export let client;
 
 beforeEach(async () => {
@@ -34,7 +34,7 @@ export async function entered(args = {}) {
   ]);
 }
 
-/** Does something, and waits for the halt that comes of it. */
+/** Does something, and waits for the halt that it causes. */
 export async function haltAfter(request, reason, place) {
   const [stack] = await Promise.all([client.assertStoppedLocation(reason, place), request()]);
   return stack.body.stackFrames;
