@@ -53,7 +53,9 @@ function isBehind(info: VerificationInfo): boolean {
   const known = get().of.get(info.id);
   if (!known) return info.differing > 0;
   // The first differences are marked; later ones change nothing once there are enough.
-  return known.at !== versionOf(info) && !(known.marks.length >= MOST && known.at.split(" ")[0] === `${info.generation}`);
+  return (
+    known.at !== versionOf(info) && !(known.marks.length >= MOST && known.at.split(" ")[0] === `${info.generation}`)
+  );
 }
 
 async function load(info: VerificationInfo): Promise<void> {
