@@ -1,10 +1,8 @@
 """Opening, migrating, and many at once."""
 
 import multiprocessing
-import sqlite3
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -36,21 +34,6 @@ def test_a_second_opening_finds_everything(url: str) -> None:
     assert second.projects.all() == [project]
     assert second.files.sources(project.id) == {"main.st": "text"}
     second.close()
-
-
-def test_a_database_of_release_0_1_0_is_read(tmp_path: Path) -> None:
-    """The format is a promise: this file is never written again, and every later version opens what it holds."""
-    path = tmp_path / "scanbench.db"
-    with closing(sqlite3.connect(path)) as connection:
-        connection.executescript((Path(__file__).parent / "golden" / "0.1.0.sql").read_text("utf-8"))
-    store = Store(f"sqlite:///{path}")
-    (project,) = store.projects.all()
-    assert (project.name, project.model) == ("conveyor", "CJ1M-CPU63")
-    assert store.files.sources(project.id) == {"main.st": "PROGRAM Main END_PROGRAM"}
-    assert [(each.name, each.powered) for each in store.instances.all()] == [("line 1", True)]
-    (row,) = store.errors.history(1)
-    assert (row.error, row.program_version, row.count, row.reaction_state) == ("battery-error", 7, 3, None)
-    store.close()
 
 
 def _open_and_count(url: str) -> int:
