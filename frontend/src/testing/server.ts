@@ -1,0 +1,162 @@
+/**
+ * A server for one test: it speaks over the page's own WebSocket and `fetch`. The test says what the server tells, and sees what the page
+ * sent. What a test says nothing about is answered as by an idle PLC: commands are done, lists are empty.
+ */
+import type { ClientMessage, Instance, InstanceState, PlcSymbol, Refusal, ServerMessage } from "../wire/types";
+import { frameOf } from "./frames";
+import { type Question, type Route, Status, usualRoutes } from "./routes";
+import { someHello, someInstance, someProject } from "./samples";
+import type { FakeSocket } from "./socket";
+
+/** What a command is answered with: nothing is `done`, a text is why not. */
+type Verdict = string | Refusal | undefined;
+
+type Message<T extends ClientMessage["type"]> = Extract<ClientMessage, { type: T }>;
+
+export class FakeServer {
+  /** What the page sent over the socket, the newest last. */
+  readonly sent: ClientMessage[] = [];
+  /** What it asked over HTTP. */
+  readonly asked: Question[] = [];
+  /** Asked for, and nothing here knows it: a test that lets this happen fails. */
+  readonly unknown: string[] = [];
+  /** The variables and addresses that can be watched. */
+  readonly symbols = new Map<string, PlcSymbol>();
+  /** The names that come near to one that is not known. */
+  near: string[] = [];
+  instance: Instance;
+  private readonly routes: [string, RegExp, Route][] = [];
+  private readonly verdicts = new Map<string, (command: ClientMessage) => Verdict>();
+  private readonly values = new Map<string, bigint>();
+  private readonly ids = new Map<number, string>();
+  private nextId = 1;
+  private socket: FakeSocket | null = null;
+
+  /** Number of the project and of the PLC: another one for each test, so that the page forgets what was before. */
+  constructor(id: number) {
+    this.instance = someInstance(id, someProject(id));
+    usualRoutes(
+      (...route) => this.on(...route),
+      () => this.instance,
+    );
+  }
+
+  // ---- what a test says ---------------------------------------------------------------------------------------------
+
+  /** What a request is answered with; the last route that fits is taken. `path` is below `/api`, a `*` stands for a part of it. */
+  on(method: string, path: string, route: Route): void {
+    const pattern = path.replace(/[.+?^$()|[\]\\{}]/g, "\\$&").replaceAll("*", "([^/?&]+)");
+    this.routes.unshift([method, new RegExp(`^${pattern}(?:\\?.*)?$`), route]);
+  }
+
+  /** What commands of a type are answered with. */
+  command<T extends ClientMessage["type"]>(type: T, verdict: (command: Message<T>) => Verdict): void {
+    this.verdicts.set(type, (command) => verdict(command as Message<T>));
+  }
+
+  say(message: ServerMessage): void {
+    this.socket?.receive(JSON.stringify(message));
+  }
+
+  /** The PLC is in another state. */
+  becomes(change: Partial<InstanceState>): void {
+    this.instance = { ...this.instance, state: { ...this.instance.state, ...change } };
+    this.say({ type: "state", state: this.instance.state });
+  }
+
+  /** There is a variable or an address; `value` are its bytes as a whole number. */
+  has(symbol: PlcSymbol, value: number | bigint | boolean = 0): void {
+    this.symbols.set(symbol.path, symbol);
+    this.values.set(symbol.path, BigInt(value));
+  }
+
+  /** A variable has another value from the next scan on. */
+  set(path: string, value: number | bigint | boolean): void {
+    this.values.set(path, BigInt(value));
+    this.sendFrame([...this.ids].filter(([, watched]) => watched === path).map(([id]) => id));
+  }
+
+  /** The connection breaks, and the server stays away until a socket is opened again. */
+  hangUp(): void {
+    this.socket?.break();
+  }
+
+  // ---- what a test sees ---------------------------------------------------------------------------------------------
+
+  /** The messages of one type that the page sent. */
+  sentOf<T extends ClientMessage["type"]>(type: T): Message<T>[] {
+    return this.sent.filter((message): message is Message<T> => message.type === type);
+  }
+
+  /** The bodies of what was asked of a route. */
+  askedOf(method: string, path: string): unknown[] {
+    return this.asked.filter((one) => one.method === method && one.path === path).map(({ body }) => body);
+  }
+
+  // ---- the page's side ----------------------------------------------------------------------------------------------
+
+  opened(socket: FakeSocket): void {
+    this.socket = socket;
+    this.ids.clear();
+    this.say(someHello(this.instance));
+  }
+
+  heard(text: string, socket: FakeSocket): void {
+    if (socket !== this.socket) return;
+    const message = JSON.parse(text) as ClientMessage;
+    this.sent.push(message);
+    // As over a network: the answer is not there when the page has hardly said it.
+    queueMicrotask(() => this.answer(message));
+  }
+
+  readonly fetch = async (address: string, init: RequestInit = {}): Promise<Response> => {
+    const question = {
+      method: init.method ?? "GET",
+      path: address.replace(/^\/api/, ""),
+      body: typeof init.body === "string" ? JSON.parse(init.body) : init.body,
+    };
+    this.asked.push(question);
+    for (const [method, pattern, route] of this.routes) {
+      const match = method === question.method ? pattern.exec(question.path) : null;
+      if (match) return responseOf(route(question, match));
+    }
+    this.unknown.push(`${question.method} ${question.path}`);
+    return responseOf(new Status(404, { message: "the test has no such route", near: [] }));
+  };
+
+  private answer(message: ClientMessage): void {
+    if (message.type === "watch") this.watch(message);
+    else if (message.type === "unwatch") for (const id of message.ids) this.ids.delete(id);
+    else if (message.type === "dap") this.verdicts.get("dap")?.(message);
+    else {
+      const verdict = this.verdicts.get(message.type)?.(message);
+      const { message: why, near } = typeof verdict === "object" ? verdict : { message: verdict ?? "", near: [] };
+      this.say({ type: "done", ref: message.ref, ok: verdict === undefined, message: why, near, scan: null });
+    }
+  }
+
+  private watch({ ref, paths }: Message<"watch">): void {
+    const items = paths.map((path) => {
+      const symbol = this.symbols.get(path) ?? null;
+      if (!symbol) return { path, id: null, symbol, refusal: { message: `${path} is not known`, near: this.near } };
+      this.nextId += 1;
+      this.ids.set(this.nextId, path);
+      return { path, id: this.nextId, symbol, refusal: null };
+    });
+    this.say({ type: "watching", ref, items });
+    this.sendFrame(items.flatMap(({ id }) => id ?? []));
+  }
+
+  private sendFrame(ids: readonly number[]): void {
+    const values = new Map(ids.map((id) => [id, this.values.get(this.ids.get(id) ?? "") ?? 0n]));
+    const { scan, time_ns } = this.instance.state;
+    if (values.size > 0) this.socket?.receive(frameOf(values, scan, time_ns));
+  }
+}
+
+function responseOf(answer: unknown): Response {
+  if (answer instanceof Response) return answer;
+  if (answer === undefined) return new Response(null, { status: 204 });
+  if (answer instanceof Status) return new Response(JSON.stringify(answer.body), { status: answer.status });
+  return new Response(JSON.stringify(answer));
+}
