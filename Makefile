@@ -27,7 +27,7 @@ SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend
 NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json vscode/package-lock.json))
 
 .PHONY: help setup setup-test run test check coverage bench shots lock clean
-.PHONY: fuzz features e2e-all
+.PHONY: fuzz features nightly
 .PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
 .PHONY: tools-python tools-node system-chromium system-postgresql
 
@@ -35,7 +35,7 @@ help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
 	@echo "make test    lint, types, layers, unit and case tests, frontend, the main browser stories"
 	@echo "make check   lint, types and layers only"
-	@echo "make e2e-all   every browser story, the ones tagged @all, too; \`make test\` runs the others"
+	@echo "make nightly what \`make test\` leaves out to stay quick: the other browser stories, far more random programs"
 	@echo "make coverage  how much of the backend its tests run, and which files less than 80 %"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
@@ -123,9 +123,10 @@ frontend-build: frontend/dist/.stamp
 e2e: frontend/dist/.stamp
 	@cd e2e && $(NPM) run --silent test
 
-# Every story, also those that `make test` leaves to the component tests of the panels: before a release, and in CI.
-e2e-all: setup-test
-	@cd e2e && $(NPM) run --silent test:all -- $(ARGS)
+# What `make test` leaves out to stay quick: see backend/tests/amounts.py and e2e/README.md.
+nightly: setup-test
+	@cd backend && SCANBENCH_NIGHTLY=1 $(BIN)/python $(PYTEST) -m "nightly or hypothesis"
+	@cd e2e && $(NPM) run --silent nightly
 
 # ------------------------------------------------------------------------------------------------ Python
 tools-python:

@@ -8,11 +8,13 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from scanbench.host.zygote import zygote
+from tests.amounts import amount
 
 # The same examples on every run: a red test stays red until it is mended. SCANBENCH_EXPLORE=1 goes looking for new ones.
 settings.register_profile(
-    "steady", derandomize=True, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
-)
+    "steady", max_examples=amount(300, 40), derandomize=True, deadline=None, database=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)  # fmt: skip
 settings.register_profile("explore", deadline=None, max_examples=1000, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("explore" if os.environ.get("SCANBENCH_EXPLORE") else "steady")
 

@@ -1,20 +1,22 @@
-"""Three hundred random programs on both engines; the same ones on every run. `make fuzz N=100000` takes others, and more."""
+"""Random programs on both engines; the same ones on every run. `make fuzz N=100000` takes others, and more."""
 
 import pytest
 
 from scanbench.engines.native.compiler import Compiler
+from tests.amounts import amount, nightly
 from tests.programs import INGREDIENTS, conditions, generate
 from tests.programs.compare import checked, compare, difference, levels
 from tests.programs.reduce import reduced
 
-PROGRAMS = 300
-BY_VALUE = 100
+PROGRAMS = amount(1000, 150)
+BY_VALUE = amount(300, 50)
 """Programs whose blocks take their in-outs by value."""
 BATCH = 50
 MOST_REFUSED = BATCH // 5
 """Programs of a batch with a constant that the checker must refuse."""
 
 
+@nightly
 @pytest.mark.parametrize("first", range(0, PROGRAMS, BATCH))
 def test_engines_agree(first: int) -> None:
     """On the images after every scan, and on the scan in which a random condition holds. A program is compiled once a level."""
@@ -37,6 +39,7 @@ def test_engines_agree(first: int) -> None:
     assert conditioned >= BATCH // 2
 
 
+@nightly
 @pytest.mark.parametrize("first", range(PROGRAMS, PROGRAMS + BY_VALUE, BATCH))
 def test_engines_agree_on_in_outs_by_value(first: int) -> None:
     copied = 0

@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('a forbidden write is refused in its row, with the reason', { tag: '@all' }, async ({ openAs }) => {
+test('a forbidden write is refused in its row, with the reason', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
 

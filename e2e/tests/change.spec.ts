@@ -65,7 +65,7 @@ test('an online change lists the reinitialized variables, waits for confirmation
   });
 });
 
-test('with two PLCs the user chooses which to change, and sees which were changed', { tag: '@all' }, async ({
+test('with two PLCs the user chooses which to change, and sees which were changed', { tag: '@nightly' }, async ({
   openAs,
 }) => {
   const ann = await openAs('Ann');

@@ -127,7 +127,7 @@ test('a breakpoint in one of three instances: inspect, change, step, step back, 
   });
 });
 
-test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }, async ({ openAs }) => {
+test('logpoint, execution point, data breakpoint, and coverage', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Points');
   const { debug, top, page } = mika;
@@ -194,7 +194,7 @@ test('logpoint, execution point, data breakpoint, and coverage', { tag: '@all' }
   });
 });
 
-test('after a run-time error one can still step back', { tag: '@all' }, async ({ openAs }) => {
+test('after a run-time error one can still step back', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Broken', BROKEN);
   const { debug, top } = mika;
@@ -209,7 +209,7 @@ test('after a run-time error one can still step back', { tag: '@all' }, async ({
   await expect(debug.section('Breakpoints')).toBeVisible();
 });
 
-test('two people: both see the halt and who caused it', { tag: '@all' }, async ({ openAs }) => {
+test('two people: both see the halt and who caused it', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Shared');
   const jo = await openAs('Jo');

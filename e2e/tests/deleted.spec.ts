@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('a file that somebody deletes closes for the others, but their edited text stays', { tag: '@all' }, async ({
+test('a file that somebody deletes closes for the others, but their edited text stays', { tag: '@nightly' }, async ({
   openAs,
 }) => {
   const mika = await openAs('Mika');

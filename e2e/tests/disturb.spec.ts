@@ -2,7 +2,7 @@ import { expect, test } from '../fixtures/test';
 import { Disturb } from '../pages/disturb';
 
 test('inputs, memory and results are disturbed: everybody sees the disturbances, and can take them back', {
-  tag: '@all',
+  tag: '@nightly',
 }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');

@@ -2,7 +2,7 @@ import { expect, test } from '../fixtures/test';
 
 test(
   'a syntax error is shown during typing, prevents the build, and does not stop the PLC',
-  { tag: '@all' },
+  { tag: '@nightly' },
   async ({ openAs }, info) => {
     const mika = await openAs('Mika');
     await mika.runs();
@@ -114,10 +114,9 @@ test('the text is exactly what was typed, at any speed, also with Enter after a 
   }
 });
 
-test('a completion is inserted only when it is chosen: with an arrow and Enter, or with Tab', { tag: '@all' }, async ({
-  openAs,
-  server,
-}) => {
+test('a completion is inserted only when it is chosen: with an arrow and Enter, or with Tab', {
+  tag: '@nightly',
+}, async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const main = mika.editor('Main.st');

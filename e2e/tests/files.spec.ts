@@ -15,7 +15,7 @@ END_VAR]]></Declaration>
 /** As an old tool writes it: the umlaut is one byte. */
 const LATIN1 = Buffer.from("FUNCTION Name : STRING\nName := 'Tür';\nEND_FUNCTION\n", 'latin1');
 
-test('files of other tools are added and run; refused files have a reason', { tag: '@all' }, async ({ openAs }) => {
+test('files of other tools are added and run; refused files have a reason', { tag: '@nightly' }, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   await jo.top.newProject('Brought in');

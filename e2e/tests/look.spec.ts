@@ -4,7 +4,7 @@ import type { Ide } from '../pages/ide';
 
 const THEMES = ['dark', 'light', 'high contrast'];
 
-test('accessibility: no serious finding in any theme', { tag: '@all' }, async ({ openAs }) => {
+test('accessibility: no serious finding in any theme', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();

@@ -53,7 +53,7 @@ test('without a server the page says so, keeps the entries, and reconnects by it
   });
 });
 
-test('a frozen server is noticed, too, and the page continues when the server does', { tag: '@all' }, async ({
+test('a frozen server is noticed, too, and the page continues when the server does', { tag: '@nightly' }, async ({
   openAs,
   server,
 }) => {

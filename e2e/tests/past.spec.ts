@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('who last wrote a variable: a person, then a statement, and going to it', { tag: '@all' }, async ({ openAs }) => {
+test('who last wrote a variable: a person, then a statement, and going to it', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -40,7 +42,7 @@ test('who last wrote a variable: a person, then a statement, and going to it', {
   });
 });
 
-test('what changed in a range of scans that is selected by keyboard', { tag: '@all' }, async ({ openAs }) => {
+test('what changed in a range of scans that is selected by keyboard', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -116,7 +118,7 @@ test('go back, branch, raise an error there, and compare the runs', async ({ ope
   });
 });
 
-test('a replay of the run, with the error one scan later', { tag: '@all' }, async ({ openAs }) => {
+test('a replay of the run, with the error one scan later', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -147,7 +149,7 @@ test('a replay of the run, with the error one scan later', { tag: '@all' }, asyn
   });
 });
 
-test('a colleague opens the address of a scan', { tag: '@all' }, async ({ openAs }) => {
+test('a colleague opens the address of a scan', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');

@@ -2,7 +2,7 @@ import { expect, test } from '../fixtures/test';
 
 const INPUTS = 'time; CIO0\n0; 0\n200; 7\n';
 
-test('a plant is created in the browser, and drives the inputs', { tag: '@all' }, async ({ openAs }) => {
+test('a plant is created in the browser, and drives the inputs', { tag: '@nightly' }, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const main = jo.editor('Main.st');

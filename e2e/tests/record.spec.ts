@@ -72,7 +72,7 @@ test('the test record is filtered, printed, saved and imported again', async ({ 
   });
 });
 
-test('every version of the program has its own history', { tag: '@all' }, async ({ openAs }) => {
+test('every version of the program has its own history', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const history = new History(mika.page);
   await mika.runs();

@@ -30,7 +30,9 @@ test('a warm restart keeps the retained memory, a cold one clears it', async ({ 
   });
 });
 
-test('a new run begins at scan 0 with an empty timeline, after confirmation', { tag: '@all' }, async ({ openAs }) => {
+test('a new run begins at scan 0 with an empty timeline, after confirmation', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');
@@ -51,7 +53,7 @@ test('a new run begins at scan 0 with an empty timeline, after confirmation', { 
   await expect.poll(() => ann.top.scan()).toBeLessThan(300);
 });
 
-test('in RUN tools may only read, and the page says so', { tag: '@all' }, async ({ openAs }) => {
+test('in RUN tools may only read, and the page says so', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.top.chooseMode('RUN');

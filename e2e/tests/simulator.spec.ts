@@ -111,7 +111,7 @@ test('a group and two more errors are raised in one scan, with their details; th
   });
 });
 
-test('the tree, the details and the editor show the reaction', { tag: '@all' }, async ({ openAs }) => {
+test('the tree, the details and the editor show the reaction', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { simulator, page } = mika;
@@ -150,7 +150,7 @@ test('the tree, the details and the editor show the reaction', { tag: '@all' }, 
   });
 });
 
-test('shaped faults: for some scans, intermittent, when a condition holds', { tag: '@all' }, async ({ openAs }) => {
+test('shaped faults: for some scans, intermittent, when a condition holds', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { simulator } = mika;
@@ -218,7 +218,7 @@ test('shaped faults: for some scans, intermittent, when a condition holds', { ta
   });
 });
 
-test('an error is found, raised and recovered by keyboard alone', { tag: '@all' }, async ({ openAs }) => {
+test('an error is found, raised and recovered by keyboard alone', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { keyboard } = mika.page;

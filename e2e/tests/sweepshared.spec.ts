@@ -3,7 +3,7 @@ import { expect, test } from '../fixtures/test';
 test.use({ ownServer: true });
 
 test('everybody shares a sweep: a colleague sees it, one cancels it, the other resumes it; it survives a killed server', {
-  tag: '@all',
+  tag: '@nightly',
 }, async ({ openAs, server }) => {
   const ann = await openAs('Ann');
   const ben = await openAs('Ben');

@@ -53,7 +53,7 @@ test('everybody goes back in time, sees the old values, and returns to live', as
   });
 });
 
-test('close marks can be enlarged, and the run shows where it was stopped', { tag: '@all' }, async ({ openAs }) => {
+test('close marks can be enlarged, and the run shows where it was stopped', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   for (const mode of ['PROGRAM', 'MONITOR', 'RUN', 'MONITOR'] as const) await ann.top.chooseMode(mode);
@@ -85,7 +85,7 @@ test('close marks can be enlarged, and the run shows where it was stopped', { ta
   });
 });
 
-test('a branch begins with the state of a past scan, and runs on its own', { tag: '@all' }, async ({ openAs }) => {
+test('a branch begins with the state of a past scan, and runs on its own', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');

@@ -4,7 +4,7 @@ import { Ide } from '../pages/ide';
 test.use({ ownServer: true });
 
 test('a colleague who follows a link is asked for the token, and then reaches the target of the link', {
-  tag: '@all',
+  tag: '@nightly',
 }, async ({ browser, server, openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();

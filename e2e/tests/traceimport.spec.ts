@@ -11,7 +11,7 @@ function recorded({ head = 'scan,start,motor,partsTotal', wrong = true } = {}): 
   return `${head}\n${rows.join('\n')}\n`;
 }
 
-test('a controller log is mapped, verified and kept', { tag: '@all' }, async ({ openAs }) => {
+test('a controller log is mapped, verified and kept', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const trace = new TraceImport(mika.page);
   const verify = new Verify(mika.page);

@@ -82,9 +82,9 @@ test('a program with a run-time error stops with file and line, and no other PLC
   }
 });
 
-test('after its cause is corrected by hand, a stopped program continues with its variables', { tag: '@all' }, async ({
-  openAs,
-}) => {
+test('after its cause is corrected by hand, a stopped program continues with its variables', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.top.newProject('Going on');
   const main = mika.editor('Main.st');

@@ -85,7 +85,7 @@ test('no text is lost silently: closing asks, a failed build says why, Save and 
   });
 });
 
-test('a project needs its model; none of the page’s own requests is refused', { tag: '@all' }, async ({
+test('a project needs its model; none of the page’s own requests is refused', { tag: '@nightly' }, async ({
   openAs,
   server,
 }) => {

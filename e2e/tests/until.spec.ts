@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('a run continues until a condition holds, or for a number of scans', { tag: '@all' }, async ({ openAs }) => {
+test('a run continues until a condition holds, or for a number of scans', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
 

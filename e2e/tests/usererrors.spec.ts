@@ -6,7 +6,7 @@ import { UserErrors } from '../pages/usererrors';
 
 const BROKEN = resolve(import.meta.dirname, '../../backend/tests/plcmodel/broken_user_errors');
 
-test('user-defined errors: edited in the browser, built, raised, recorded', { tag: '@all' }, async ({ openAs }) => {
+test('user-defined errors: edited in the browser, built, raised, recorded', { tag: '@nightly' }, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const own = new UserErrors(jo.page);
@@ -90,7 +90,7 @@ test('user-defined errors: edited in the browser, built, raised, recorded', { ta
 });
 
 test('a file is imported as a whole or not at all; of two people who save, the second decides', {
-  tag: '@all',
+  tag: '@nightly',
 }, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();

@@ -132,7 +132,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
   });
 });
 
-test('set data shows whether the input or the logic caused a wrong result', { tag: '@all' }, async ({
+test('set data shows whether the input or the logic caused a wrong result', { tag: '@nightly' }, async ({
   openAs,
   server,
 }) => {

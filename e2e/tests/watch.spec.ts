@@ -55,7 +55,7 @@ test('a watch list is shared, and two people change it at once', async ({ openAs
   });
 });
 
-test('addresses, ranges, parts, formats and refusals', { tag: '@all' }, async ({ openAs }) => {
+test('addresses, ranges, parts, formats and refusals', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch } = mika;
@@ -107,7 +107,7 @@ test('addresses, ranges, parts, formats and refusals', { tag: '@all' }, async ({
   });
 });
 
-test('groups, order, filter, CSV and dragging', { tag: '@all' }, async ({ openAs }, info) => {
+test('groups, order, filter, CSV and dragging', { tag: '@nightly' }, async ({ openAs }, info) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch, page } = mika;
@@ -181,7 +181,7 @@ test('groups, order, filter, CSV and dragging', { tag: '@all' }, async ({ openAs
   });
 });
 
-test('the watch table by keyboard alone', { tag: '@all' }, async ({ openAs }) => {
+test('the watch table by keyboard alone', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch, page } = mika;

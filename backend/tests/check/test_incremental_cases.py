@@ -11,10 +11,11 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.native import parts
 from scanbench.engines.native.parts import Parts
 from scanbench.program.program import Program
+from tests.amounts import nightly, some
 from tests.caseformat import MODELS, Case, read_cases
 
 CASES = [
-    case for path in sorted((Path(__file__).parents[1] / "cases").glob("*.case")) for case in read_cases(path)[::3]
+    case for path in sorted((Path(__file__).parents[1] / "cases").glob("*.case")) for case in some(read_cases(path), 9)
 ]
 EDITS = 4
 INTERVAL_NS = 1_000_000
@@ -46,6 +47,7 @@ def modules(program: Program | None, memory: Parts) -> list[str]:
     return [] if program is None else [part.text for part in memory.of(program)]
 
 
+@nightly
 @pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
 def test_edits(case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(parts, "SMALL", 0)  # parts of small programs, too

@@ -15,6 +15,7 @@ from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount
 from tests.debug.walking import MakeDebug, Walker
 from tests.recording.recorded import of_file, of_file_native
 
@@ -58,7 +59,7 @@ def test_stepping_back_over_a_thousand_statements_shows_what_forward_showed(make
 
 
 @ENGINES
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=amount(50, 8), deadline=None)
 @given(MOVES)
 def test_wherever_one_goes_a_position_shows_the_same(make: MakeDebug, moves: list[tuple[str, int]]) -> None:
     with tempfile.TemporaryDirectory() as folder:

@@ -20,6 +20,7 @@ from scanbench.engines.native.emit_program import emit_program
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.symbols.symbols import resolve
+from tests.amounts import amount, nightly, some
 from tests.caseformat import MODELS, first_difference, read_cases, run_case
 from tests.engines.test_observe import check
 from tests.programs import generate
@@ -32,7 +33,7 @@ from tests.programs.lists import instruction_lists
 from tests.programs.objects import objects
 from tests.programs.references import open_arrays, references
 
-PROGRAMS = 80
+PROGRAMS = amount(240, 25)
 SCANS = 2
 CASES = Path(__file__).parent.parent / "cases"
 INGREDIENTS = (areas, calls, frames, library, instruction_lists, objects, references, open_arrays)
@@ -612,6 +613,7 @@ def assert_same(a: Sequence[object], b: Sequence[object]) -> None:
     assert len(a) == len(b), f"{[*a[len(b) :], *b[len(a) :]][:3]}"
 
 
+@nightly
 def test_engines_agree_on_random_programs() -> None:
     compared = statements = 0
     for seed in range(PROGRAMS):
@@ -629,7 +631,8 @@ def test_engines_agree_on_random_programs() -> None:
     assert statements > 20 * PROGRAMS
 
 
-@pytest.mark.parametrize("topic", sorted(path.stem for path in CASES.glob("*.case")))
+@nightly
+@pytest.mark.parametrize("topic", some(sorted(path.stem for path in CASES.glob("*.case")), 3, 0))
 def test_engines_agree_on_all_cases(topic: str) -> None:
     for case in read_cases(CASES / f"{topic}.case"):
         told: dict[str, Told] = {}

@@ -21,6 +21,7 @@ from scanbench.engines.observe import LIMIT, MakeObserved, Observed, ReadAt, See
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.symbols.symbols import resolve
+from tests.amounts import amount, nightly, some
 from tests.caseformat import MODELS, first_difference, read_cases, run_case
 from tests.programs import generate
 from tests.programs.areas import areas
@@ -32,7 +33,7 @@ from tests.programs.lists import instruction_lists
 from tests.programs.objects import objects
 from tests.programs.references import open_arrays, references
 
-PROGRAMS = 120
+PROGRAMS = amount(360, 30)
 SCANS = 3
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -608,6 +609,7 @@ def agree(program: Program, others: Sequence[MakeObserved]) -> int:
     return reads
 
 
+@nightly
 def test_engines_agree_on_random_programs() -> None:
     ingredients = (areas, calls, frames, library, instruction_lists, objects, references, open_arrays)
     compared = reads = 0
@@ -626,7 +628,8 @@ def test_engines_agree_on_random_programs() -> None:
     assert reads > 5 * PROGRAMS
 
 
-@pytest.mark.parametrize("topic", sorted(path.stem for path in CASES.glob("*.case")))
+@nightly
+@pytest.mark.parametrize("topic", some(sorted(path.stem for path in CASES.glob("*.case")), 3, 1))
 def test_engines_agree_on_all_cases(topic: str) -> None:
     for case in read_cases(CASES / f"{topic}.case"):
         seen: dict[str, list[Seen]] = {}

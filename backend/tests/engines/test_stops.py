@@ -16,6 +16,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.pair import Differs, PairEngine
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from tests.amounts import amount
 from tests.engines.native.plc import check
 
 COUNT = "PROGRAM Main VAR n : DINT; a : INT; END_VAR n := n + 1; a := DINT_TO_INT(n * 7 MOD 11); END_PROGRAM"
@@ -144,7 +145,7 @@ def test_both_engines_must_agree_on_the_condition() -> None:
 PROGRAM = check(COUNT)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=amount(60, 10), deadline=None)
 @given(
     st.sampled_from(["=", "<>", "<", ">="]),
     st.integers(-3, 12),

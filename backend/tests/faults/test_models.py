@@ -16,6 +16,7 @@ from scanbench.runtime.header import Mode
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
+from tests.amounts import amount
 from tests.runtime.bench import model, plc
 
 MODELS = [each.name for each in load_all(model_directory())[0]]
@@ -96,7 +97,7 @@ _STEPS = st.sampled_from(["generate", "generate", "again", "recover", "clear", *
 
 
 @pytest.mark.parametrize("name", MODELS)
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=amount(60, 10), deadline=None)
 @given(data=st.data())
 def test_whatever_happened_nothing_is_left(name: str, data: st.DataObject) -> None:
     ids = [error.id for error in model(name).errors()]

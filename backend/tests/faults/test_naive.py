@@ -11,6 +11,7 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorAddress, ErrorEntry, Location
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.resource import Resource
+from tests.amounts import amount
 from tests.faults.test_models import MODELS, SOURCE, every_choice, log_spans
 from tests.runtime.bench import model, plc
 
@@ -103,7 +104,7 @@ def _not_zero(memory: bytearray, start: int, size: int) -> list[int]:
 
 
 @pytest.mark.parametrize("name", MODELS)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=amount(50, 8), deadline=None)
 @given(data=st.data())
 def test_any_order_any_company(name: str, data: st.DataObject) -> None:
     errors = list(model(name).errors())

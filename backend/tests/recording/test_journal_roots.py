@@ -21,6 +21,7 @@ from scanbench.runtime.programs import Programs
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount, nightly
 from tests.recording.recorded import SourcePrograms, advance, of_file, tidy
 from tests.runtime.bench import ENGINES
 from tests.runtime.random_runs import live, random_steps, shelf
@@ -78,7 +79,8 @@ def test_what_holds_stays(commands: list[Command | Effect], expected: list[int])
     _comes_to_the_same(entries)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@nightly
+@pytest.mark.parametrize("seed", range(amount(40, 10)))
 def test_folds_come_to_the_same_wherever_a_run_is_cut(seed: int) -> None:
     _, entries = live(shelf(ENGINES[0]), random_steps(seed, 150))
     for count in range(0, len(entries) + 1, 3):

@@ -25,6 +25,7 @@ from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount
 from tests.recording.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, tidy, to_program
 from tests.runtime.bench import value
 
@@ -95,7 +96,7 @@ def _recovered(tmp_path: Path, data: bytes, damaged_at: int) -> None:
     again.close()
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=amount(120, 20), deadline=None)
 @given(part=st.floats(0, 1))
 def test_a_file_that_was_cut_short_is_recovered_up_to_there(
     tmp_path_factory: pytest.TempPathFactory, part: float
@@ -105,7 +106,7 @@ def test_a_file_that_was_cut_short_is_recovered_up_to_there(
     _recovered(tmp_path_factory.mktemp("cut"), data[:at], at)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=amount(160, 26), deadline=None)
 @given(part=st.floats(0, 1, exclude_max=True), flip=st.integers(1, 255))
 def test_a_flipped_byte_costs_what_follows_it(tmp_path_factory: pytest.TempPathFactory, part: float, flip: int) -> None:
     data = whole_run()[0]

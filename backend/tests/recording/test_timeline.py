@@ -28,6 +28,7 @@ from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount
 from tests.recording.recorded import (
     COUNTER,
     SECOND,
@@ -91,7 +92,7 @@ def _live(timeline: Timeline, steps: list[tuple[int, Command | Change]]) -> dict
 
 
 @pytest.mark.parametrize("engine", [ReferenceEngine, NativeEngine])
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=amount(50, 8), deadline=None)
 @given(steps=STEPS, every=st.sampled_from([0, 100_000, 10**12]), data=st.data())
 def test_goto_any_scan_equals_what_was_recorded_live(
     engine: type[ReferenceEngine] | type[NativeEngine], steps: list[tuple[int, Command | Change]], every: int,

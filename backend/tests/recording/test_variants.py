@@ -1,5 +1,6 @@
 """Run files with one changed number: opened or refused, with an amount of work that has nothing to do with the number."""
 
+from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from scanbench.recording.replay_file import replay_file
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.resource import Resource
 from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount, nightly
 from tests.recording.recorded import spare
 from tests.recording.variants import agenda, records, variants, write
 
@@ -24,6 +26,7 @@ class TooMuch(BaseException):
     """Nobody catches it on the way."""
 
 
+@nightly
 def test_no_number_in_a_run_file_is_believed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every variant is opened as a PLC does it, and run on for some scans; every tenth one is replayed too."""
     whole = records(tmp_path)
@@ -49,7 +52,7 @@ def test_no_number_in_a_run_file_is_believed(tmp_path: Path, monkeypatch: pytest
     monkeypatch.setattr(Resource, "reenter", counted_reenter)
     programs = spare(ReferenceEngine)
     outcomes = {"opened": 0, "refused": 0}
-    for number, (name, changed) in enumerate(variants(whole)):
+    for number, (name, changed) in enumerate(islice(variants(whole), 0, None, amount(1, 3))):
         path = write(tmp_path / "variant", changed)
         left = MOST
         try:
@@ -65,4 +68,4 @@ def test_no_number_in_a_run_file_is_believed(tmp_path: Path, monkeypatch: pytest
             outcomes["refused"] += 1
         except TooMuch:
             pytest.fail(f"{name}: more than {MOST} scans and entries")
-    assert min(outcomes.values()) > 100, outcomes
+    assert min(outcomes.values()) > amount(100, 30), outcomes

@@ -20,6 +20,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded
 from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount
 from tests.runtime.bench import program
 from tests.runtime.random_runs import ARMS, COMMANDS, SOURCE, Step
 
@@ -65,7 +66,9 @@ def lived(timeline: Timeline, steps: list[Step], states: dict[int, bytes]) -> No
 
 
 @settings(
-    max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
+    max_examples=amount(60, 10),
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 @given(steps=STEPS, data=st.data())
 def test_whatever_is_armed_every_scan_is_found_again(

@@ -19,6 +19,7 @@ from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
 from scanbench.runtime.write import Write
+from tests.amounts import amount
 from tests.runtime.bench import ENGINES, program, value
 from tests.runtime.random_runs import COMMANDS, SOURCE, Step, again, live, random_steps, shelf
 
@@ -31,7 +32,7 @@ def programs(engine: EngineFactory, use: str) -> Shelf:
     return shelf(engine)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=amount(120, 20), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(steps=STEPS, data=st.data())
 def test_any_state_leads_to_every_later_one(steps: list[Step], data: st.DataObject) -> None:
     points, entries = live(programs(NativeEngine, "live"), steps)
@@ -40,7 +41,7 @@ def test_any_state_leads_to_every_later_one(steps: list[Step], data: st.DataObje
     assert again(programs(engine, "replay"), points, entries, start) == [point.state for point in points[start:]]
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=amount(50, 8), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(steps=STEPS)
 def test_both_engines_live_through_the_same(steps: list[Step]) -> None:
     native, reference = (live(programs(engine, "live"), steps) for engine in (NativeEngine, ReferenceEngine))

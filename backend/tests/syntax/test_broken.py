@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from scanbench.syntax.cursor import MAX_DEPTH, MAX_PROBLEMS
 from scanbench.syntax.lexer import KEYWORDS, MAX_UNREADABLE
 from scanbench.syntax.tree import File
+from tests.amounts import amount
 from tests.syntax.shown import complaints, read, show
 
 WORDS = [
@@ -18,7 +19,7 @@ WORDS = [
     "\n",
     "\n",
 ]
-SETTINGS = settings(max_examples=400, deadline=None)
+SETTINGS = settings(max_examples=amount(800, 133), deadline=None)
 PROGRAM = """NAMESPACE N
 TYPE C : (A, B := 2) INT; S : STRUCT a : INT (0..5); b AT %B2 : BOOL; END_STRUCT; END_TYPE
 FUNCTION_BLOCK ABSTRACT F EXTENDS G IMPLEMENTS I VAR_INPUT c : BOOL R_EDGE; i : H(a := 1); END_VAR

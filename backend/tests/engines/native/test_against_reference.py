@@ -9,6 +9,7 @@ from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.layout import Layout
+from tests.amounts import amount
 from tests.caseformat import first_difference
 from tests.engines.native.plc import MODEL
 from tests.engines.native.program_text import program_text
@@ -17,7 +18,7 @@ SCANS = 4
 BUDGET = 300
 
 
-@settings(max_examples=80)
+@settings(max_examples=amount(160, 26))
 @given(st.integers(0, (1 << 32) - 1), st.sampled_from([0, 2, 2, 2]))
 def test_the_engines_agree(seed: int, opt_level: int) -> None:
     """A seed, as programs made of hypothesis' own choices come out too plain to go wrong."""

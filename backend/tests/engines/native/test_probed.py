@@ -25,6 +25,7 @@ from scanbench.program.layout import Layout
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import Elementary, Kind
 from scanbench.symbols.sites import Sites, sites_of
+from tests.amounts import amount, nightly
 from tests.caseformat import MODELS, first_difference
 from tests.engines.test_observe import check
 from tests.programs import generate
@@ -37,7 +38,7 @@ from tests.programs.lists import instruction_lists
 from tests.programs.objects import objects
 from tests.programs.references import open_arrays, references
 
-PROGRAMS = 40
+PROGRAMS = amount(120, 12)
 SCANS = 3
 PROBES = 6
 
@@ -325,6 +326,7 @@ def condition_of(locals_: Locals, pou: Pou | None, source: random.Random) -> Loc
     return found if isinstance(found, Local) and not found.calls else None
 
 
+@nightly
 @pytest.mark.parametrize("halting", [False, True], ids=["noting", "halting"])
 def test_engines_agree_on_random_programs(halting: bool) -> None:
     reached = conditions = 0

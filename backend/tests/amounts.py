@@ -1,0 +1,24 @@
+"""How much of what is made up is compared: in `make test` so much that it stays quick, in `make nightly` and CI far more.
+
+Whoever uses this marks the test with `nightly`, which is what `make nightly` runs.
+"""
+
+import os
+from collections.abc import Sequence
+from typing import TypeVar
+
+import pytest
+
+NIGHTLY = bool(os.environ.get("SCANBENCH_NIGHTLY"))
+nightly = pytest.mark.nightly
+_T = TypeVar("_T")
+
+
+def amount(all: int, quick: int) -> int:
+    """So many programs, runs, or examples of hypothesis."""
+    return all if NIGHTLY else quick
+
+
+def some(everything: Sequence[_T], each: int, first: int = 0) -> Sequence[_T]:
+    """All of it, or each third one, say; `first` so that two tests of the same things take different ones."""
+    return everything if NIGHTLY else everything[first::each]
