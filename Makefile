@@ -54,10 +54,10 @@ run: setup
 	@exec $(BIN)/scanbench serve $(ARGS)
 
 test: setup-test
-	@.ci/steps lint types layers unit adapter wire-check frontend-check frontend-unit frontend-build e2e
+	@.ci/steps lint layers types+adapter wire-check+frontend-check+frontend-unit unit frontend-build e2e
 
 check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp)
-	@.ci/steps lint types layers wire-check frontend-check
+	@.ci/steps lint layers types+wire-check+frontend-check
 
 # Tracing lines makes the tests take two fifths longer, so this is no step of `make test`.
 coverage: $(VENV)/.stamp-dev system-postgresql
