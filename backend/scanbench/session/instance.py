@@ -342,10 +342,10 @@ class Instance:
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:
         """Swaps the program; a PLC that failed begins a new run with it."""
         if self.state.state == "failed":
-            return await self.begin_anew(sources)
+            return await self.new_run(sources)
         return await self.ask(lambda ref: protocol.Build(ref, sources, author), protocol.Ack, takes_long=True)
 
-    async def begin_anew(self, sources: protocol.Sources | None = None) -> protocol.Ack:
+    async def new_run(self, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run, at scan 0; the old run file is kept aside."""
         async with self._turning:
             if self.why_not:  # its run must not be put aside for one that cannot begin

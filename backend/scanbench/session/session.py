@@ -148,9 +148,9 @@ class Session:
             self.instance.ask(lambda ref: protocol.Travel(ref, scan, author, count), protocol.Ack, takes_long=True)
         )
 
-    async def begin_anew(self, author: str, sources: protocol.Sources | None = None) -> protocol.Ack:
+    async def new_run(self, author: str, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run from scan 0, of other sources if there are any; the old run file is kept aside."""
-        return await self._refusing(self.instance.begin_anew(sources), author)
+        return await self._refusing(self.instance.new_run(sources), author)
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:
         """A new program for the PLC; the old one goes on until the new one is ready."""

@@ -39,7 +39,7 @@ class ChangeMode(Wire):
     mode: Mode
 
 
-class BeginAnew(Wire):
+class RestartRequest(Wire):
     """As `Restart` on the socket."""
 
     kind: RestartKind

@@ -61,7 +61,7 @@ def test_it_stays_with_the_reason_and_nothing_of_it_is_lost(store: Store, direct
             reason = session.state.message
             assert reason.startswith(f"the model CJ1M-CPU63 is missing: no file in {directory} describes it. Put the")
             for refused in (
-                await session.begin_anew("Ada"),
+                await session.new_run("Ada"),
                 await session.submit(Restart("Ada", "cold")),
             ):
                 assert (refused.ok, refused.message) == (False, reason)

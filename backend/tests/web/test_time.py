@@ -300,7 +300,7 @@ def test_a_million_scans_come_out_the_same_though_it_was_killed(server: Server, 
     assert found[0]["checkpoints"] > 1
 
 
-def test_two_people_begin_anew_and_one_switches_off(server: Server) -> None:
+def test_two_people_begin_a_new_run_and_one_switches_off(server: Server) -> None:
     """Whatever order they come in, there is one process or none, as the last one wanted."""
     instance = server.instance("contested", MODEL, main=COUNT)
     with server.browser(instance) as ada, server.browser(instance, "Grace Hopper") as grace:

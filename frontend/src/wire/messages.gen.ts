@@ -2348,17 +2348,6 @@ export interface components {
             start: components["schemas"]["FaultStart"];
         };
         /**
-         * BeginAnew
-         * @description As `Restart` on the socket.
-         */
-        BeginAnew: {
-            /**
-             * Kind
-             * @enum {string}
-             */
-            kind: "cold" | "warm" | "power";
-        };
-        /**
          * BetweenEntry
          * @description A command that was entered.
          */
@@ -4998,6 +4987,17 @@ export interface components {
              * @enum {string}
              */
             type: "restart";
+        };
+        /**
+         * RestartRequest
+         * @description As `Restart` on the socket.
+         */
+        RestartRequest: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "cold" | "warm" | "power";
         };
         /**
          * RollBack
@@ -8478,7 +8478,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["BeginAnew"];
+                "application/json": components["schemas"]["RestartRequest"];
             };
         };
         responses: {

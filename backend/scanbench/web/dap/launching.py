@@ -81,7 +81,7 @@ class Launcher:
         await _check(found, say)
         plc.done(await plc.session.drive("pause", None, plc.author))
         sources = replace(found.sources, version=plc.session.instance.sources.version + 1)
-        plc.done(await plc.session.begin_anew(plc.author, sources))
+        plc.done(await plc.session.new_run(plc.author, sources))
         await self._solo.standing()
         await self.begin(plc)
 

@@ -82,6 +82,8 @@ async def on_mode(bench: Bench, request: Request, instance: Id, wanted: messages
 
 
 @router.post("/restart")
-async def on_restart(bench: Bench, request: Request, instance: Id, wanted: messages_values.BeginAnew) -> CommandResult:
+async def on_restart(
+    bench: Bench, request: Request, instance: Id, wanted: messages_values.RestartRequest
+) -> CommandResult:
     """Restarts the program, in every mode; afterwards it runs."""
     return await entered(bench, request, instance, "restart", wanted)

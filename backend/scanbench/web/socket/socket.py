@@ -220,7 +220,7 @@ class Client:
             case client.Travel():
                 return await session.travel(message.scan, author, message.count)
             case client.NewRun():
-                return await session.begin_anew(author)
+                return await session.new_run(author)
             case client.RollBack():
                 return await session.roll_back(author)
             case debugger.SetCoverage():
