@@ -171,7 +171,7 @@ def test_a_signal_of_a_different_type_begins_again_and_says_so() -> None:
     bench.plc.waiting.samplings = bench.trace.samplings
     bench.run(10)
     assert bench.trace.generation == before + 1
-    assert "Main.r has another type" in bench.trace.note
+    assert "Main.r has a different type" in bench.trace.note
     assert bench.scans() == list(range(30, 40))
 
 
