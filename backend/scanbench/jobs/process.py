@@ -23,7 +23,7 @@ from scanbench.host.program_cache import keep, key_of, recall
 from scanbench.host.run_files import programs_by
 from scanbench.jobs import history as history_job
 from scanbench.jobs import verification as verify_job
-from scanbench.jobs.flight import fly
+from scanbench.jobs.retrospective import record
 from scanbench.jobs.starting import checked_program, model_of, point_in, reaction_in
 from scanbench.program.program import Program
 from scanbench.recording.format import RunFileError
@@ -48,7 +48,7 @@ from scanbench.wire.jobs import (
     Trying,
 )
 from scanbench.wire.refused import Refused
-from scanbench.wire.traces import FlightAt, RecordFlight
+from scanbench.wire.traces import RecordRetrospective, RetrospectiveAt
 from scanbench.wire.verification import CompareRuns, FindChanges, FindWriter, PastAt, RerunRun
 
 log = logging.getLogger("scanbench")
@@ -58,7 +58,7 @@ _NICENESS = 10
 _TELL_EVERY_NS = 250_000_000
 _PROGRAMS = 4
 """Checked programs that stay in memory."""
-Request = FindReaction | RunSweep | RecordFlight | Check | verify_job.Request | history_job.Request
+Request = FindReaction | RunSweep | RecordRetrospective | Check | verify_job.Request | history_job.Request
 _REFUSALS = (Unreadable, NoProgram, RunFileError, OSError)
 
 
@@ -105,9 +105,9 @@ class Job:
                 return self._swept(request)
             case Check():
                 return self._checked(request)
-            case RecordFlight():
-                return fly(
-                    request, programs_by(self._program, on(self._flavours)), self._telling(FlightAt, request.ref)
+            case RecordRetrospective():
+                return record(
+                    request, programs_by(self._program, on(self._flavours)), self._telling(RetrospectiveAt, request.ref)
                 )
             case FindWriter() | FindChanges() | CompareRuns() | RerunRun():
                 if self._past is None:

@@ -1,4 +1,4 @@
-"""Records of traces that were kept, and the flight recorder that makes them of scans that are over."""
+"""Records of traces that were kept, and retrospective traces, which make them of scans that are over."""
 
 import asyncio
 import logging
@@ -19,16 +19,16 @@ from scanbench.taps.spool import Spool, read_pages
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, TooMany, TraceBuffer, buffer_of
 from scanbench.typed import make
-from scanbench.wire.events import FlightChanged
+from scanbench.wire.events import RetrospectiveChanged
 from scanbench.wire.refused import Refused
-from scanbench.wire.traces import FlightAt, FlightDone, RecordFlight, TraceStatus
+from scanbench.wire.traces import RecordRetrospective, RetrospectiveAt, RetrospectiveDone, TraceStatus
 
 log = logging.getLogger("scanbench")
 
 SUFFIX = ".trace"
-MAX_FLIGHT = 10_000_000
-"""Scans of one flight."""
-MAX_FLIGHTS = 2
+MAX_SCANS = 10_000_000
+"""Scans of one retrospective trace."""
+MAX_AT_ONCE = 2
 """At a time: each is a process that takes a core and some hundred MB."""
 _OPEN_BYTES = 512 << 20
 """Of records that stay in memory."""
@@ -40,7 +40,7 @@ class TraceRecord:
 
     row: KeptRow
     origin: str
-    """`trace` or `flight`."""
+    """`trace` or `retrospective`."""
     signals: tuple[TraceSignal, ...]
     every: int
     triggered: int | None
@@ -52,16 +52,16 @@ class TraceRecord:
 
 
 @dataclass
-class _Flight:
-    """A flight under way."""
+class _Retrospective:
+    """A retrospective trace under way."""
 
     session: Session
-    changed: FlightChanged
+    changed: RetrospectiveChanged
     file: Path
     every: int
     task: "asyncio.Task[None] | None" = None
 
-    def tell(self, changed: FlightChanged) -> None:
+    def tell(self, changed: RetrospectiveChanged) -> None:
         """Reports its present state."""
         self.changed = changed
         self.session.tell(changed)
@@ -74,7 +74,7 @@ class TraceRecords:
         self._store, self._directory, self._cache = store, directory, cache
         self._open: OrderedDict[int, TraceBuffer] = OrderedDict()
         self._opening = asyncio.Lock()
-        self._flights: dict[int, _Flight] = {}
+        self._retrospectives: dict[int, _Retrospective] = {}
         self._next = 1
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -88,10 +88,10 @@ class TraceRecords:
                 path.unlink(missing_ok=True)
 
     async def close(self) -> None:
-        """Ends every flight."""
-        for flight in self._flights.values():
-            if flight.task is not None:
-                flight.task.cancel()
+        """Ends every retrospective trace."""
+        for retrospective in self._retrospectives.values():
+            if retrospective.task is not None:
+                retrospective.task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
     # ---- kept records ---------------------------------------------------------------------------------------------
@@ -189,75 +189,83 @@ class TraceRecords:
                 self._open.popitem(last=False)
             return self._open[id]
 
-    # ---- the flight recorder --------------------------------------------------------------------------------------
+    # ---- retrospective traces --------------------------------------------------------------------------------------
 
-    def fly(
+    def make_retrospective(
         self, session: Session, signals: tuple[str, ...], scans: int, last: int | None, every: int, author: str
-    ) -> FlightChanged:  # fmt: skip
+    ) -> RetrospectiveChanged:  # fmt: skip
         """Begins to record so many scans that are over, up to `last` (None: the newest); how far it is comes as
-        `FlightChanged` events."""
+        `RetrospectiveChanged` events."""
         live = max(session.state.scan, session.state.live_scan)
         if not 0 < len(signals) <= MAX_SIGNALS or len(set(signals)) < len(signals):
             raise Refused(f"{len(set(signals))} different signals: a record has 1 to {MAX_SIGNALS}")
-        if not 0 < scans <= MAX_FLIGHT:
-            raise Refused(f"{scans:,} scans cannot be recorded: from 1 to {MAX_FLIGHT:,}")
+        if not 0 < scans <= MAX_SCANS:
+            raise Refused(f"{scans:,} scans cannot be recorded: from 1 to {MAX_SCANS:,}")
         last = live - 1 if last is None else last
         first = max(0, last - scans + 1)
         if not 0 <= last < live:
             raise Refused(f"scan {last:,} is not over yet: the PLC is at scan {live:,}")
-        if len(self._flights) >= MAX_FLIGHTS:
-            raise Refused(f"{len(self._flights)} records of earlier scans are being made: wait for one, or cancel it")
+        if len(self._retrospectives) >= MAX_AT_ONCE:
+            raise Refused(
+                f"{len(self._retrospectives)} records of earlier scans are being made: wait for one, or cancel it"
+            )
         id, self._next = self._next, self._next + 1
-        file = self._directory / f"flight-{fresh_token()}"
-        flight = self._flights[id] = _Flight(session, FlightChanged(id, author, 0, last - first + 1), file, every)
-        run, to = str(session.instance.run_file), str(file)
-        flight.task = asyncio.get_running_loop().create_task(
-            self._fly(id, flight, lambda ref: RecordFlight(ref, run, signals, every, first, last, to))
+        file = self._directory / f"retrospective-{fresh_token()}"
+        retrospective = self._retrospectives[id] = _Retrospective(
+            session, RetrospectiveChanged(id, author, 0, last - first + 1), file, every
         )
-        self._tasks.add(flight.task)
-        flight.task.add_done_callback(self._tasks.discard)
-        session.tell(flight.changed)
-        return flight.changed
+        run, to = str(session.instance.run_file), str(file)
+        retrospective.task = asyncio.get_running_loop().create_task(
+            self._make_record(
+                id, retrospective, lambda ref: RecordRetrospective(ref, run, signals, every, first, last, to)
+            )
+        )
+        self._tasks.add(retrospective.task)
+        retrospective.task.add_done_callback(self._tasks.discard)
+        session.tell(retrospective.changed)
+        return retrospective.changed
 
     async def cancel(self, id: int) -> None:
-        """Gives a flight up."""
-        flight = self._flights.pop(id, None)
-        if flight is None or flight.task is None:
+        """Gives a retrospective trace up."""
+        retrospective = self._retrospectives.pop(id, None)
+        if retrospective is None or retrospective.task is None:
             raise Refused("this record is over already")
-        flight.tell(replace(flight.changed, message="cancelled"))
-        flight.task.cancel()
-        await asyncio.wait((flight.task,))
+        retrospective.tell(replace(retrospective.changed, message="cancelled"))
+        retrospective.task.cancel()
+        await asyncio.wait((retrospective.task,))
 
-    async def _fly(self, id: int, flight: _Flight, make: Make) -> None:
+    async def _make_record(self, id: int, retrospective: _Retrospective, make: Make) -> None:
         async def on_part(part: object) -> None:
-            if isinstance(part, FlightAt):
-                flight.tell(replace(flight.changed, done=part.done))
+            if isinstance(part, RetrospectiveAt):
+                retrospective.tell(replace(retrospective.changed, done=part.done))
 
         try:
             try:
-                done = await alone(self._cache, make, FlightDone, on_part)
+                done = await alone(self._cache, make, RetrospectiveDone, on_part)
             finally:
-                self._flights.pop(id, None)  # from now on it cannot be cancelled
-            kept = await self._landed(flight, done)
-            flight.tell(replace(flight.changed, done=flight.changed.of, record=kept.row.id))
+                self._retrospectives.pop(id, None)  # from now on it cannot be cancelled
+            kept = await self._finished(retrospective, done)
+            retrospective.tell(replace(retrospective.changed, done=retrospective.changed.of, record=kept.row.id))
         except Refused as why:
-            flight.tell(replace(flight.changed, message=why.message))
+            retrospective.tell(replace(retrospective.changed, message=why.message))
         except Exception:
             log.exception("earlier scans could not be recorded")
-            flight.tell(replace(flight.changed, message=FAULT))
+            retrospective.tell(replace(retrospective.changed, message=FAULT))
         finally:
             with suppress(OSError):
-                await asyncio.to_thread(flight.file.unlink, True)
+                await asyncio.to_thread(retrospective.file.unlink, True)
 
-    async def _landed(self, flight: _Flight, done: FlightDone) -> TraceRecord:
+    async def _finished(self, retrospective: _Retrospective, done: RetrospectiveDone) -> TraceRecord:
         content: Json = {
-            "origin": "flight", "signals": [asdict(each) for each in done.signals], "every": flight.every,
+            "origin": "retrospective", "signals": [asdict(each) for each in done.signals], "every": retrospective.every,
             "triggered": None, "first": done.first, "end": done.end, "rows": done.rows,
             "interval_ns": done.interval_ns, "version": done.version,
         }  # fmt: skip
         name = f"Scans {done.first:,} to {max(done.first, done.end - 1):,}"
         try:
-            return await self._keep(flight.session, name, content, flight.file.replace, flight.changed.by)
+            return await self._keep(
+                retrospective.session, name, content, retrospective.file.replace, retrospective.changed.by
+            )
         except Exception as error:  # whatever it is, somebody waits for it
             raise Refused(f"the record cannot be kept: {error}") from error
 
@@ -275,6 +283,6 @@ def _record(row: KeptRow) -> TraceRecord:
     signals = tuple(make(TraceSignal, each) for each in cast("list[dict[str, object]]", content["signals"]))
     number: Callable[[str], int] = lambda name: cast(int, content[name])  # noqa: E731
     return TraceRecord(
-        row, str(content["origin"]), signals, number("every"), cast("int | None", content["triggered"]), number("first"),
+        row, "trace" if content["origin"] == "trace" else "retrospective", signals, number("every"), cast("int | None", content["triggered"]), number("first"),
         number("end"), number("rows"), number("interval_ns"), number("version"),
     )  # fmt: skip

@@ -410,7 +410,7 @@ ServerMessage = Annotated[
     | Dap
     | Breakpoints
     | events.TracesChanged
-    | events.FlightChanged
+    | events.RetrospectiveChanged
     | Coverage
     | Verifications
     | Disturbances

@@ -1,4 +1,4 @@
-"""Wire shapes of traces and of the flight recorder. Samples are bytes: see `taps/trace_buffer.py`, `Samples.pack`."""
+"""Wire shapes of traces and of retrospective traces. Samples are bytes: see `taps/trace_buffer.py`, `Samples.pack`."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -22,13 +22,13 @@ class KeepTrace(Wire):
 
 
 class TraceRecordInfo(Wire):
-    """A record that was kept in the project: of a trace, or by the flight recorder."""
+    """A record that was kept in the project: of a trace, or a retrospective one."""
 
     id: int
     project: int
     name: str
     instance: str
-    origin: Literal["trace", "flight"]
+    origin: Literal["trace", "retrospective"]
     by: str
     at: str
     signals: tuple[TraceSignal, ...]
@@ -41,7 +41,7 @@ class TraceRecordInfo(Wire):
     program_version: int
 
 
-class NewFlight(Wire):
+class NewRetrospective(Wire):
     """Scans that are over, to be recorded afterwards."""
 
     signals: list[SignalText] = Field(min_length=1, max_length=64)

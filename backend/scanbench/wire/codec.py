@@ -88,7 +88,7 @@ _CLASSES: dict[str, type] = {
         debug_protocol.Coverage, debug_protocol.CoverageIs,
         TraceDefinition, TraceSignal, TraceTrigger, trace_protocol.DefineTrace, trace_protocol.DriveTrace,
         trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
-        trace_protocol.RecordFlight, trace_protocol.FlightAt, trace_protocol.FlightDone,
+        trace_protocol.RecordRetrospective, trace_protocol.RetrospectiveAt, trace_protocol.RetrospectiveDone,
         Calm, Corrupt, Disturb, Disturbance, DisturbanceInfo, Flip, Freed, Held, Hold, Unfired, Unhold,
         Column, Input, Mismatch, Output, Place, Range, Row, BetweenEntry, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,

@@ -249,10 +249,10 @@ class TracesChanged(Public):
 
 
 @dataclass(frozen=True, slots=True)
-class FlightChanged(Public):
+class RetrospectiveChanged(Public):
     """How far the record of earlier scans is that somebody asked for."""
 
-    PUBLIC: ClassVar = "Flight"
+    PUBLIC: ClassVar = "Retrospective"
 
     id: int
     by: str
@@ -263,7 +263,7 @@ class FlightChanged(Public):
     """The trace record that came of it."""
     message: str = ""
     """Why none came of it."""
-    type: Literal["flight"] = "flight"
+    type: Literal["retrospective"] = "retrospective"
 
 
 @dataclass(frozen=True, slots=True)
@@ -393,7 +393,7 @@ Told = (
     | BreakpointsChanged
     | debug_protocol.Coverage
     | TracesChanged
-    | FlightChanged
+    | RetrospectiveChanged
     | VerificationsChanged
     | Disturbances
     | Comparison

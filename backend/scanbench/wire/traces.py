@@ -96,15 +96,15 @@ class TraceRead:
     status: TraceStatus | None = None
 
 
-# ---- the flight recorder: parent to job process and back -----------------------------------------------------------
+# ---- retrospective traces: parent to job process and back -----------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
-class RecordFlight:
+class RecordRetrospective:
     """Runs scans `first` to `last` of this run file again, and writes samples of these signals to the file `to`, as records are
     kept (`taps/spool.py`).
 
-    The file may be that of a PLC that runs: it is opened read-only. `FlightAt` says how far it got, `FlightDone` ends it. It is
+    The file may be that of a PLC that runs: it is opened read-only. `RetrospectiveAt` says how far it got, `RetrospectiveDone` ends it. It is
     cancelled by ending the process.
     """
 
@@ -118,7 +118,7 @@ class RecordFlight:
 
 
 @dataclass(frozen=True, slots=True)
-class FlightAt:
+class RetrospectiveAt:
     """So many scans of so many are sampled."""
 
     ref: int
@@ -127,7 +127,7 @@ class FlightAt:
 
 
 @dataclass(frozen=True, slots=True)
-class FlightDone:
+class RetrospectiveDone:
     """The samples are in the file, of these signals."""
 
     ref: int

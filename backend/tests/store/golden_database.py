@@ -167,9 +167,9 @@ class Maker:
 
     def kept(self, browser: Browser, trace: int) -> None:
         self.post(f"{self.at}/traces/{trace}/keep", {"name": "thirty scans"})
-        flight = self.post(f"{self.at}/flights", {"signals": ["Main.n", "Main.color"], "scans": 10})
+        retrospective = self.post(f"{self.at}/retrospectives", {"signals": ["Main.n", "Main.color"], "scans": 10})
         browser.wait(lambda: len(self.server.http.get(f"/api/projects/{self.project}/trace-records").json()) == 2)
-        assert flight["id"]
+        assert retrospective["id"]
         xml = self.server.http.get(f"{self.at}/record", params={"format": "xml"})
         brought = self.server.http.post(f"/api/projects/{self.project}/records", content=xml.content, params=BOB)
         assert brought.status_code == 201, brought.text

@@ -259,20 +259,22 @@ def test_a_large_trace_goes_out_page_by_page(server: Server) -> None:
 
 
 def test_scans_that_are_over_are_recorded_afterwards(server: Server) -> None:
-    instance = paused(server, "flight")
+    instance = paused(server, "retrospective")
     run(server, instance, 5000)
     with server.browser(instance) as browser:
         browser.ask(type="write", path="Main.n", value="100")
     end = run(server, instance, 5000)
     with server.browser(instance) as browser:
         body = {"signals": ["Main.n", "Main.on"], "scans": 6000}
-        reply = server.http.post(f"/api/instances/{instance}/flights", json=body)
+        reply = server.http.post(f"/api/instances/{instance}/retrospectives", json=body)
         assert reply.status_code == 201, reply.text
         landed: list[Message] = []
 
         def over() -> bool:
             landed.extend(
-                each for each in browser.messages if each["type"] == "flight" and (each["record"] or each["message"])
+                each
+                for each in browser.messages
+                if each["type"] == "retrospective" and (each["record"] or each["message"])
             )
             return bool(landed)
 
@@ -283,15 +285,15 @@ def test_scans_that_are_over_are_recorded_afterwards(server: Server) -> None:
     assert found.scans == list(range(end - 6000, end))
     assert found.values[0][-1] == 5100
     assert found.values[0][999:1001] == [end - 5000, 101]
-    flights = f"/api/instances/{instance}/flights"
-    replies = [server.http.post(flights, json=body)]
+    retrospectives = f"/api/instances/{instance}/retrospectives"
+    replies = [server.http.post(retrospectives, json=body)]
     while replies[-1].status_code == 201:  # the third at the latest, unless one before it is over already
-        replies.append(server.http.post(flights, json=body))
+        replies.append(server.http.post(retrospectives, json=body))
     *under_way, third = replies
     assert third.status_code == 422
     assert "cancel" in third.json()["message"]
-    answers = {server.http.delete(f"/api/flights/{reply.json()['id']}").status_code for reply in under_way}
+    answers = {server.http.delete(f"/api/retrospectives/{reply.json()['id']}").status_code for reply in under_way}
     assert answers <= {204, 422}  # 422: over by then
-    late = server.http.post(f"/api/instances/{instance}/flights", json={**body, "last": end + 5})
+    late = server.http.post(f"/api/instances/{instance}/retrospectives", json={**body, "last": end + 5})
     assert late.status_code == 422
     assert "not over yet" in late.json()["message"]

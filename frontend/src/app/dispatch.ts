@@ -16,7 +16,7 @@ import { onTimeline } from "../store/plc/timeline";
 import { apply } from "../store/plc/values";
 import { onWatching, watchAgain } from "../store/plc/watches";
 import { catchUp, onBuilt, onDeleted, onSaved } from "../store/project/documents";
-import { onFlight, onTraces, refreshTraces } from "../store/trace/traces";
+import { onRetrospective, onTraces, refreshTraces } from "../store/trace/traces";
 import { onDisturbances } from "../store/verify/disturb";
 import { onVerifications, refreshVerifications } from "../store/verify/verify";
 import { onForces, onWritten } from "../store/watch/forces";
@@ -132,8 +132,8 @@ function dispatch(message: ServerMessage): void {
     case "verifications":
       onVerifications(message.verifications);
       return;
-    case "flight":
-      onFlight(message);
+    case "retrospective":
+      onRetrospective(message);
       return;
     case "disturbances":
       onDisturbances(message.disturbances);

@@ -40,26 +40,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/flights/{flight}": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        post?: never;
-        /**
-         * Cancels a retrospective trace that is being made
-         * @description Cancels a retrospective trace that is being made.
-         */
-        delete: operations["delete_flight"];
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/instances": {
         parameters: {
             query?: never;
@@ -545,26 +525,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/instances/{instance}/flights": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket
-         * @description Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket.
-         */
-        post: operations["create_instance_flight"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/instances/{instance}/force": {
         parameters: {
             query?: never;
@@ -819,6 +779,26 @@ export interface paths {
          * @description Restarts the program, in every mode; afterwards it runs.
          */
         post: operations["restart_instance"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/retrospectives": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket
+         * @description Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket.
+         */
+        post: operations["create_instance_retrospective"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1647,6 +1627,26 @@ export interface paths {
          * @description Cancels a replay.
          */
         delete: operations["delete_rerun"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/retrospectives/{retrospective}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Cancels a retrospective trace that is being made
+         * @description Cancels a retrospective trace that is being made.
+         */
+        delete: operations["delete_retrospective"];
         options?: never;
         head?: never;
         patch?: never;
@@ -3492,38 +3492,6 @@ export interface components {
             version: number;
         };
         /**
-         * Flight
-         * @description How far the record of earlier scans is that somebody asked for.
-         */
-        Flight: {
-            /** By */
-            by: string;
-            /** Done */
-            done: number;
-            /** Id */
-            id: number;
-            /**
-             * Message
-             * @description Why none came of it.
-             */
-            message: string;
-            /**
-             * Of
-             * @description Scans.
-             */
-            of: number;
-            /**
-             * Record
-             * @description The trace record that came of it.
-             */
-            record: number | null;
-            /**
-             * @description discriminator enum property added by openapi-typescript
-             * @enum {string}
-             */
-            type: "flight";
-        };
-        /**
          * Force
          * @description Holds it at the value until it is released.
          */
@@ -4166,26 +4134,6 @@ export interface components {
              */
             times: number;
         };
-        /**
-         * NewFlight
-         * @description Scans that are over, to be recorded afterwards.
-         */
-        NewFlight: {
-            /**
-             * Every
-             * @default 1
-             */
-            every: number;
-            /**
-             * Last
-             * @description the last of them; null is the newest that is over
-             */
-            last?: number | null;
-            /** Scans */
-            scans: number;
-            /** Signals */
-            signals: string[];
-        };
         /** NewInstance */
         NewInstance: {
             /** Name */
@@ -4255,6 +4203,26 @@ export interface components {
              * @description before which the error was raised
              */
             scan: number;
+        };
+        /**
+         * NewRetrospective
+         * @description Scans that are over, to be recorded afterwards.
+         */
+        NewRetrospective: {
+            /**
+             * Every
+             * @default 1
+             */
+            every: number;
+            /**
+             * Last
+             * @description the last of them; null is the newest that is over
+             */
+            last?: number | null;
+            /** Scans */
+            scans: number;
+            /** Signals */
+            signals: string[];
         };
         /**
          * NewRun
@@ -5000,6 +4968,38 @@ export interface components {
             kind: "cold" | "warm" | "power";
         };
         /**
+         * Retrospective
+         * @description How far the record of earlier scans is that somebody asked for.
+         */
+        Retrospective: {
+            /** By */
+            by: string;
+            /** Done */
+            done: number;
+            /** Id */
+            id: number;
+            /**
+             * Message
+             * @description Why none came of it.
+             */
+            message: string;
+            /**
+             * Of
+             * @description Scans.
+             */
+            of: number;
+            /**
+             * Record
+             * @description The trace record that came of it.
+             */
+            record: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "retrospective";
+        };
+        /**
          * RollBack
          * @description Swaps the program back in that ran before the last change.
          */
@@ -5206,7 +5206,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Flight"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /** SetCell */
         SetCell: {
             /** Call */
@@ -5778,7 +5778,7 @@ export interface components {
         };
         /**
          * TraceRecordInfo
-         * @description A record that was kept in the project: of a trace, or by the flight recorder.
+         * @description A record that was kept in the project: of a trace, or a retrospective one.
          */
         TraceRecordInfo: {
             /** At */
@@ -5803,7 +5803,7 @@ export interface components {
              * Origin
              * @enum {string}
              */
-            origin: "trace" | "flight";
+            origin: "trace" | "retrospective";
             /** Program Version */
             program_version: number;
             /** Project */
@@ -7051,35 +7051,6 @@ export interface operations {
             };
         };
     };
-    delete_flight: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                flight: number;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Client Error */
-            "4XX": {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Refusal"];
-                };
-            };
-            /** @description Successful Response */
-            204: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content?: never;
-            };
-        };
-    };
     list_instances: {
         parameters: {
             query?: never;
@@ -8031,41 +8002,6 @@ export interface operations {
             };
         };
     };
-    create_instance_flight: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                instance: number;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["NewFlight"];
-            };
-        };
-        responses: {
-            /** @description Client Error */
-            "4XX": {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Refusal"];
-                };
-            };
-            /** @description Successful Response */
-            201: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Flight"];
-                };
-            };
-        };
-    };
     force_value: {
         parameters: {
             query?: never;
@@ -8498,6 +8434,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    create_instance_retrospective: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewRetrospective"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Retrospective"];
                 };
             };
         };
@@ -10138,6 +10109,35 @@ export interface operations {
             header?: never;
             path: {
                 rerun: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    delete_retrospective: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                retrospective: number;
             };
             cookie?: never;
         };

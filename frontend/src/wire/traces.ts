@@ -1,6 +1,6 @@
 /** Traces of an instance, their samples, and records of them: the routes of `web/routes/traces.py`. */
 import { blob, bytes, json, request } from "./rest";
-import type { DefineTrace, Flight, TraceInfo, TraceRecordInfo } from "./types";
+import type { DefineTrace, Retrospective, TraceInfo, TraceRecordInfo } from "./types";
 
 /** The source of samples. */
 export type Source = { kind: "trace" | "record"; id: number };
@@ -33,9 +33,9 @@ export const traces = {
   deleteRecord: async (record: number): Promise<void> => {
     await request("DELETE", `/trace-records/${record}`);
   },
-  fly: (instance: number, signals: readonly string[], scans: number, every: number) =>
-    json<Flight>("POST", `/instances/${instance}/flights`, { signals, scans, every }),
-  cancelFlight: async (flight: number): Promise<void> => {
-    await request("DELETE", `/flights/${flight}`);
+  recordEarlier: (instance: number, signals: readonly string[], scans: number, every: number) =>
+    json<Retrospective>("POST", `/instances/${instance}/retrospectives`, { signals, scans, every }),
+  cancelRetrospective: async (retrospective: number): Promise<void> => {
+    await request("DELETE", `/retrospectives/${retrospective}`);
   },
 };

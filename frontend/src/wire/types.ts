@@ -4,7 +4,7 @@ import type { components } from "./messages.gen";
 type Shapes = components["schemas"];
 
 export type DefineTrace = Shapes["DefineTrace"];
-export type Flight = Shapes["Flight"];
+export type Retrospective = Shapes["Retrospective"];
 export type TraceDefinition = Shapes["TraceDefinition"];
 export type TraceInfo = Shapes["TraceInfo"];
 export type TraceRecordInfo = Shapes["TraceRecordInfo"];

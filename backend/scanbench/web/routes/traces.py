@@ -1,4 +1,4 @@
-"""REST: traces of an instance, their samples, kept records, and the flight recorder. Everything changes for everybody."""
+"""REST: traces of an instance, their samples, kept records, and retrospective traces. Everything changes for everybody."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -15,7 +15,7 @@ from scanbench.web import translate_trace
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.reach import Bench
-from scanbench.wire.events import FlightChanged
+from scanbench.wire.events import RetrospectiveChanged
 from scanbench.wire.traces import TraceStatus
 
 router = APIRouter(prefix="/api", tags=["traces"])
@@ -130,22 +130,24 @@ async def on_record_csv(bench: Bench, record: Id, first: Scan = 0, last: Scan | 
     return _csv(pages, about.signals, about.interval_ns, about.row.name)
 
 
-# ---- the flight recorder ---------------------------------------------------------------------------------------------
+# ---- retrospective traces ---------------------------------------------------------------------------------------------
 
 
-@router.post("/instances/{instance}/flights", status_code=201)
-async def on_new_flight(bench: Bench, request: Request, instance: Id, new: wire.NewFlight) -> FlightChanged:
+@router.post("/instances/{instance}/retrospectives", status_code=201)
+async def on_new_retrospective(
+    bench: Bench, request: Request, instance: Id, new: wire.NewRetrospective
+) -> RetrospectiveChanged:
     """Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket."""
     signals = tuple(text.strip() for text in new.signals)
-    return bench.trace_records.fly(
+    return bench.trace_records.make_retrospective(
         bench.session(instance), signals, new.scans, new.last, new.every, user_of(request).name
     )
 
 
-@router.delete("/flights/{flight}", status_code=204)
-async def on_cancel_flight(bench: Bench, flight: Id) -> None:
+@router.delete("/retrospectives/{retrospective}", status_code=204)
+async def on_cancel_retrospective(bench: Bench, retrospective: Id) -> None:
     """Cancels a retrospective trace that is being made."""
-    await bench.trace_records.cancel(flight)
+    await bench.trace_records.cancel(retrospective)
 
 
 def _csv(pages: Iterable[Samples], signals: Sequence[TraceSignal], interval_ns: int, name: str) -> StreamingResponse:

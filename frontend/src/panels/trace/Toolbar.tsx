@@ -26,10 +26,10 @@ import { Icon, type IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import type { TraceInfo, TraceRecordInfo } from "../../wire/types";
-import { FlightDialog } from "./FlightDialog";
 import { savePng } from "./png";
+import { RetrospectiveDialog } from "./RetrospectiveDialog";
 
-type Question = "keep" | "rename" | "flight" | null;
+type Question = "keep" | "rename" | "retrospective" | null;
 const COMPARED_POINTS = 8000;
 
 /** The name and the state of the trace; zoom, files, and other actions. */
@@ -86,7 +86,7 @@ export function Toolbar({ shown, graph }: { shown: Shown | null; graph: RefObjec
           {shown.trace && <DriveButton trace={shown.trace} />}
         </>
       )}
-      {asked === "flight" && <FlightDialog onClose={() => ask(null)} />}
+      {asked === "retrospective" && <RetrospectiveDialog onClose={() => ask(null)} />}
       {asked === "keep" && shown && (
         <AskName
           title={t("trace.keep.title")}
@@ -126,7 +126,7 @@ function SourceMenu({ shown, onAsk }: { shown: Shown | null; onAsk: (question: Q
       ...(signals.length > 0
         ? [{ label: t("trace.new"), icon: "plus" as const, separated: true, onSelect: () => void newTrace(signals) }]
         : []),
-      { label: t("trace.flight.menu"), icon: "past", onSelect: () => onAsk("flight") },
+      { label: t("trace.retrospective.menu"), icon: "past", onSelect: () => onAsk("retrospective") },
     ];
     if (shown?.trace) more.push({ label: `${t("trace.rename")}...`, onSelect: () => onAsk("rename") });
     if (shown)
@@ -164,7 +164,7 @@ function StateOf({ shown: { trace, record, triggered, first, end } }: { shown: S
   if (!trace) {
     return (
       <span className="faint cut">
-        {t(record?.origin === "flight" ? "trace.of.flight" : "trace.of.trace", {
+        {t(record?.origin === "retrospective" ? "trace.of.retrospective" : "trace.of.trace", {
           first: grouped(first),
           last: grouped(Math.max(first, end - 1)),
           by: record?.by ?? "",

@@ -8,8 +8,8 @@ import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { CursorTable } from "./CursorTable";
 import { EmptyTrace } from "./EmptyTrace";
-import { Flights } from "./Flights";
 import { Graph } from "./Graph";
+import { Retrospectives } from "./Retrospectives";
 import { Settings } from "./Settings";
 import { Toolbar } from "./Toolbar";
 import "./trace.css";
@@ -44,7 +44,7 @@ export function TracePanel() {
       onDrop={onDrop}
     >
       <Toolbar shown={shown} graph={graph} />
-      <Flights />
+      <Retrospectives />
       <Trouble />
       {shown ? (
         <div className="trbody">

@@ -7,7 +7,14 @@ import type { Range, Samples } from "../../logic/trace/samples";
 import { t } from "../../text";
 import { Refused } from "../../wire/rest";
 import { type Source, traces as wire } from "../../wire/traces";
-import type { DefineTrace, Flight, TraceDefinition, TraceInfo, TraceRecordInfo, TraceSignal } from "../../wire/types";
+import type {
+  DefineTrace,
+  Retrospective,
+  TraceDefinition,
+  TraceInfo,
+  TraceRecordInfo,
+  TraceSignal,
+} from "../../wire/types";
 import { saveFile } from "../page/download";
 import { keep, recall } from "../page/localStorage";
 import { showPanel } from "../page/navigate";
@@ -35,7 +42,7 @@ interface Traces {
   a: number | null;
   b: number | null;
   compared: Compared | null;
-  flights: readonly Flight[];
+  retrospectives: readonly Retrospective[];
   /** Signals that were dragged to a different plot: text -> key of the plot. */
   moved: ReadonlyMap<string, string>;
   trouble: { message: string; near: readonly string[]; add?: string } | null;
@@ -50,7 +57,7 @@ const nothing: Traces = {
   a: null,
   b: null,
   compared: null,
-  flights: [],
+  retrospectives: [],
   moved: new Map(),
   trouble: null,
 };
@@ -152,14 +159,14 @@ function rewind(now: Shown): void {
   set({ view: null, follows, a: null, b: null });
 }
 
-export function onFlight(flight: Flight): void {
-  const over = flight.record !== null || flight.message !== "";
-  set(({ flights }) => {
-    const others = flights.filter(({ id }) => id !== flight.id);
-    return { flights: over ? others : [...others, flight] };
+export function onRetrospective(retrospective: Retrospective): void {
+  const over = retrospective.record !== null || retrospective.message !== "";
+  set(({ retrospectives }) => {
+    const others = retrospectives.filter(({ id }) => id !== retrospective.id);
+    return { retrospectives: over ? others : [...others, retrospective] };
   });
-  if (flight.record !== null) void showRecord(flight.record);
-  else if (flight.message) set({ trouble: { message: flight.message, near: [] } });
+  if (retrospective.record !== null) void showRecord(retrospective.record);
+  else if (retrospective.message) set({ trouble: { message: retrospective.message, near: [] } });
 }
 
 async function showRecord(id: number): Promise<void> {
@@ -314,15 +321,15 @@ export async function compare(record: TraceRecordInfo | null, samples: Samples |
 }
 
 /** Makes a retrospective trace of the last scans. */
-export async function fly(signals: readonly string[], scans: number, every: number): Promise<void> {
+export async function recordEarlier(signals: readonly string[], scans: number, every: number): Promise<void> {
   const instance = instanceId();
   if (instance === null) return;
-  onFlight(await wire.fly(instance, signals, scans, every));
+  onRetrospective(await wire.recordEarlier(instance, signals, scans, every));
   set({ trouble: null });
 }
 
-export async function cancelFlight(id: number): Promise<void> {
-  await wire.cancelFlight(id).catch(fail);
+export async function cancelRetrospective(id: number): Promise<void> {
+  await wire.cancelRetrospective(id).catch(fail);
 }
 
 export async function exportCsv(): Promise<void> {

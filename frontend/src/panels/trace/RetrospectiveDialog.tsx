@@ -3,13 +3,13 @@ import { grouped, interval } from "../../logic/format/numbers";
 import { spanText } from "../../logic/trace/plots";
 import { usePlc } from "../../store/plc/plc";
 import { liveScan, useTimeline } from "../../store/plc/timeline";
-import { fly, shownOf, useTraces } from "../../store/trace/traces";
+import { recordEarlier, shownOf, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
 import { Field } from "../../ui/Field";
 import { FormDialog } from "../../ui/FormDialog";
 
 /** The retrospective trace: the last scans of any variables, computed from the journal. */
-export function FlightDialog({ onClose }: { onClose: () => void }) {
+export function RetrospectiveDialog({ onClose }: { onClose: () => void }) {
   const shown = shownOf(useTraces());
   const kept = useTimeline((run) => run.info?.first_scan ?? 0);
   const period = usePlc((plc) => plc.state?.interval_ns ?? 0);
@@ -24,23 +24,23 @@ export function FlightDialog({ onClose }: { onClose: () => void }) {
       .split("\n")
       .map((line) => line.trim())
       .filter(Boolean);
-    if (wanted.length === 0) throw new Error(t("trace.flight.nosignals"));
-    if (!(count > 0)) throw new Error(t("trace.flight.noscans"));
-    await fly(wanted, Math.min(count, there), Math.max(1, Number(every) || 1));
+    if (wanted.length === 0) throw new Error(t("trace.retrospective.nosignals"));
+    if (!(count > 0)) throw new Error(t("trace.retrospective.noscans"));
+    await recordEarlier(wanted, Math.min(count, there), Math.max(1, Number(every) || 1));
   }
 
   return (
     <FormDialog
-      title={t("trace.flight.title")}
-      about={t("trace.flight.about")}
-      submit={t("trace.flight.record")}
+      title={t("trace.retrospective.title")}
+      about={t("trace.retrospective.about")}
+      submit={t("trace.retrospective.record")}
       onSubmit={submit}
       onClose={onClose}
     >
       {({ refused }) => (
         <>
           <label className="field">
-            <span>{t("trace.flight.signals")}</span>
+            <span>{t("trace.retrospective.signals")}</span>
             <textarea
               className="inp mono trsignals"
               rows={6}
@@ -49,10 +49,18 @@ export function FlightDialog({ onClose }: { onClose: () => void }) {
               onChange={(event) => setSignals(event.target.value)}
             />
           </label>
-          <Field label={t("trace.flight.scans", { there: grouped(there) })} value={scans} onChange={setScans} mono />
-          <Field label={t("trace.flight.every")} value={every} onChange={setEvery} mono refused={refused} />
+          <Field
+            label={t("trace.retrospective.scans", { there: grouped(there) })}
+            value={scans}
+            onChange={setScans}
+            mono
+          />
+          <Field label={t("trace.retrospective.every")} value={every} onChange={setEvery} mono refused={refused} />
           <p className="hint">
-            {t("trace.flight.span", { span: spanText(Math.min(count, there) * period), interval: interval(period) })}
+            {t("trace.retrospective.span", {
+              span: spanText(Math.min(count, there) * period),
+              interval: interval(period),
+            })}
           </p>
         </>
       )}

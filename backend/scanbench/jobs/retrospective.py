@@ -1,4 +1,4 @@
-"""The flight recorder: what signals did in earlier scans, found out afterwards by running those scans again.
+"""Retrospective traces: what signals did in earlier scans, found out afterwards by running those scans again.
 
 From the nearest checkpoint of the run file, with the journal, in a job process: the PLC itself goes on meanwhile.
 """
@@ -22,31 +22,31 @@ from scanbench.taps.spool import write_pages
 from scanbench.taps.trace import TraceSignal, described
 from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes
 from scanbench.wire.codec import ENTRIES
-from scanbench.wire.traces import FlightDone, RecordFlight
+from scanbench.wire.traces import RecordRetrospective, RetrospectiveDone
 
 MAX_BYTES = 512 << 20
 """What a record may take while it is made."""
 _CHUNK = 4096
 
 
-def fly(ask: RecordFlight, programs: ProgramsOf, on_chunk: Callable[[int, int], None]) -> FlightDone:
+def record(ask: RecordRetrospective, programs: ProgramsOf, on_chunk: Callable[[int, int], None]) -> RetrospectiveDone:
     """Samples the scans that are asked for, and writes them to the file; `Unreadable` says why that cannot be."""
     with RunReader(Path(ask.run), programs, ENTRIES) as reader:
         reader.follow()
-        flight = _Flight(ask, reader)
-        resource = flight.run(on_chunk)
-    buffer = flight.buffer()
+        retrospective = _Retrospective(ask, reader)
+        resource = retrospective.run(on_chunk)
+    buffer = retrospective.buffer()
     first, end = buffer.extent
     write_pages(Path(ask.to), buffer.pieces(0, end))
-    return FlightDone(
-        ask.ref, flight.signals(), buffer.rows, first, end, resource.program.interval_ns, resource.version
+    return RetrospectiveDone(
+        ask.ref, retrospective.signals(), buffer.rows, first, end, resource.program.interval_ns, resource.version
     )  # fmt: skip
 
 
-class _Flight:
+class _Retrospective:
     """One record under way."""
 
-    def __init__(self, ask: RecordFlight, reader: RunReader) -> None:
+    def __init__(self, ask: RecordRetrospective, reader: RunReader) -> None:
         if not ask.first <= ask.last:
             raise Unreadable(f"scans {ask.first} to {ask.last} are none")
         rows = (ask.last - ask.first) // ask.every + 1
