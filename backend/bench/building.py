@@ -24,7 +24,7 @@ from scanbench.host.program_cache import keep, key_of
 from scanbench.host.programs import HostPrograms
 from scanbench.host.swaps import Recode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import Loaded, Shelf
+from scanbench.runtime.programs import Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.wire.host import Sources
 
@@ -178,7 +178,7 @@ def _change(builder: Builder, plc: Resource, sources: Sources) -> float:
     """From the text of a build to the first scan of the new program, variables carried over."""
     start = perf_counter_ns()
     version = plc.version + 1
-    plc.programs = Shelf(plc.loaded, HostPrograms(builder, {}).make(replace(sources, version=version)))
+    plc.programs = LoadedPrograms(plc.loaded, HostPrograms(builder, {}).make(replace(sources, version=version)))
     plc.submit(ProgramChange("bench", version))
     plc.run(1)
     return _ms(start)

@@ -35,7 +35,7 @@ from scanbench.recording.headless import run_headless
 from scanbench.recording.programs import on, programs_of
 from scanbench.recording.reader import RunReader
 from scanbench.recording.recording import Recording
-from scanbench.runtime.programs import Loaded, Shelf
+from scanbench.runtime.programs import Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.server.from_disk import program_files, project_model, read_text
@@ -159,7 +159,7 @@ def _past(path: Path, scans: int) -> Past:
     sources = pack_body(Sources(MODEL, {"main.st": SOURCE}, INTERVAL_NS, 1))
     with Recording.begin(path, program, 1, sources, ENTRIES, "bench") as recording:
         run_headless(program, scans, NativeEngine, recording=recording)
-    with RunReader(path, _shelf, ENTRIES) as reader:
+    with RunReader(path, _programs_of, ENTRIES) as reader:
         opened = _ms(lambda: reader.follow(scans))
         goes = [_ms(partial(reader.goto, index * _STRIDE % scans)) for index in range(1, SAMPLES + 1)]
         prober = ProbedBuilds().engine
@@ -174,13 +174,13 @@ def _past(path: Path, scans: int) -> Past:
     return Past(scans, opened, median(goes), max(goes), first, again)
 
 
-def _shelf(kept: Mapping[int, KeptProgram]) -> Shelf:
-    shelf = Shelf()
+def _programs_of(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
+    programs = LoadedPrograms()
     for version, each in kept.items():
         loaded = Loaded.make(_program_of(each), NativeEngine, version)
         loaded.debug = DebugBuilds().engine(loaded.program, loaded.memory)
-        shelf.add(loaded)
-    return shelf
+        programs.add(loaded)
+    return programs
 
 
 def _program_of(kept: KeptProgram) -> Program:

@@ -18,7 +18,7 @@ from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.reader import Unreadable
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import Replayed, replay_file
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.wire.codec import ENTRIES
 
 
@@ -35,8 +35,8 @@ def replay(
     not come to its end, as after a kill, is no damage.
     """
 
-    def programs_of(kept: Mapping[int, KeptProgram]) -> Shelf:
-        return Shelf(*(_load(each, ENGINES[engine]) for each in kept.values()))
+    def programs_of(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
+        return LoadedPrograms(*(_load(each, ENGINES[engine]) for each in kept.values()))
 
     agreed: list[int] = []
     try:

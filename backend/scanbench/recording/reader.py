@@ -22,7 +22,7 @@ from scanbench.recording.thinning import Checkpoint
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Refusal, Swapped
 from scanbench.runtime.header import Halt
-from scanbench.runtime.programs import NoProgram, Programs, Shelf
+from scanbench.runtime.programs import LoadedPrograms, NoProgram, Programs
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
 
@@ -41,7 +41,7 @@ class Unreadable(Exception):
 
 def no_programs(kept: Mapping[int, KeptProgram]) -> Programs:
     """`ProgramsOf` for whoever runs nothing."""
-    return Shelf()
+    return LoadedPrograms()
 
 
 class RunReader:

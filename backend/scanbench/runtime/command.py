@@ -13,7 +13,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
 from scanbench.runtime.header import Header
 from scanbench.runtime.journal import Fold, Journal
-from scanbench.runtime.programs import Programs, Shelf
+from scanbench.runtime.programs import LoadedPrograms, Programs
 
 T = TypeVar("T")
 
@@ -156,7 +156,7 @@ class View:
     program: Program
     memory: bytearray | bytes | memoryview
     journal: Journal = field(default_factory=Journal)
-    programs: Programs = field(default_factory=Shelf)
+    programs: Programs = field(default_factory=LoadedPrograms)
     version: int = 1
     fresh: Program | None = None
     """See `Loaded`."""

@@ -73,14 +73,14 @@ class Programs(Protocol):
         """The same object as long as it is in use; `NoProgram` when there is no such version."""
 
 
-class Shelf:
-    """Programs that are all loaded."""
+class LoadedPrograms:
+    """Programs by version, all of which are loaded: nothing is compiled on demand, and none is dropped."""
 
     def __init__(self, *loaded: Loaded) -> None:
         self._loaded = {each.version: each for each in loaded}
 
     def add(self, loaded: Loaded) -> None:
-        """One more."""
+        """Adds one, or replaces that of the same version."""
         self._loaded[loaded.version] = loaded
 
     def get(self, version: int) -> Loaded:

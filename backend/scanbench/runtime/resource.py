@@ -16,7 +16,7 @@ from scanbench.runtime.header import Header, Mode, fresh_image, pass_time
 from scanbench.runtime.inside import Diverged, Inside, Insider, entered_inside, front, needs_seam
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.listening import Listening, Within
-from scanbench.runtime.programs import Loaded, Programs, Shelf
+from scanbench.runtime.programs import Loaded, LoadedPrograms, Programs
 from scanbench.runtime.recorder import Recorder
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped, trap_info
 from scanbench.runtime.waiting import Waiting, held
@@ -45,7 +45,7 @@ class Resource:
     ) -> None:  # fmt: skip
         """A new run in `mode`, or from `state`, the first `Layout.state_size` bytes of an image of this program."""
         self.loaded = loaded
-        self.programs = programs if programs is not None else Shelf(loaded)
+        self.programs = programs if programs is not None else LoadedPrograms(loaded)
         self.recorder = recorder
         self.journal = Journal()
         self.measured = Measured()

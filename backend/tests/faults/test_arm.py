@@ -26,7 +26,7 @@ from scanbench.recording.replay import replay
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
@@ -290,7 +290,9 @@ def test_a_statement_is_reached_in_a_scan_that_traps(kind: Kind) -> None:
 def test_another_program(kind: Kind) -> None:
     engine, make = kind
     moved = SOURCE.replace("  q := 100 / d;\n", "  q := 100 / d;\n\n\n").replace("VAR n :", "VAR first : LINT; n :")
-    programs = Shelf(*(Loaded.make(program(text), engine, version) for version, text in ((1, SOURCE), (2, moved))))
+    programs = LoadedPrograms(
+        *(Loaded.make(program(text), engine, version) for version, text in ((1, SOURCE), (2, moved)))
+    )
     resource = Resource(programs.get(1), programs=programs, agenda=Schedule(make))
     for each in (
         arm(BATTERY, start=Start("condition", condition="Main.n > 50"), shape=Shape("for", 3)),
@@ -322,7 +324,9 @@ def test_a_condition_that_means_nothing_any_more_ends_it(kind: Kind) -> None:
     engine, make = kind
     other = SOURCE.replace("n : DINT; list", "count : DINT; list").replace("n MOD", "count MOD")
     other = other.replace("IF n = 41", "IF count = 41").replace("n := n + 1", "count := count + 1")
-    programs = Shelf(*(Loaded.make(program(text), engine, version) for version, text in ((1, SOURCE), (2, other))))
+    programs = LoadedPrograms(
+        *(Loaded.make(program(text), engine, version) for version, text in ((1, SOURCE), (2, other)))
+    )
     resource = Resource(programs.get(1), programs=programs, agenda=Schedule(make))
     resource.submit(arm(BATTERY, start=Start("condition", condition="Main.n > 50")))
     resource.submit(arm(UNIT, start=Start("condition", condition="Main.n > 3"), shape=Shape("intermittent", 1, 4)))
@@ -341,7 +345,7 @@ def test_an_error_that_the_project_has_no_more_ends_it(kind: Kind) -> None:
     engine, make = kind
     own = check_sources({"main.st": SOURCE, "errors.xml": OWN_ERRORS}, model()).program
     assert own is not None
-    programs = Shelf(Loaded.make(own, engine, 1), Loaded.make(program(SOURCE), engine, 2))
+    programs = LoadedPrograms(Loaded.make(own, engine, 1), Loaded.make(program(SOURCE), engine, 2))
     resource = Resource(programs.get(1), programs=programs, agenda=Schedule(make))
     assert isinstance(resource.submit(arm(ErrorRef("pump-hot"), start=Start("scan", 20))), Entry)
     assert isinstance(resource.submit(arm(BATTERY, start=Start("scan", 20))), Entry)

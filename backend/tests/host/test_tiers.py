@@ -17,7 +17,7 @@ from scanbench.host.build import Builder, Built, find_model
 from scanbench.host.swaps import Recode
 from scanbench.runtime.command import Entry
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import Loaded, Shelf
+from scanbench.runtime.programs import Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.wire.host import Sources
@@ -240,7 +240,7 @@ def test_code_that_is_swapped_out_is_freed() -> None:
         if plc is None:
             plc = Resource(loaded)
         else:
-            plc.programs = Shelf(loaded)
+            plc.programs = LoadedPrograms(loaded)
             assert isinstance(plc.submit(ProgramChange("Ada", version)), Entry)
         plc.run(1)
         del loaded

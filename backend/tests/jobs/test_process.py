@@ -33,7 +33,7 @@ from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import Loaded, NoProgram, Shelf
+from scanbench.runtime.programs import Loaded, LoadedPrograms, NoProgram
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES, Splitter, pack, pack_body, unpack
 from scanbench.wire.host import Sources
@@ -107,8 +107,8 @@ def program_of(wanted: Sources) -> Program:
 def begun(path: Path, *versions: Sources) -> Timeline:
     """A live run on the first of these programs."""
     every = versions or (sources(),)
-    shelf = Shelf(*map(loaded, every))
-    return Timeline.begin(path, shelf, every[0].version, pack_body(every[0]), ENTRIES, "Ada", Detection())
+    programs = LoadedPrograms(*map(loaded, every))
+    return Timeline.begin(path, programs, every[0].version, pack_body(every[0]), ENTRIES, "Ada", Detection())
 
 
 def enter(timeline: Timeline, command: Command) -> Entry:

@@ -24,7 +24,7 @@ from scanbench.wire.codec import ENTRIES
 from tests.amounts import amount, nightly
 from tests.recording.recorded import SourcePrograms, advance, of_file, tidy
 from tests.runtime.bench import ENGINES
-from tests.runtime.random_runs import live, random_steps, shelf
+from tests.runtime.random_runs import live, loaded_programs, random_steps
 
 A, B, C = (ErrorRef(id) for id in ("battery-error", "memory-error", "io-bus-error"))
 
@@ -82,7 +82,7 @@ def test_what_holds_stays(commands: list[Command | Effect], expected: list[int])
 @nightly
 @pytest.mark.parametrize("seed", range(amount(40, 10)))
 def test_folds_come_to_the_same_wherever_a_run_is_cut(seed: int) -> None:
-    _, entries = live(shelf(ENGINES[0]), random_steps(seed, 150))
+    _, entries = live(loaded_programs(ENGINES[0]), random_steps(seed, 150))
     for count in range(0, len(entries) + 1, 3):
         _comes_to_the_same(entries[:count])
 

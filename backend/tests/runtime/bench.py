@@ -10,7 +10,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
 from scanbench.runtime.command import Entry
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.symbols import resolve
 from scanbench.symbols.values import python_value
@@ -45,7 +45,7 @@ def value(resource: Resource, path: str) -> bool | int | float | str | None:
 
 def change(resource: Resource, new: Program, engine: EngineFactory = ReferenceEngine, version: int = 2) -> str:
     """Swaps a new program in; what became of the variables."""
-    resource.programs = Shelf(resource.loaded, Loaded.make(new, engine, version))
+    resource.programs = LoadedPrograms(resource.loaded, Loaded.make(new, engine, version))
     entry = resource.submit(ProgramChange("Ada", version))
     assert isinstance(entry, Entry), entry
     return entry.plan.message

@@ -21,7 +21,7 @@ from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
@@ -96,11 +96,11 @@ class Point:
     state: bytes
 
 
-def shelf(engine: EngineFactory) -> Shelf:
-    return Shelf(*(Loaded.make(program(text), engine, version) for version, text in enumerate(SOURCES, 1)))
+def loaded_programs(engine: EngineFactory) -> LoadedPrograms:
+    return LoadedPrograms(*(Loaded.make(program(text), engine, version) for version, text in enumerate(SOURCES, 1)))
 
 
-def live(programs: Shelf, steps: Sequence[Step]) -> tuple[list[Point], list[Entry]]:
+def live(programs: LoadedPrograms, steps: Sequence[Step]) -> tuple[list[Point], list[Entry]]:
     """What happens."""
     resource = Resource(programs.get(1), programs=programs, detect=Detection(), agenda=Schedule(observed_engine))
     points = [_point(resource)]
@@ -114,7 +114,7 @@ def live(programs: Shelf, steps: Sequence[Step]) -> tuple[list[Point], list[Entr
     return points, list(resource.journal)
 
 
-def again(programs: Shelf, points: Sequence[Point], entries: Sequence[Entry], start: int) -> list[bytes]:
+def again(programs: LoadedPrograms, points: Sequence[Point], entries: Sequence[Entry], start: int) -> list[bytes]:
     """The states at the points from `start` on, replayed from there."""
     first = points[start]
     resource = Resource(programs.get(1), programs=programs)
@@ -139,6 +139,6 @@ def _point(resource: Resource) -> Point:
 if __name__ == "__main__":
     from scanbench.engines.native.engine import NativeEngine
 
-    made = shelf(NativeEngine)
+    made = loaded_programs(NativeEngine)
     known, journal = live(made, random_steps(int(sys.argv[1])))
     print(hashlib.sha256(b"".join(again(made, known, journal, 0))).hexdigest())

@@ -11,7 +11,7 @@ from scanbench.runtime.forces import FORCED, Force, read_table
 from scanbench.runtime.migrate_image import changes
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
@@ -103,7 +103,7 @@ def test_forces_follow_their_variables(engine: EngineFactory) -> None:
 def test_what_cannot_be_changed_to() -> None:
     resource = plc(OLD)
     other = program(OLD.replace(" AT D7", ""), "GENERIC-IEC")
-    resource.programs = Shelf(
+    resource.programs = LoadedPrograms(
         resource.loaded, Loaded.make(program(NEW), ENGINES[0], 2), Loaded.make(other, ENGINES[0], 3)
     )
     assert "runs already" in refused(resource, ProgramChange("Ada", 1))

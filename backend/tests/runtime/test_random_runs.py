@@ -15,21 +15,21 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate
 from scanbench.recording.replay import replay
 from scanbench.runtime.command import Entry
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
 from scanbench.runtime.write import Write
 from tests.amounts import amount
 from tests.runtime.bench import ENGINES, program, value
-from tests.runtime.random_runs import COMMANDS, SOURCE, Step, again, live, random_steps, shelf
+from tests.runtime.random_runs import COMMANDS, SOURCE, Step, again, live, loaded_programs, random_steps
 
 STEPS = st.lists(st.tuples(st.sampled_from(COMMANDS), st.sampled_from([0, 1, 2, 7, 40])), min_size=1, max_size=25)
 
 
 @cache
-def programs(engine: EngineFactory, use: str) -> Shelf:
+def programs(engine: EngineFactory, use: str) -> LoadedPrograms:
     """Made once; `use` keeps what was recorded apart from what is replayed."""
-    return shelf(engine)
+    return loaded_programs(engine)
 
 
 @settings(max_examples=amount(120, 20), deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -7,7 +7,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.write import Write
 from tests.runtime.bench import ENGINES, change, plc, program, value
 
@@ -61,7 +61,7 @@ def test_values_of_the_same_path_and_type_are_kept(engine: EngineFactory) -> Non
 def test_in_run_mode_the_program_stays() -> None:
     resource = plc(OLD)
     resource.submit(SetMode("Ada", "RUN"))
-    resource.programs = Shelf(Loaded.make(program(NEW), ENGINES[0], 2))
+    resource.programs = LoadedPrograms(Loaded.make(program(NEW), ENGINES[0], 2))
     refusal = resource.submit(ProgramChange("Ada", 2))
     assert isinstance(refusal, Refusal)
     assert "MONITOR" in refusal.message

@@ -28,7 +28,7 @@ from scanbench.runtime.forces import Force, Release, read_table
 from scanbench.runtime.holds import HELD, held
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
@@ -269,7 +269,7 @@ def test_a_restart_does_not_mend_an_input(engine: EngineFactory, kind: str) -> N
 def test_a_new_program_finds_it_stuck_too(engine: EngineFactory) -> None:
     new = program(SOURCE.replace("sum : DINT;", "sum : LINT; more : ARRAY[0..99] OF LINT;"))
     resource = Resource(Loaded.make(program(SOURCE), engine), agenda=DisturbanceSchedule())
-    resource.programs = Shelf(resource.loaded, Loaded.make(new, engine, 2))
+    resource.programs = LoadedPrograms(resource.loaded, Loaded.make(new, engine, 2))
     resource.submit(Write("Bob", "word", "7"))
     resource.submit(disturb(Disturbance("stuck", "word", scans=6)))
     resource.run(2)
@@ -279,7 +279,7 @@ def test_a_new_program_finds_it_stuck_too(engine: EngineFactory) -> None:
         resource.run(1)
     assert [value(resource, f"Main.words[{index}]") for index in range(8)] == [7] * 6 + [9] * 2
     again = Resource(Loaded.make(program(SOURCE), engine))
-    again.programs = Shelf(again.loaded, Loaded.make(new, engine, 2))
+    again.programs = LoadedPrograms(again.loaded, Loaded.make(new, engine, 2))
     replay(again, list(resource.journal), 8)
     assert again.state == resource.state
 

@@ -22,7 +22,7 @@ from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import Loaded, Shelf
+from scanbench.runtime.programs import Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
@@ -343,9 +343,9 @@ def test_any_order_gives_the_same_rows(tmp_path: Path) -> None:
 
 def test_a_program_change_on_the_way(tmp_path: Path) -> None:
     old, new = program(BELTS), program(BELTS.replace("Twice := x * 2", "Twice := x * 3"))
-    shelf = Shelf(Loaded.make(old, ReferenceEngine, 1), Loaded.make(new, ReferenceEngine, 2))
+    programs = LoadedPrograms(Loaded.make(old, ReferenceEngine, 1), Loaded.make(new, ReferenceEngine, 2))
     path = record(
-        tmp_path / "run", old, 8, [(4, ProgramChange("Ada", 2))], programs=shelf, more=[(2, new)]
+        tmp_path / "run", old, 8, [(4, ProgramChange("Ada", 2))], programs=programs, more=[(2, new)]
     )  # fmt: skip
     verified = verifier(path, old, "Belt", others={2: new})
     found = rows(verified)
@@ -356,9 +356,11 @@ def test_a_program_change_on_the_way(tmp_path: Path) -> None:
 
 def test_a_block_that_a_program_in_between_does_not_have(tmp_path: Path) -> None:
     small, big = program("PROGRAM Main VAR n : INT; END_VAR n := n + 1; END_PROGRAM"), program(BELTS)
-    shelf = Shelf(*(Loaded.make(each, ReferenceEngine, number) for number, each in ((1, big), (2, small), (3, big))))
+    programs = LoadedPrograms(
+        *(Loaded.make(each, ReferenceEngine, number) for number, each in ((1, big), (2, small), (3, big)))
+    )
     path = record(
-        tmp_path / "run", big, 12, [(4, ProgramChange("Ada", 2)), (8, ProgramChange("Ada", 3))], programs=shelf,
+        tmp_path / "run", big, 12, [(4, ProgramChange("Ada", 2)), (8, ProgramChange("Ada", 3))], programs=programs,
         more=[(2, small), (3, big)],
     )  # fmt: skip
     verified = verifier(path, big, "Belt", make=on(flavours()), others={2: small, 3: big})
