@@ -53,7 +53,7 @@ class Checks:
         project = next((each for each in self._known if each.is_about(sources, model, interval_ns)), None)
         if project is None:
             project = _Project(model, interval_ns)
-            project.start_anew(sources)
+            project.check_all(sources)
         else:
             self._known.remove(project)
             project.change(sources, whole)
@@ -111,13 +111,13 @@ class _Project:
         for name, text in edited.items():
             found = self._edits(name, text)
             if found is None:
-                self.start_anew(sources)
+                self.check_all(sources)
                 return
             edits += found
         # spans of kept trees move by themselves, but what tells a place in words does not
         telling = self._telling() if any(edit.moved for edit in edits) else set()
         if telling is None:
-            self.start_anew(sources)
+            self.check_all(sources)
             return
         looked_at = self.looks.at(chunk for file in self.files.values() for chunk in file.chunks)
         if (whole and not self.whole) or looked_at != self.checker.looked_at:
@@ -126,7 +126,7 @@ class _Project:
         bodies = [self._changed_body(edit) for edit in edits]
         told = self._declarations_of(telling)
         if len(told) < len(telling):
-            self.start_anew(sources)
+            self.check_all(sources)
         elif None not in bodies:
             again = {body[0]: body[1] for body in bodies if body is not None}
             for pou, declaration in (told | again).items():
@@ -193,7 +193,7 @@ class _Project:
                 seeing.add(id(chunk.pou.span))
         return seeing
 
-    def start_anew(self, sources: Mapping[str, str]) -> None:
+    def check_all(self, sources: Mapping[str, str]) -> None:
         """Reads and checks everything."""
         with without_collection():
             self.files = {name: read(name, text) for name, text in sources.items()}

@@ -241,7 +241,7 @@ Lanes = Mapping[str, Lane]
 
 
 def _step(lanes: Lanes, entry: Entry) -> Lanes:
-    if entry.plan.starts_anew:
+    if entry.plan.starts_fresh:
         return {} if lanes else lanes
     command = entry.command
     match command:

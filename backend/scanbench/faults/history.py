@@ -147,7 +147,7 @@ class History:
         if isinstance(effect, Swapped):
             ended = self._cleared(self._present, entry.at, entry.scan) if effect.fresh else []
             return ended + self.turn_to(effect.version, entry.at, entry.scan)
-        if entry.plan.starts_anew:
+        if entry.plan.starts_fresh:
             return self._cleared(self._present, entry.at, entry.scan)
         if isinstance(command, Generate):
             return self._generated(entry, command)

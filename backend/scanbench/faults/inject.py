@@ -183,7 +183,7 @@ def present_after(present: Mapping[str, Active], command: Command, scan: int) ->
 
 
 def _step(present: Mapping[str, Active], entry: Entry) -> Mapping[str, Active]:
-    return {} if entry.plan.starts_anew else present_after(present, entry.command, entry.scan)
+    return {} if entry.plan.starts_fresh else present_after(present, entry.command, entry.scan)
 
 
 ACTIVE: Fold[Mapping[str, Active]] = Fold({}, _step)

@@ -26,7 +26,7 @@ class CutOff:
 def _step(known: CutOff, entry: Entry) -> CutOff:
     present, lanes, gone = ACTIVE.step(known.present, entry), ARMED.step(known.lanes, entry), known.gone
     command = entry.command
-    if entry.plan.starts_anew:
+    if entry.plan.starts_fresh:
         # a fault that comes and goes by itself ends with the restart
         passing = {id for lane in known.lanes.values() if lane.wanted.shape.kind != "stay" for id in lane.present}
         before = (each for active in known.present.values() for each in active.raised)

@@ -51,7 +51,7 @@ def seam(journal: Journal, scan: int, inside: bool) -> int:
         start = end
         while start and journal[start - 1].scan == scan:
             start -= 1
-            if journal[start].plan.starts_anew:
+            if journal[start].plan.starts_fresh:
                 break
             if isinstance(journal[start].command, Trapped):
                 end = start

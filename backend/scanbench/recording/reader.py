@@ -277,8 +277,8 @@ def _trapped(entries: Sequence[Entry]) -> bool:
     """Whether a run-time error stops the program after these entries, which are all of one scan."""
     trapped = False
     for entry in entries:
-        if isinstance(entry.command, Trapped) or entry.plan.starts_anew:
-            trapped = not entry.plan.starts_anew
+        if isinstance(entry.command, Trapped) or entry.plan.starts_fresh:
+            trapped = not entry.plan.starts_fresh
             continue
         for patch in entry.plan.patches:
             at = Layout.FATAL - patch.offset

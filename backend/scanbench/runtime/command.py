@@ -103,7 +103,7 @@ class Plan:
         return isinstance(self.effect, Restarted | Swapped)
 
     @property
-    def starts_anew(self) -> bool:
+    def starts_fresh(self) -> bool:
         """Whether the program begins as if nothing had happened: no error is present after it, no trap stops it."""
         return isinstance(self.effect, Restarted) or (isinstance(self.effect, Swapped) and self.effect.fresh)
 

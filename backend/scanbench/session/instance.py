@@ -346,7 +346,7 @@ class Instance:
         return await self.ask(lambda ref: protocol.Build(ref, sources, author), protocol.Ack, takes_long=True)
 
     async def new_run(self, sources: protocol.Sources | None = None) -> protocol.Ack:
-        """A new run, at scan 0; the old run file is kept aside."""
+        """Begins a new run at scan 0; the old run file is kept aside."""
         async with self._turning:
             if self.why_not:  # its run must not be put aside for one that cannot begin
                 raise Unavailable(self.why_not)

@@ -149,7 +149,7 @@ class Session:
         )
 
     async def new_run(self, author: str, sources: protocol.Sources | None = None) -> protocol.Ack:
-        """A new run from scan 0, of other sources if there are any; the old run file is kept aside."""
+        """Begins a new run at scan 0, with other sources if there are any; the old run file is kept aside."""
         return await self._refusing(self.instance.new_run(sources), author)
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:

@@ -221,7 +221,7 @@ def test_recovered_by_hand_it_is_over_but_what_comes_again_comes(kind: Kind, sha
 
 
 @ON
-def test_what_somebody_raises_anew_is_theirs(kind: Kind) -> None:
+def test_what_somebody_raises_again_is_theirs(kind: Kind) -> None:
     again = Generate("Bob", (ErrorRef(UNIT.id, (("unit", "7"),)),), again=True)
     run = ran(kind, 60, (5, arm(UNIT, shape=Shape("for", 10))), (8, again))
     assert seen(run, "also") == list(range(5, 60))

@@ -60,7 +60,7 @@ def test_what_is_present_is_present_in_the_new_version_too() -> None:
     assert old["battery-error"].status == "generated"  # so it was when version 1 ended
 
 
-def test_a_program_that_starts_anew_has_no_errors() -> None:
+def test_a_program_that_starts_fresh_has_no_errors() -> None:
     history = History(model(), 1)
     raise_(history, "battery-error")
     (ended,) = swap(history, 2, fresh=True, scan=9)

@@ -127,7 +127,7 @@ def test_one_of_several(tmp_path: Path) -> None:
     assert (value(again.resource, "Main.low"), value(again.resource, "Main.seen")) == (0, 4)
 
 
-def test_what_follows_is_planned_anew(tmp_path: Path) -> None:
+def test_what_follows_is_planned_again(tmp_path: Path) -> None:
     """What cannot be entered this time is told."""
     timeline = _with_an_error(tmp_path)
     _enter(timeline, Generate("Ada", (ErrorRef(BATTERY),)))
