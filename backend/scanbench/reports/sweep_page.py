@@ -10,7 +10,7 @@ from scanbench.plcmodel.catalogue import ErrorEntry
 from scanbench.reports.page import Page, Words, table, td, th, tr
 from scanbench.reports.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
-_WORDS: Words = {"en": {"title": "Error sweep"}, "ja": {"title": "異常の一括試験"}}
+_WORDS: Words = {"en": {"title": "Error sweep"}, "ja": {"title": "異常スイープ"}}
 
 
 def sweep_page(result: SweepResult, at: str) -> str:

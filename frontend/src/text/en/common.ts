@@ -24,7 +24,7 @@ export const common = {
   "log.kind.write": "Write",
   "log.label": "Events",
   "log.none": "No event yet. Writes, forces, errors, mode changes and builds of this PLC are listed here.",
-  "log.nomatch": "No event matches the filter. Choose another filter.",
+  "log.nomatch": "No event matches the filter. Choose a different filter.",
   "log.scan": "Scan",
   "log.text": "Entry",
   "menu.label": "Actions",

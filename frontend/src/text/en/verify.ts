@@ -175,7 +175,7 @@ export const verify = {
   "verify.set": "Set",
   "verify.side.native": "A {name} native",
   "verify.side.reference": "A′ reference",
-  "verify.side.trace": "A trace {name}",
+  "verify.side.trace": "A log {name}",
   "verify.skipped.verify": "Verify",
   "verify.skipped.which": "Scans that were not compared",
   "verify.skipped": "not compared",

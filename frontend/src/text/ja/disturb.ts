@@ -156,5 +156,5 @@ export const disturb: Record<keyof typeof english, string> = {
   "verify.records.scans": "スキャン",
   "verify.records.same": "なし",
   "verify.records.title": "保存した検証",
-  "verify.records.version": "バージョン {version}",
+  "verify.records.version": "版 {version}",
 };

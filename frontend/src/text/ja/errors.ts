@@ -1,4 +1,4 @@
-/** 日本語: エラーシミュレータとエラー履歴 */
+/** 日本語: 異常シミュレータと異常履歴 */
 import type { errors as english } from "../en/errors";
 
 export const errors: Record<keyof typeof english, string> = {
@@ -94,7 +94,7 @@ export const errors: Record<keyof typeof english, string> = {
   "errors.menu": "異常シミュレータ: 操作",
   "errors.menu.history": "履歴",
   "errors.menu.keep": "この状態を保存…",
-  "errors.menu.record": "試験記録",
+  "errors.menu.record": "試験成績書",
   "errors.menu.runall": "全件実行…",
   "errors.menu.user": "ユーザー定義異常",
   "errors.notgenerated": "発生していません。",
@@ -219,7 +219,7 @@ export const errors: Record<keyof typeof english, string> = {
   "history.raised": "発生 {raised} 件",
   "history.scans": "スキャン",
   "history.sort": "並べ替え：{column}",
-  "history.swept": "一括試験による判定",
+  "history.swept": "スイープによる判定",
   "history.version": "版 {version}",
   "history.version.of": "履歴の対象：{version}",
   "history.version.running": "版 {version}（動作中）",
@@ -237,7 +237,7 @@ export const errors: Record<keyof typeof english, string> = {
   "record.loading": "成績書を読み込んでいます。",
   "record.menu": "試験成績書",
   "record.model": "機種",
-  "record.more": "印刷用成績書にはほかに：一括試験 {sweeps} 件、記録 {lines} 行",
+  "record.more": "印刷用成績書にはほかに：スイープ {sweeps} 件、記録 {lines} 行",
   "record.newtab": "新しいタブ",
   "record.none": "取り込んだ試験成績書はまだありません。異常履歴の「試験成績書」から取り込んでください。",
   "record.print": "印刷用の試験成績書",

@@ -192,7 +192,7 @@ export const plc: Record<keyof typeof english, string> = {
   "off.title": "{name} は電源が切れています。",
   "permit.failed":
     "PLC の起動に失敗しました。もう一度起動するか、プログラムを修正してビルドするか、新しい実行を始めてください。",
-  "permit.model": "モデルがないため、PLC を起動できません。対処は上のバナーに表示しています。",
+  "permit.model": "機種のファイルがないため、PLC を起動できません。対処は上のバナーに表示しています。",
   "permit.no_space": "PLC はディスクの空きを待っており、何も変更できません。空きを作ると自動的に続行します。",
   "permit.off": "PLC の電源が切れています。",
   "permit.offline": "PLC に接続していません。",
@@ -209,7 +209,7 @@ export const plc: Record<keyof typeof english, string> = {
   "restart.power": "電源の再投入",
   "restart.power.hint": "実機と同じ: 保持エリアは残り、強制と異常は消えます",
   "restart.rollback": "プログラムを元に戻す",
-  "restart.rollback.hint": "最後の変更の前のバージョン {version} へ",
+  "restart.rollback.hint": "最後の変更の前の版 {version} へ",
   "restart.rollback.none": "前のプログラムはありません",
   "restart.warm": "ウォームリスタート",
   "restart.warm.hint": "RETAIN 変数と保持エリアは残ります",

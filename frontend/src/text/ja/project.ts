@@ -78,7 +78,7 @@ export const project: Record<keyof typeof english, string> = {
   "file.name": "名前",
   "file.new": "新しいファイル",
   "file.new.about":
-    "FB で始まる名前はファンクションブロック、FC はファンクション、ST_ は型、他はプログラムになります。plant/ の中のものは入力を動かします: plant/tank.st はプログラム、inputs.csv は表です。手元のファイルはエクスプローラーの上の「ファイルを追加」か、ドロップで取り込めます。",
+    "FB で始まる名前はファンクションブロック、FC はファンクション、ST_ は型、他はプログラムになります。plant/ の中のものは入力を動かします: plant/tank.st はプログラム、inputs.csv は表です。手元のファイルはエクスプローラの上の「ファイルを追加」か、ドロップで取り込めます。",
   "kind.class": "クラス",
   "kind.function": "ファンクション",
   "kind.function_block": "ファンクションブロック",

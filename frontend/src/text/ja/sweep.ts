@@ -1,4 +1,4 @@
-/** 日本語: エラー一括実行 */
+/** 日本語: 異常スイープ */
 import type { sweep as english } from "../en/sweep";
 
 export const sweep: Record<keyof typeof english, string> = {
@@ -25,7 +25,7 @@ export const sweep: Record<keyof typeof english, string> = {
   "states.taken": "状態 {name} は既にあります。別の名前を選んでください。",
   "states.title": "保存された状態",
   "sweep.accept": "承認…",
-  "sweep.accept.about": "取り消されるまで、このスイープと以後のスイープで、理由とともに試験記録に残ります。",
+  "sweep.accept.about": "取り消されるまで、このスイープと以後のスイープで、理由とともに試験成績書に残ります。",
   "sweep.accept.do": "承認",
   "sweep.accept.missing": "理由が必要です。",
   "sweep.accept.reason": "理由",
@@ -114,12 +114,12 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.none.about": "発生させることができませんでした。",
   "sweep.noplc": "仮想 PLC が選ばれていません。左上で選んでください。",
   "sweep.next.never_read":
-    "次: どの状態でも動くタスクで {flag} を参照するか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
+    "次: どの状態でも動くタスクで {flag} を参照するか、理由を付けて指摘を承認します。承認は試験成績書に残ります。",
   "sweep.next.not_reached":
-    "次: 期間を長くするか別の状態からスイープするか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
-  "sweep.next.stored_only": "次: 保存した値を処理に使うか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
+    "次: 期間を長くするか別の状態からスイープするか、理由を付けて指摘を承認します。承認は試験成績書に残ります。",
+  "sweep.next.stored_only": "次: 保存した値を処理に使うか、理由を付けて指摘を承認します。承認は試験成績書に残ります。",
   "sweep.next.no_effect":
-    "次: 参照した箇所で何らかの処理を行うか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
+    "次: 参照した箇所で何らかの処理を行うか、理由を付けて指摘を承認します。承認は試験成績書に残ります。",
   "sweep.noproject": "プロジェクトが選ばれていません。左上で選んでください。",
   "sweep.noresult": "結果はまだありません",
   "sweep.noresult.about": "この状態からこの異常はまだ試されていません。",
@@ -133,9 +133,9 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.inscan": "スキャン {scan}",
   "sweep.reads": "参照 {count} 件",
   "sweep.reads.one": "参照 1 件",
-  "sweep.record": "試験記録",
-  "sweep.record.hint": "スイープした版の PLC の試験記録（印刷用）を新しいタブで開きます",
-  "sweep.record.gone": "スイープした PLC は異常履歴とともに削除されたため、試験記録はありません",
+  "sweep.record": "試験成績書",
+  "sweep.record.hint": "スイープした版の PLC の試験成績書（印刷用）を新しいタブで開きます",
+  "sweep.record.gone": "スイープした PLC は異常履歴とともに削除されたため、試験成績書はありません",
   "sweep.resume": "再開",
   "sweep.resume.hint": "残りの {left} 回を続けます",
   "sweep.run.about": "PLC の複製で、各状態から異常を一つずつ発生させます。PLC は動き続けます。",

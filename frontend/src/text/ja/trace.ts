@@ -26,7 +26,7 @@ export const trace: Record<keyof typeof english, string> = {
   "trace.empty.about":
     "トレースは PLC のプロセス内で毎スキャン後に信号を記録します。誰も見ていなくてもサンプルは失われません。この PLC の全員で共有します。",
   "trace.empty.drag": "ドラッグ",
-  "trace.empty.drag.rest": "エクスプローラーやウォッチ表から変数をここへ。",
+  "trace.empty.drag.rest": "エクスプローラやウォッチ表から変数をここへ。",
   "trace.empty.past": "間に合わなかったら",
   "trace.empty.past.rest": "過去のスキャンを記録: 左のメニューがジャーナルから再現します。",
   "trace.empty.title": "何も記録していません",

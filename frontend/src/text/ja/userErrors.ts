@@ -1,13 +1,13 @@
-/** 日本語: ユーザー定義エラー */
+/** 日本語: ユーザー定義異常 */
 import type { userErrors as english } from "../en/userErrors";
 
 export const userErrors: Record<keyof typeof english, string> = {
-  "usererrors.about.saved": "errors.xml のバージョン {version} として保存しました。次のビルドから有効です。",
+  "usererrors.about.saved": "errors.xml の版 {version} として保存しました。次のビルドから有効です。",
   "usererrors.add": "新しい異常",
   "usererrors.address": "アドレス",
   "usererrors.adds": "コードに加算",
   "usererrors.adds.choice": "加算",
-  "usererrors.adds.hint": "数値をエラーコードに加えます",
+  "usererrors.adds.hint": "数値を異常コードに加えます",
   "usererrors.also": "{addresses} にも書き込みます。errors.xml を見てください。",
   "usererrors.base": "入力形式",
   "usererrors.base.10": "10進",
@@ -20,8 +20,8 @@ export const userErrors: Record<keyof typeof english, string> = {
   "usererrors.choice.id": "ID",
   "usererrors.choice.remove": "選択肢 {number} を削除",
   "usererrors.choices": "{name} の選択肢",
-  "usererrors.code": "エラーコード",
-  "usererrors.conflict": "{author} が先に errors.xml を保存しました（バージョン {version}）。",
+  "usererrors.code": "異常コード",
+  "usererrors.conflict": "{author} が先に errors.xml を保存しました（版 {version}）。",
   "usererrors.conflict.about": "選ぶまで、あなたの内容はここに残ります。",
   "usererrors.conflict.deleted": "errors.xml はその間に削除されました。",
   "usererrors.control": "入力方法",
@@ -43,7 +43,7 @@ export const userErrors: Record<keyof typeof english, string> = {
   "usererrors.empty.about":
     "機器の異常と並ぶ、自分の装置の異常です。プログラムが読むフラグ、コード、詳細を持ちます。異常シミュレータに機器の異常と同じように表示され、同じように試験・記録されます。",
   "usererrors.empty.code": "コードと重大度",
-  "usererrors.empty.code.rest": "は、エラーコードに何を表示し、プログラムを止めるかを決めます。",
+  "usererrors.empty.code.rest": "は、異常コードに何を表示し、プログラムを止めるかを決めます。",
   "usererrors.empty.example": "この例から始める",
   "usererrors.empty.example.name": "Pump overheated",
   "usererrors.empty.flag": "フラグ",
@@ -76,14 +76,14 @@ export const userErrors: Record<keyof typeof english, string> = {
   "usererrors.max.text": "最大文字数",
   "usererrors.memory": "メモリ",
   "usererrors.memory.keep": "そのまま残す",
-  "usererrors.memory.model": "致命的異常時のモデルの動作に従う",
+  "usererrors.memory.model": "運転停止異常時の機種の動作に従う",
   "usererrors.name": "名前（英語）",
   "usererrors.name.ja": "名前（日本語）",
   "usererrors.noname": "名前なし",
   "usererrors.noproject": "プロジェクトが開かれていません。",
   "usererrors.openfile": "errors.xml を開く",
   "usererrors.priority": "優先度",
-  "usererrors.priority.hint": "1 が最も重大。エラーコードには最も重大な異常が表示されます",
+  "usererrors.priority.hint": "1 が最も重大。異常コードには最も重大な異常が表示されます",
   "usererrors.problems": "問題 {count} 件",
   "usererrors.problems.one": "問題 1 件",
   "usererrors.select": "左で異常を選ぶか、新しく作ってください。",

@@ -123,7 +123,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.norows.yet": "最初のスキャンが比較されると行が現れます。",
   "verify.norows": "行がありません。",
   "verify.notcompared.about":
-    "プログラムが停止していたか、トレースに比較する値がありません。このスキャンについては判定しません。",
+    "プログラムが停止していたか、ログに比較する値がありません。このスキャンについては判定しません。",
   "verify.notcompared": "比較なし",
   "verify.notrun.about": "このスキャンではどちらの側でも範囲は実行されませんでした。",
   "verify.notrun": "このスキャンでは実行なし",
@@ -173,7 +173,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.set": "設定",
   "verify.side.native": "A {name} ネイティブ",
   "verify.side.reference": "A′ リファレンス",
-  "verify.side.trace": "A トレース {name}",
+  "verify.side.trace": "A ログ {name}",
   "verify.skipped.verify": "検証",
   "verify.skipped.which": "比較していないスキャン",
   "verify.skipped": "比較なし",

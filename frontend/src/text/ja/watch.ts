@@ -42,7 +42,7 @@ export const watch: Record<keyof typeof english, string> = {
   "watch.members": "メンバ {count}",
   "watch.noinstance": "仮想 PLC が選ばれていません。左上で選んでください。",
   "watch.write.to": "{value} を書込み",
-  "watch.notinversion": "バージョン {version} にはありません",
+  "watch.notinversion": "版 {version} にはありません",
   "watch.notfound": "不明",
   "watch.offers": "該当する変数とアドレス",
   "watch.readonly": "読出し専用",
