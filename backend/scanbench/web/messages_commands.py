@@ -46,7 +46,7 @@ class Release(Numbered):
 
 
 class Generate(Numbered, GenerateErrors):
-    """Raises errors, all in one seam, or none of them."""
+    """Raises errors, all between the same two scans, or none of them."""
 
     type: Literal["generate"] = "generate"
 

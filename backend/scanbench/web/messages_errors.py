@@ -116,7 +116,7 @@ class GenerateOne(Wire):
 
 
 class GenerateErrors(Wire):
-    """All of them in one seam, or none. `again`: errors that are present change to these details."""
+    """All of them between the same two scans, or none. `again`: errors that are present change to these details."""
 
     errors: list[GenerateOne] = Field(min_length=1)
     again: bool = False
@@ -146,7 +146,7 @@ class FaultShape(Wire):
 
 
 class ArmFaults(Wire):
-    """Errors with a beginning and a shape; `gap` scans from one to the next (0: all in one seam)."""
+    """Errors with a beginning and a shape; `gap` scans from one to the next (0: all between the same two scans)."""
 
     errors: list[GenerateOne] = Field(min_length=1)
     start: FaultStart = FaultStart()

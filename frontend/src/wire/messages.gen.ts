@@ -435,8 +435,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Raises errors, all in one seam, or none of them
-         * @description Raises errors, all in one seam, or none of them.
+         * Raises errors, all between the same two scans, or none of them
+         * @description Raises errors, all between the same two scans, or none of them.
          */
         post: operations["generate_instance_errors"];
         delete?: never;
@@ -2318,7 +2318,7 @@ export interface components {
         };
         /**
          * ArmFaults
-         * @description Errors with a beginning and a shape; `gap` scans from one to the next (0: all in one seam).
+         * @description Errors with a beginning and a shape; `gap` scans from one to the next (0: all between the same two scans).
          */
         ArmFaults: {
             /** Errors */
@@ -3573,7 +3573,7 @@ export interface components {
         };
         /**
          * Generate
-         * @description Raises errors, all in one seam, or none of them.
+         * @description Raises errors, all between the same two scans, or none of them.
          */
         Generate: {
             /**
@@ -3597,7 +3597,7 @@ export interface components {
         };
         /**
          * GenerateErrors
-         * @description All of them in one seam, or none. `again`: errors that are present change to these details.
+         * @description All of them between the same two scans, or none. `again`: errors that are present change to these details.
          */
         GenerateErrors: {
             /**

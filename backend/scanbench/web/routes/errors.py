@@ -26,7 +26,7 @@ async def on_model(bench: Bench, instance: Id) -> messages_models.ModelInfo:
 async def on_generate(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.GenerateErrors
 ) -> messages_errors.CommandResult:
-    """Raises errors, all in one seam, or none of them."""
+    """Raises errors, all between the same two scans, or none of them."""
     return await entered(bench, request, instance, "generate", wanted)
 
 
