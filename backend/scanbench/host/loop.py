@@ -84,8 +84,8 @@ class Loop:
 
     def change_refusal(self, new: Program) -> str:
         """Why the program cannot be changed to this one now; empty when it can. In any thread: by what was told last."""
-        standing = self._services.standing
-        return self._change_refusal(new, {} if standing is None else standing.errors)
+        in_effect = self._services.in_effect
+        return self._change_refusal(new, {} if in_effect is None else in_effect.errors)
 
     def _change_refusal(self, new: Program, present: Mapping[str, Active]) -> str:
         if self.timeline.past:

@@ -53,7 +53,7 @@ class Services:
         self._last_state: protocol.PlcState | None = None
         self._state_at = self._counted_at = self._info_at = 0
         self._diagnosed: Violations | None = None
-        self._standing: protocol.Standing | None = None
+        self._in_effect: protocol.InEffect | None = None
         self._held: Mapping[str, Force] | None = None
         self._forces: tuple[ForcedValue, ...] | None = None if timeline.live_scan else ()
         """As they were told; a run that is gone on with may have lost one that nobody was told of."""
@@ -87,9 +87,9 @@ class Services:
         return None if self._last_state is None else self._last_state.previous_version
 
     @property
-    def standing(self) -> protocol.Standing | None:
+    def in_effect(self) -> protocol.InEffect | None:
         """What holds, as it was told last; for any thread."""
-        return self._standing
+        return self._in_effect
 
     # ---- what the parent asks -------------------------------------------------------------------------------------
 
@@ -107,7 +107,7 @@ class Services:
                 frame = self._plan.snapshot(self._resource.memory, header.scan, self._time_ns)
                 self._link.post(protocol.Frame(frame, self._timeline.live_scan, message.to))
             case protocol.WantForces():
-                self._tell_standing()  # what holds is known by then, too
+                self._tell_in_effect()  # what holds is known by then, too
                 self._link.post(protocol.ForcesAre(forced_values(self._resource.view), message.ref))
             case protocol.PreviewErrors():
                 self._preview(message)
@@ -123,7 +123,7 @@ class Services:
         entries = self._timeline.new_entries()
         if entries:
             self._link.post(protocol.Entered(tuple(entries)))
-            self._tell_standing()
+            self._tell_in_effect()
 
     def before_answer(self) -> None:
         """What an answer comes after: its entries, forces and the state, where the parent keeps up. Who begins a new run after
@@ -159,7 +159,7 @@ class Services:
             now >= self._counted_at
         )  # first: who sees it run again after a death also sees the last of them
         self._tell_state(now)
-        self._tell_standing()  # after it: what is present is read as the past's or as live, by the state
+        self._tell_in_effect()  # after it: what is present is read as the past's or as live, by the state
         if now >= self._counted_at:
             self._counted_at = now + COUNTING_NS
             self._diagnose()
@@ -182,15 +182,15 @@ class Services:
         self._quick_since = self._quick_since or now
         return OPTIMISING if now - self._quick_since > NOTED_NS else ""
 
-    def _tell_standing(self) -> None:
+    def _tell_in_effect(self) -> None:
         journal = self._resource.journal
         present = journal.derived(ACTIVE)
-        standing = protocol.Standing(
+        in_effect = protocol.InEffect(
             dict(present), armed_faults(journal.derived(ARMED)), disturbances(journal.derived(DISTURBED))
         )
-        if standing != self._standing:
-            self._standing = standing
-            self._link.post(standing)
+        if in_effect != self._in_effect:
+            self._in_effect = in_effect
+            self._link.post(in_effect)
 
     def _tell_forces(self, values: bool) -> None:
         """Which forces hold at once, what they do a few times a second."""

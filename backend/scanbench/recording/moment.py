@@ -4,7 +4,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from operator import attrgetter
 
-from scanbench.recording.smaller import Standing
+from scanbench.recording.smaller import Ending
 from scanbench.runtime.inside import Inside, front
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded
@@ -37,11 +37,11 @@ class Moment:
         resource.restore(self.loaded, self.state, self.journal, self.inside)
         resource.measured = self.measured
 
-    def standing(self) -> Standing:
+    def ending(self) -> Ending:
         """The seam before its scan."""
         state = self.state if self.inside is None else self.inside.begin
         size = self.loaded.program.layout.state_size
-        return Standing(self.scan, front(self.journal, self.scan), self.loaded.version, bytes(state[:size]))
+        return Ending(self.scan, front(self.journal, self.scan), self.loaded.version, bytes(state[:size]))
 
 
 def seam(journal: Journal, scan: int, inside: bool) -> int:

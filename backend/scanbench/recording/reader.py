@@ -17,7 +17,7 @@ from scanbench.recording.format import RunFileError
 from scanbench.recording.programs import KeptPrograms, ProgramsOf
 from scanbench.recording.recording import Recording, Replaced
 from scanbench.recording.replay import NOT_AS_RECORDED, Diverged, open_at, replay
-from scanbench.recording.smaller import Standing
+from scanbench.recording.smaller import Ending
 from scanbench.recording.thinning import Checkpoint
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Refusal, Swapped
@@ -266,8 +266,8 @@ class RunReader:
         resource = self.at(scan, entries)
         self._timeline = None  # it used the same memory
         failed: list[Exception] = []
-        standing = Standing(scan, entries, resource.version, resource.state)
-        self.recording.copy(to, standing, by, lambda error: failed.append(error) if error is not None else None)
+        ending = Ending(scan, entries, resource.version, resource.state)
+        self.recording.copy(to, ending, by, lambda error: failed.append(error) if error is not None else None)
         self.recording.wait()
         if failed:
             raise failed[0]

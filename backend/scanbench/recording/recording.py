@@ -34,9 +34,9 @@ from scanbench.recording.flaws import flaws
 from scanbench.recording.format import Block, Kind, RunFile, RunFileError
 from scanbench.recording.smaller import (
     Bounds,
+    Ending,
     Seen,
     Smaller,
-    Standing,
     make_smaller,
     part_of,
     refuse_existing,
@@ -310,8 +310,8 @@ class Recording:
         """The state of `size` bytes that a checkpoint holds; `RunFileError` when it holds something else."""
         return read_state(self._writer.file, checkpoint, size)
 
-    def copy(self, path: Path, standing: Standing, by: str, on_done: Callable[[Exception | None], None]) -> None:
-        """Writes a new run file that ends at the seam `standing`, in the recording's thread, which then calls `on_done`.
+    def copy(self, path: Path, ending: Ending, by: str, on_done: Callable[[Exception | None], None]) -> None:
+        """Writes a new run file that ends at the seam `ending`, in the recording's thread, which then calls `on_done`.
 
         `OSError` at once when that is plainly impossible.
         """
@@ -322,7 +322,7 @@ class Recording:
         def write() -> None:
             failed: Exception | None = None
             try:
-                write_copy(seen, path, standing)
+                write_copy(seen, path, ending)
             except Exception as error:  # whatever it is, somebody waits for it
                 failed = error
             on_done(failed)

@@ -100,7 +100,7 @@ def _roots(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class Ending:
     """Where a copy of a run ends: the state before `scan`, and how many entries led there."""
 
     scan: int
@@ -109,20 +109,20 @@ class Standing:
     state: bytes
 
 
-def write_copy(seen: Seen, path: Path, standing: Standing) -> None:
+def write_copy(seen: Seen, path: Path, ending: Ending) -> None:
     """Writes a new run file with all that led to this state, and the state at its end; `OSError`, `RunFileError`."""
     refuse_existing(path)
 
     def keep(block: Block, before: int) -> bool:
         if block.kind is Kind.ENTRY:
-            return before < standing.entries
+            return before < ending.entries
         if block.kind is Kind.MARK:  # how the original is driven
             return False
-        return block.kind is Kind.PROGRAM or (block.scan <= standing.scan and before <= standing.entries)
+        return block.kind is Kind.PROGRAM or (block.scan <= ending.scan and before <= ending.entries)
 
     made = rewrite(seen.file, seen.end, part_of(path), seen.about.packed(), keep)
     try:
-        made.file.append(Kind.KEYFRAME, standing.scan, keyframe(standing.version, standing.state))
+        made.file.append(Kind.KEYFRAME, ending.scan, keyframe(ending.version, ending.state))
         os.fsync(made.file.fd)
         os.replace(made.file.path, path)
     except (OSError, MemoryError):

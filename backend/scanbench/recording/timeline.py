@@ -257,7 +257,7 @@ class Timeline:
                 return
             wanted = found[0]
         try:
-            self.recording.copy(path, wanted.standing(), by, done)
+            self.recording.copy(path, wanted.ending(), by, done)
         except OSError as error:
             done(error)
 

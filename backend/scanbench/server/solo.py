@@ -37,7 +37,7 @@ class Solo:
         try:
             await asyncio.to_thread(zygote().start)
             solo.session.instance.start()
-            await solo.standing()
+            await solo.settled()
         except BaseException:
             await solo.close()
             raise
@@ -60,7 +60,7 @@ class Solo:
             raise
         return Solo(session, reactions, folder.cleanup)
 
-    async def standing(self) -> None:
+    async def settled(self) -> None:
         """Waits until the PLC is there and does not run; `Refused` when it cannot be there."""
         while self.session.state.state not in _NOT_RUNNING:
             if self.session.state.state in ("failed", "no_space"):

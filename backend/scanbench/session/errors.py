@@ -12,7 +12,7 @@ from scanbench.runtime.command import Entry
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.wire import events
 from scanbench.wire.events import Event
-from scanbench.wire.host import PlcState, Standing
+from scanbench.wire.host import InEffect, PlcState
 
 LIVING = ("running", "paused", "halted", "stopped", "trapped", "fatal", "no_space")
 """States that a host tells of itself, with the version that runs."""
@@ -98,8 +98,8 @@ class Errors:
     def on_message(self, message: object) -> bool:
         """What the host says; whether it was for the errors."""
         match message:
-            case Standing():
-                self._on_standing(message)
+            case InEffect():
+                self._on_in_effect(message)
             case _:
                 return False
         return True
@@ -132,20 +132,20 @@ class Errors:
         self._history.take_model(model)
         self._publish_rows((), fresh=True)
 
-    def _on_standing(self, standing: Standing) -> None:
+    def _on_in_effect(self, in_effect: InEffect) -> None:
         """What holds now: also after a start, when entries of an earlier life or of a lost one count."""
-        if standing.armed != self._armed:
-            self._armed = standing.armed
+        if in_effect.armed != self._armed:
+            self._armed = in_effect.armed
             self._publish(events.ArmedChanged(self._armed))
-        if standing.disturbances != self._disturbances:
-            self._disturbances = standing.disturbances
+        if in_effect.disturbances != self._disturbances:
+            self._disturbances = in_effect.disturbances
             self._publish(events.Disturbances(self._disturbances))
         state = self._state()
         if state.past_by:
-            self._past_rows = self._history.as_of(standing.errors, wall_time(), state.version)
+            self._past_rows = self._history.as_of(in_effect.errors, wall_time(), state.version)
             self._tell(self._past_rows)
             return
-        self._publish_rows(self._history.reconcile(standing.errors, wall_time()))
+        self._publish_rows(self._history.reconcile(in_effect.errors, wall_time()))
 
     def _on_reaction(self, raised: Raised, found: Reaction | str) -> None:
         row = self._history.set_reaction(raised.error, raised.version, raised.scan, found)

@@ -63,7 +63,7 @@ class RunSubject:
         """See `Subject`."""
         version = self._reader.version(self.first if scan is None else max(scan, self.first))
         with self._reader.reading():
-            both = self._standing()
+            both = self._sides()
             loaded = both.control.loaded(version)
         program = loaded.program
         resolved = resolve_range(
@@ -82,7 +82,7 @@ class RunSubject:
             raise Unreadable(f"scans {self.first} to {self.end - 1} can be verified: {scan} is none of them")
 
         def run() -> tuple[Row, ...]:
-            both = self._standing()
+            both = self._sides()
             if not (both.ran_last == scan - 1 and both.control.scan == scan):
                 both.goto(scan)
             return both.run(scan, self._view)
@@ -93,7 +93,7 @@ class RunSubject:
         """See `Subject`."""
 
         def step() -> Row:
-            both = self._standing()
+            both = self._sides()
             both.goto(scan)
             return step_row(both, scan, count, self._view)
 
@@ -102,18 +102,18 @@ class RunSubject:
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
         """See `Subject`."""
         self._again(scan)
-        return self._guarded(scan, lambda: uses_of(self._standing(), call))
+        return self._guarded(scan, lambda: uses_of(self._sides(), call))
 
     def inputs(self, scan: int, call: int) -> Mapping[str, Leaf]:
         """See `Subject`."""
         self._again(scan)
-        return inputs_of(self._standing(), call)
+        return inputs_of(self._sides(), call)
 
     def edited(self, row: Row, edits: Mapping[str, Edit]) -> Row:
         """See `Subject`."""
-        return edited_row(self._standing(), row, edits)
+        return edited_row(self._sides(), row, edits)
 
-    def _standing(self) -> Both:
+    def _sides(self) -> Both:
         if self._both is None:
             control = Control(self._reader)
             monitor = Monitor(self._reader.programs, control.side.resource.version)
@@ -122,7 +122,7 @@ class RunSubject:
 
     def _again(self, scan: int) -> None:
         """The scan ran last."""
-        if self._standing().ran_last != scan or not self._standing().ran:
+        if self._sides().ran_last != scan or not self._sides().ran:
             self.run(scan)
 
     def _guarded(self, scan: int, run: Callable[[], T]) -> T:

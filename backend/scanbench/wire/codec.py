@@ -70,7 +70,7 @@ _CLASSES: dict[str, type] = {
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive, protocol.Driven,
         protocol.Entered, protocol.Found, protocol.Frame, protocol.PlcState, protocol.Lookup, protocol.Preview,
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
-        protocol.SetLimits, protocol.Sources, protocol.Standing, protocol.Start, protocol.StartFailed,
+        protocol.SetLimits, protocol.Sources, protocol.InEffect, protocol.Start, protocol.StartFailed,
         protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
         symbols.WatchItem, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,

@@ -2,7 +2,7 @@
 
 Parent to host: `Start` first, then the others in any order. A `ref` is chosen by the parent and comes back in the answer.
 Host to parent: `Ready` or `StartFailed` first. `Entered` comes for every new journal entry, in order, before the `Ack` of
-its command; `Standing` and `RunMarks` say what holds after all entries so far, also those of earlier lives.
+its command; `InEffect` and `RunMarks` say what holds after all entries so far, also those of earlier lives.
 """
 
 from dataclasses import dataclass
@@ -292,7 +292,7 @@ class PlcState:
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class InEffect:
     """What holds at the scan that is shown: the errors that are present, the faults that are armed, what disturbs it."""
 
     errors: dict[str, Active]

@@ -336,7 +336,7 @@ def test_an_error_of_the_system_by_fal_takes_nothing_over(engine: EngineFactory)
     again = plc(OMRON, engine)
     replay(again, [_packed(each) for each in resource.journal], resource.header.scan)
     assert (again.state, again.view.derived(ACTIVE)) == (resource.state, resource.view.derived(ACTIVE))
-    standing = protocol.Standing({"basic-io-error": active})
+    standing = protocol.InEffect({"basic-io-error": active})
     assert codec.unpack(codec.pack_body(standing)) == standing
     done(resource, Recover("Ada", ("basic-io-error",)))
     assert present(resource) == []

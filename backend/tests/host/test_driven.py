@@ -130,9 +130,9 @@ def test_what_was_acknowledged_is_told_before_it_is_said_to_run(tmp_path: Path, 
         assert child.ask(lambda ref: replace(force, ref=ref), protocol.Ack).ok
         killed(child)
     with Child(run, COUNTING, cache) as child:
-        while not any(isinstance(each, protocol.Standing) for each in child.messages):
+        while not any(isinstance(each, protocol.InEffect) for each in child.messages):
             child.take()
         kinds = [type(each) for each in child.messages]
         told = [each for each in child.messages if isinstance(each, protocol.ForcesAre)]
         assert [[force.path for force in each.forces] for each in told[:1]] == [["D1"]]
-        assert kinds.index(protocol.ForcesAre) < kinds.index(PlcState) < kinds.index(protocol.Standing)
+        assert kinds.index(protocol.ForcesAre) < kinds.index(PlcState) < kinds.index(protocol.InEffect)

@@ -98,7 +98,7 @@ def run_twin(
 ) -> Twin:  # fmt: skip
     """Runs from a point with these commands, each before a scan; what is refused now is left out. An entry is one that
     was made inside of its scan."""
-    resource = _standing(point, programs)
+    resource = _resource_at(point, programs)
     observer = _observer(programs, point)
     observer.watch(())
     observer.take()
@@ -132,7 +132,7 @@ class Comparison:
         self, twin: Twin, ref: ErrorRef, author: str, given: Sequence[Given] = ()
     ) -> Reaction | Refusal:  # fmt: skip
         """The reaction to an error that is raised alone, now, with the commands that follow."""
-        resource = _standing(self._point, self._programs)
+        resource = _resource_at(self._point, self._programs)
         entry = resource.submit(Generate(author, (ref,)))
         if isinstance(entry, Refusal):
             return entry
@@ -145,7 +145,7 @@ class Comparison:
         chosen = known if isinstance(known, Refusal) else choose(known, dict(ref.details), program.layout)
         if isinstance(chosen, Refusal):
             return chosen
-        resource = _standing(self._point, self._programs)
+        resource = _resource_at(self._point, self._programs)
         could_run = resource.runnable
         present = [id for id in resource.journal.derived(ACTIVE) if id != ref.id]
         _reenter(resource, generate)
@@ -324,7 +324,7 @@ def _takes_back(entry: Entry, ref: ErrorRef) -> bool:
 # ---- steps of a run ------------------------------------------------------------------------------------------------
 
 
-def _standing(point: Point, programs: Programs) -> Resource:
+def _resource_at(point: Point, programs: Programs) -> Resource:
     """A PLC at the point. There is only one at a time, as the memory of a program is one."""
     loaded = programs.get(point.version)
     resource = Resource(loaded, programs=programs, detect=Detection())
@@ -387,7 +387,7 @@ def _following(
     point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs
 ) -> _Following:
     """Runs it once more as it was: what is entered again by itself came from the PLC or its program, the rest from outside."""
-    resource = _standing(point, programs)
+    resource = _resource_at(point, programs)
     _reenter(resource, generate)
     begin = resource.header.scan
     end, note = begin + window, ""

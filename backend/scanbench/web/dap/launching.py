@@ -82,7 +82,7 @@ class Launcher:
         plc.done(await plc.session.drive("pause", None, plc.author))
         sources = replace(found.sources, version=plc.session.instance.sources.version + 1)
         plc.done(await plc.session.new_run(plc.author, sources))
-        await self._solo.standing()
+        await self._solo.settled()
         await self.begin(plc)
 
     async def end(self, plc: Debuggee) -> bool:
