@@ -93,7 +93,7 @@ export class Watch {
   }
 
   async newGroup(name: string): Promise<void> {
-    await this.more('New group...');
+    await this.more('New group…');
     await this.page.getByRole('textbox', { name: 'Name of the group' }).fill(name);
     await this.page.keyboard.press('Enter');
     await expect(this.group(name)).toBeVisible();

@@ -82,19 +82,17 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
   });
 
   await test.step('the trace is kept, and the next one is compared with it', async () => {
-    await trace.choose('Export', 'Keep as a record...');
+    await trace.choose('Export', 'Keep as a record…');
     await mika.page.getByRole('dialog').getByLabel('Name').fill('first jam');
     await mika.page.getByRole('dialog').getByRole('button', { name: 'Keep' }).click();
     await expect(mika.page.getByRole('dialog')).toBeHidden();
     await trace.show();
-    await trace.choose('Compare with...', 'first jam');
-    await expect(trace.pane.getByRole('button', { name: 'Compare with...' })).toContainText(
-      'With first jam, by trigger',
-    );
+    await trace.choose('Compare with…', 'first jam');
+    await expect(trace.pane.getByRole('button', { name: 'Compare with…' })).toContainText('With first jam, by trigger');
   });
 
   await test.step('a retrospective trace records any signals of the last 1,000 scans', async () => {
-    await trace.choose('Choose a trace', 'Record earlier scans...');
+    await trace.choose('Choose a trace', 'Record earlier scans…');
     const dialog = mika.page.getByRole('dialog');
     await dialog.getByLabel('Signals, one per line').fill('Main.uptime\nMain.belt.position\nlamp');
     await dialog.getByLabel(/Number of scans/).fill('1000');

@@ -105,7 +105,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
     expect(await verify.export('CSV table')).toContain(String(scan));
     expect(await verify.export('HTML report')).toContain('Main.belt.position');
     await verify.press('Export');
-    await ada.page.getByRole('menuitem', { name: 'Keep as a record...' }).click();
+    await ada.page.getByRole('menuitem', { name: 'Keep as a record…' }).click();
     const dialog = ada.page.getByRole('dialog', { name: 'Keep the verification' });
     await dialog.getByLabel('Name').fill('flipped bit');
     await dialog.getByRole('button', { name: 'Keep' }).click();
@@ -118,7 +118,7 @@ test('a range is verified, and a single flipped bit is found at its scan and var
 
   await test.step('verifying the same past scans afterwards gives the same result', async () => {
     await verify.press('Choose a verification');
-    await ada.page.getByRole('menuitem', { name: 'Verify this range again...' }).click();
+    await ada.page.getByRole('menuitem', { name: 'Verify this range again…' }).click();
     await verify.dialog.getByRole('radio', { name: 'Past scans' }).click();
     await verify.dialog.getByLabel('First scan').fill(String(scan - 20));
     await verify.dialog.getByLabel('Last scan').fill(String(scan + 20));
@@ -145,7 +145,7 @@ test('set data shows whether the input or the logic caused a wrong result', { ta
   let scan = 0;
   await test.step('an instruction gives a wrong result', async () => {
     await ada.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).click({ button: 'right' });
-    await ada.page.getByRole('menuitem', { name: 'Verify Belt...' }).click();
+    await ada.page.getByRole('menuitem', { name: 'Verify Belt…' }).click();
     await expect(verify.dialog.getByLabel('POU')).toHaveValue('Belt');
     await verify.dialog.getByRole('button', { name: 'Verify', exact: true }).click();
     await expect(verify.dialog).toBeHidden();

@@ -18,11 +18,11 @@ export class FakeServer {
   readonly sent: ClientMessage[] = [];
   /** What it asked over HTTP. */
   readonly asked: Question[] = [];
-  /** Asked for, and nothing here knows it: a test that lets this happen fails. */
+  /** Requests that no route answers: a test with any of them fails. */
   readonly unknown: string[] = [];
   /** The variables and addresses that can be watched. */
   readonly symbols = new Map<string, PlcSymbol>();
-  /** The names that come near to one that is not known. */
+  /** The names that are similar to an unknown one. */
   near: string[] = [];
   instance: Instance;
   private readonly routes: [string, RegExp, Route][] = [];
@@ -32,7 +32,7 @@ export class FakeServer {
   private nextId = 1;
   private socket: FakeSocket | null = null;
 
-  /** Number of the project and of the PLC: another one for each test, so that the page forgets what was before. */
+  /** The number of the project and of the PLC: a different one for each test, so that the page forgets the previous test. */
   constructor(id: number) {
     this.instance = someInstance(id, someProject(id));
     usualRoutes(
@@ -58,7 +58,7 @@ export class FakeServer {
     this.socket?.receive(JSON.stringify(message));
   }
 
-  /** The PLC is in another state. */
+  /** The state of the PLC changes. */
   becomes(change: Partial<InstanceState>): void {
     this.instance = { ...this.instance, state: { ...this.instance.state, ...change } };
     this.say({ type: "state", state: this.instance.state });
@@ -70,7 +70,7 @@ export class FakeServer {
     this.values.set(symbol.path, BigInt(value));
   }
 
-  /** A variable has another value from the next scan on. */
+  /** A variable has a new value from the next scan on. */
   set(path: string, value: number | bigint | boolean): void {
     this.values.set(path, BigInt(value));
     this.sendFrame([...this.ids].filter(([, watched]) => watched === path).map(([id]) => id));

@@ -119,7 +119,7 @@ export const watch = {
   "watch.group.leave": "Remove from group",
   "watch.group.make": "Make group",
   "watch.group.name": "Name of the group",
-  "watch.group.new": "New group...",
+  "watch.group.new": "New group…",
   "watch.group.remove": "Delete group, keep its entries",
   "watch.group.rename": "Rename group",
   "watch.group.to": "Move to group {name}",

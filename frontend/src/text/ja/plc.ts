@@ -93,7 +93,7 @@ export const plc: Record<keyof typeof english, string> = {
   "state.silent.detail": "最後の値を表示中",
   "state.starting": "起動中",
   "state.stopped": "停止",
-  "state.trapped": "プログラム異常停止",
+  "state.trapped": "実行時エラー",
   "state.unknown": "状態不明",
   "trap.about":
     "プログラムは停止し、出力はオフです（メモリ保持時も同じ）。次に: 修正してビルド、または変数を保ったまま解除して続行、またはすべて初期化してコールドリスタート。",

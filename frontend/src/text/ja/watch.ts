@@ -120,7 +120,7 @@ export const watch: Record<keyof typeof english, string> = {
   "watch.group.leave": "グループから外す",
   "watch.group.make": "グループを作成",
   "watch.group.name": "グループ名",
-  "watch.group.new": "新しいグループ...",
+  "watch.group.new": "新しいグループ…",
   "watch.group.remove": "グループを削除 (項目は残す)",
   "watch.group.rename": "グループ名を変更",
   "watch.group.to": "グループ {name} へ",
