@@ -96,7 +96,7 @@ TABLE: dict[str, str] = {
     "T007": "CASE label that is not constant or occurs twice",
     "T008": "FOR loop that cannot be counted",
     "T009": "EXIT or CONTINUE outside of a loop",
-    "T010": "something that can be called, read or indexed only elsewhere",
+    "T010": "name used in a way that its kind does not allow",
     "T011": "write to read-only memory of the model",
     "T012": "constant index outside of the array",
     "T013": "reference to something that cannot be referred to",
@@ -118,6 +118,6 @@ TABLE: dict[str, str] = {
     "M006": "access ranges with a gap or an overlap",
     "M007": "number that does not fit its field",
     "M008": "error detail that is incomplete",
-    "M009": "model that a model is based on, and that cannot be used",
+    "M009": "base model that cannot be used",
     "M010": "special address or instruction that does not fit its role or error",
 }

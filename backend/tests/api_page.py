@@ -11,17 +11,17 @@ HEAD = """# The REST API and the sockets
 Made by `python -m tests.api_page` (in `backend/`); do not edit.
 
 The server describes itself at `GET /api/openapi.json` (OpenAPI 3.1), from which a client can be generated. The token comes as `Authorization: Bearer`, as
-`?token=`, or by the cookie `scanbench_token_<port>`, which the server sets when the page is opened with `?token=`. Who one is comes as
-`?scanbench_user=` or as a cookie of that name. What is refused is answered with 4xx and a `Refusal`: a message, and what was perhaps meant. [Scripts](scripts.md) has examples.
+`?token=`, or by the cookie `scanbench_token_<port>`, which the server sets when the page is opened with `?token=`. The name of the user comes as
+`?scanbench_user=` or as a cookie of that name. A refusal has a status of 4xx and a `Refusal`: a message, and similar names if there are any. [Scripts](scripts.md) has examples.
 
-Names of operations and paths are kept: what goes is named in the [changelog](../CHANGELOG.md) first. Fields may be added to an answer at any time.
+Names of operations and paths are stable: a removal is announced in the [changelog](../CHANGELOG.md) first. Fields may be added to an answer at any time.
 """
 SOCKETS = """## Sockets
 
 | address | what |
 |---|---|
 | `/api/instances/{instance}/socket` | `ClientMessage` in; `Hello`, then `ServerMessage` and binary frames of values out; `Alive` after 5 s of silence |
-| `/api/instances/{instance}/dap` | the Debug Adapter Protocol, one message a text: a debug session of its own ([docs](dap.md)) |
+| `/api/instances/{instance}/dap` | the Debug Adapter Protocol, one message per text frame; each connection is a debug session ([docs](dap.md)) |
 """
 
 

@@ -14,8 +14,8 @@ KINDS = {
     Kind.TIME: "duration", Kind.DATE: "date or time of day", Kind.CHAR: "character", Kind.STRING: "string",
 }  # fmt: skip
 FIRST_CALLS = (
-    "The first call of an `R_TRIG` says Q when CLK is TRUE. The first call of an `F_TRIG` never says Q: nothing has fallen yet.",
-    "The body that IEC 61131-3 prints for F_TRIG says Q there when CLK is FALSE; a program that counts on it sees one pulse less",
+    "The first call of an `R_TRIG` sets Q when CLK is TRUE. The first call of an `F_TRIG` never sets Q, because there was no edge yet.",
+    "The body that IEC 61131-3 prints for F_TRIG sets Q there when CLK is FALSE; a program that relies on it sees one pulse less",
     "here, in its first scan. Inputs with `R_EDGE` and `F_EDGE` do the same.",
 )
 LETTERS = {"s": "string", "n": "integer"}
@@ -29,11 +29,11 @@ def page() -> str:
         "Made by `python -m tests.standard_page` (in `backend/`); do not edit.",
         "",
         "Names may end in a type: `ADD_INT`, `MAX_LREAL`, `SHL_WORD`. Arguments are given in order or by name;",
-        "EN and ENO go with every function. Results wrap at the width of their type; a division of integers by zero traps.",
+        "Every function can have EN and ENO. Results wrap at the width of their type; an integer division by zero is a run-time error.",
         "",
         "## Functions",
         "",
-        "| function | takes and gives |",
+        "| function | parameters and result |",
         "|---|---|",
         *(f"| `{name}({', '.join(row.formals)}{', ...' if row.variadic else ''})` | {says(row)} |"
           for name, row in FUNCTIONS.items()),
@@ -58,7 +58,7 @@ def page() -> str:
 
 
 def says(row: Row) -> str:
-    """What a function takes and gives, in words."""
+    """The parameters and the result of a function, in words."""
     match row:
         case Special(says=text):
             return text
