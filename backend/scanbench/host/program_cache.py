@@ -14,7 +14,8 @@ from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
 from scanbench.wire.host import Sources
 
-_ROOMS = ("syntax", "check", "plcmodel", "engines")
+ROOMS = ("syntax", "plcmodel", "program", "symbols", "check", "engines")
+"""What makes programs, and what they are made of."""
 
 
 def key_of(sources: Sources, model: Model) -> str:
@@ -34,7 +35,7 @@ def _own_code() -> str:
     package = files("scanbench")
     digest = hashlib.sha256(sys.version.encode())
     for path, data in [("problems.py", package.joinpath("problems.py").read_bytes())] + [
-        found for room in _ROOMS for found in _texts(package.joinpath(room), room)
+        found for room in ROOMS for found in _texts(package.joinpath(room), room)
     ]:
         digest.update(f"{path} {len(data)}\n".encode() + data)
     return digest.hexdigest()

@@ -1,12 +1,14 @@
 """Quick code first, optimised code later, and what is known already at once: all compute the same."""
 
 import gc
+import re
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import pytest
 
+import scanbench
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.native import worker
 from scanbench.engines.native.parts import Part
@@ -180,6 +182,14 @@ def test_what_a_program_depends_on_is_in_its_key(monkeypatch: pytest.MonkeyPatch
     assert known.key_of(sources(version=9), model) in keys
     monkeypatch.setattr(known, "_own_code", lambda: "another version of ours")
     assert known.key_of(one, model) not in keys
+
+
+def test_all_rooms_that_have_a_part_in_a_program_are_in_its_key() -> None:
+    """Else a newer version would find what an older one has made."""
+    package = Path(scanbench.__file__).parent
+    texts = [path.read_text("utf-8") for room in known.ROOMS for path in (package / room).rglob("*.py")]
+    used = {room for text in texts for room in re.findall(r"^from scanbench\.(\w+)", text, re.MULTILINE)}
+    assert used - {"garbage", "problems", "public"} == set(known.ROOMS)  # problems.py is in it by itself
 
 
 def test_where_the_worker_dies_quick_code_runs_on(monkeypatch: pytest.MonkeyPatch) -> None:
