@@ -216,13 +216,14 @@ class RunFile:
 
     def scan_blocks(self) -> Iterator[Block]:
         """Every good block after `end`, each with a right checksum: all blocks of a file just opened. `end` moves past them,
-        and `damage` says why they end."""
+        and `damage` says why they end. `RunFileError` at one that only a newer version knows: that is no damage."""
         size = os.fstat(self.fd).st_size
         offset, block = self.end, None
         self.damage = None
         while offset < size:
             good = self._good_block(offset, size)
             if good is None:
+                self._refuse_newer(offset, size)
                 self.damage = self._damage(offset, size)
                 break
             yield good
@@ -258,10 +259,26 @@ class RunFile:
         block = _decode(head, offset)
         if block is None or block.end > size:
             return None
+        return block if self._is_right(head, block.payload_offset, block.end) else None
+
+    def _is_right(self, head: bytes, begin: int, end: int) -> bool:
+        """Whether the checksum in the head of a block is that of the block."""
         crc = zlib.crc32(head[: -_CRC.size])
-        for at in range(block.payload_offset, block.end, _CHUNK):
-            crc = zlib.crc32(os.pread(self.fd, min(_CHUNK, block.end - at), at), crc)
-        return block if crc == _CRC.unpack_from(head, _BLOCK.size - _CRC.size)[0] else None
+        for at in range(begin, end, _CHUNK):
+            crc = zlib.crc32(os.pread(self.fd, min(_CHUNK, end - at), at), crc)
+        return bool(crc == _CRC.unpack_from(head, _BLOCK.size - _CRC.size)[0])
+
+    def _refuse_newer(self, offset: int, size: int) -> None:
+        head = self._head(offset, size)
+        if len(head) < _BLOCK.size or _decode(head, offset) is not None:
+            return
+        sync, kind, packing, _, length, _, _ = _BLOCK.unpack(head)
+        begin = offset + _BLOCK.size
+        if sync == _SYNC and begin + length <= size and self._is_right(head, begin, begin + length):
+            raise RunFileError(
+                f"{self.path.name}: the block at byte {offset} is of kind {kind}, packed in way {packing}, which this scanbench "
+                "does not know. Open it with the version of scanbench that wrote it"
+            )
 
     def _damage(self, offset: int, size: int) -> Damage:
         last, lost = self._after(offset + 1, size)
