@@ -1,6 +1,6 @@
 """Values against the annotations of dataclasses: what came over a link, out of a file or from a client is what it says it is.
 
-Clients and databases give `plain` values: mappings and lists, of which dataclasses and tuples are made. The codec has made these
+Clients and databases give plain values: mappings and lists, of which dataclasses and tuples are made. The codec has made these
 already. This module imports nothing of ours: every room may use it.
 """
 
@@ -13,6 +13,9 @@ from typing import Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 T = TypeVar("T")
 Read = Callable[[object], object]
+Given = Literal["made", "typed", "kept"]
+"""By the codec, which makes dataclasses; by a client as plain values; by a database or file, also as plain values, which a
+newer version may have written."""
 _NAMES: dict[type, str] = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
 
 
@@ -30,12 +33,23 @@ class _Wrong(BadValue):
 
 def make(cls: type[T], given: Mapping[str, object]) -> T:
     """The dataclass of these fields: lists become tuples, mappings become dataclasses or pairs. `BadValue` names what is wrong."""
+    return _make(cls, given, "typed")
+
+
+def make_kept(cls: type[T], given: Mapping[str, object]) -> T:
+    """The same of what was kept: fields that are not known, at any depth, are those of a newer version, and are left alone."""
+    return _make(cls, given, "kept")
+
+
+def _make(cls: type[T], given: Mapping[str, object], how: Given) -> T:
     build: Callable[..., T] = cls
     known: type = cls
-    readers = field_readers(known, plain=True)
+    readers = field_readers(known, how)
     made: dict[str, object] = {}
     for name, value in given.items():
         if name not in readers:
+            if how == "kept":
+                continue
             raise BadValue(f"{name} is unknown; there are {', '.join(readers)}")
         try:
             made[name] = readers[name](value)
@@ -60,10 +74,10 @@ def check(cls: type, values: Sequence[object]) -> None:
 
 
 @cache
-def field_readers(cls: type, plain: bool = False) -> dict[str, Read]:
+def field_readers(cls: type, how: Given = "made") -> dict[str, Read]:
     """What reads each field of a dataclass, in their order."""
     hints = get_type_hints(cls)
-    return {each.name: _reader(hints[each.name], plain) for each in fields(cls)}
+    return {each.name: _reader(hints[each.name], how) for each in fields(cls)}
 
 
 @cache
@@ -86,29 +100,29 @@ def _required(cls: type) -> tuple[str, ...]:
     return tuple(each.name for each in fields(cls) if each.default is MISSING and each.default_factory is MISSING)
 
 
-def _reader(hint: object, plain: bool) -> Read:
+def _reader(hint: object, how: Given) -> Read:
     """What takes a value of this annotation, and refuses all others."""
     origin, args = get_origin(hint), get_args(hint)
     if origin is Literal:
         return _one_of(args)
     if origin in (Union, UnionType):
-        return _union(args, plain)
+        return _union(args, how)
     if origin is tuple:
-        return _each(args[0], plain) if args[1:] == (Ellipsis,) else _pair(args, plain)
+        return _each(args[0], how) if args[1:] == (Ellipsis,) else _pair(args, how)
     if origin in (Sequence, list):
-        return _each(args[0], plain)
+        return _each(args[0], how)
     if origin in (Mapping, dict):
-        return _mapping(_reader(args[0], plain), _reader(args[1], plain))
+        return _mapping(_reader(args[0], how), _reader(args[1], how))
     if not isinstance(hint, type) or hint is object:
         return lambda value: value
     if issubclass(hint, Enum):
         return _one_of(tuple(each.value for each in hint))
-    return _dataclass(hint) if plain and is_dataclass(hint) else _of(hint, plain)
+    return _dataclass(hint, how) if how != "made" and is_dataclass(hint) else _of(hint, how)
 
 
-def _of(hint: type, plain: bool) -> Read:
+def _of(hint: type, how: Given) -> Read:
     types = (int, float) if hint is float else (hint,)
-    no_bool = plain and hint in (int, float)
+    no_bool = how != "made" and hint in (int, float)
 
     def read(value: object) -> object:
         if not isinstance(value, types) or (no_bool and isinstance(value, bool)):
@@ -118,12 +132,12 @@ def _of(hint: type, plain: bool) -> Read:
     return read
 
 
-def _dataclass(hint: type) -> Read:
+def _dataclass(hint: type, how: Given) -> Read:
     def read(value: object) -> object:
         if isinstance(value, hint):
             return value
         if isinstance(value, Mapping):
-            return make(hint, value)
+            return _make(hint, value, how)
         raise _Wrong("an object", value)
 
     return read
@@ -138,8 +152,8 @@ def _one_of(allowed: tuple[object, ...]) -> Read:
     return read
 
 
-def _union(args: tuple[object, ...], plain: bool) -> Read:
-    readers = [_reader(each, plain) for each in args if each is not NoneType]
+def _union(args: tuple[object, ...], how: Given) -> Read:
+    readers = [_reader(each, how) for each in args if each is not NoneType]
     optional = NoneType in args
 
     def read(value: object) -> object:
@@ -156,12 +170,12 @@ def _union(args: tuple[object, ...], plain: bool) -> Read:
     return read
 
 
-def _each(hint: object, plain: bool) -> Read:
-    each = _reader(hint, plain)
+def _each(hint: object, how: Given) -> Read:
+    each = _reader(hint, how)
     wanted = "a list of objects" if isinstance(hint, type) and is_dataclass(hint) else "a list"
 
     def read(value: object) -> object:
-        items = tuple(value.items()) if plain and isinstance(value, Mapping) else value
+        items = tuple(value.items()) if how != "made" and isinstance(value, Mapping) else value
         if not isinstance(items, tuple | list):
             raise _Wrong(wanted, value)
         return tuple(map(each, items))
@@ -169,8 +183,8 @@ def _each(hint: object, plain: bool) -> Read:
     return read
 
 
-def _pair(args: tuple[object, ...], plain: bool) -> Read:
-    readers = [_reader(each, plain) for each in args]
+def _pair(args: tuple[object, ...], how: Given) -> Read:
+    readers = [_reader(each, how) for each in args]
 
     def read(value: object) -> object:
         if not isinstance(value, tuple | list) or len(value) != len(readers):

@@ -15,7 +15,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.resource import Resource, not_kept
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
-from scanbench.wire.codec import BadMessage, pack_body, unpack
+from scanbench.wire.codec import BadMessage, pack_body, unpack_kept
 
 
 class Driving:
@@ -231,7 +231,7 @@ def driven_of(timeline: Timeline) -> protocol.Driven:
     """How the run file says that the PLC is driven; as usual where it does not say that."""
     kept = timeline.recording.driven
     try:
-        driven = unpack(kept) if kept else None
+        driven = unpack_kept(kept) if kept else None
     except BadMessage:
         driven = None
     match driven:

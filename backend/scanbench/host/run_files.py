@@ -91,7 +91,10 @@ def sources_in(kept: KeptProgram) -> Sources:
     try:
         sources = unpack(kept.sources)
     except BadMessage as error:
-        raise RunFileError(f"program version {kept.version} of the run file cannot be read: {error}") from error
+        raise RunFileError(
+            f"program version {kept.version} of the run file cannot be read: {error}. "
+            "Open it with the version of scanbench that wrote it"
+        ) from error
     if not isinstance(sources, Sources) or not _is_right(sources):
         raise RunFileError(f"program version {kept.version} of the run file has no sources")
     return sources

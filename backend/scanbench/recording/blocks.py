@@ -14,7 +14,7 @@ and errors that still hold were entered there.
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from datetime import datetime
 from struct import Struct
 from typing import Protocol
@@ -30,6 +30,7 @@ from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
 from scanbench.runtime.header import Header
 from scanbench.runtime.journal import AnyFold
+from scanbench.typed import BadValue, make_kept
 
 _VERSION = Struct("<I")
 _DIGEST = 64
@@ -255,10 +256,9 @@ class Reader:
 
 def _read_about(file: RunFile, block: Block) -> About:
     try:
-        about = About(**json.loads(file.payload(block, _ABOUT_MOST)))
-    except (ValueError, TypeError, RecursionError) as error:
+        told: object = json.loads(file.payload(block, _ABOUT_MOST))
+        if not isinstance(told, dict):
+            raise BadValue("it is no object")
+        return make_kept(About, told)
+    except (ValueError, RecursionError) as error:
         raise RunFileError(f"{file.path.name} does not say what was recorded: {error}") from error
-    for each in fields(About):
-        if type(getattr(about, each.name)) is not each.type:
-            raise RunFileError(f"{file.path.name} does not say what was recorded: {each.name} is not right")
-    return about

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 
 from scanbench.faults.reaction.reaction import Reaction
-from scanbench.typed import make
+from scanbench.typed import make_kept
 
 
 def to_json(reaction: Reaction) -> dict[str, object]:
@@ -14,5 +14,5 @@ def to_json(reaction: Reaction) -> dict[str, object]:
 
 
 def from_json(told: Mapping[str, object]) -> Reaction:
-    """The reaction that `to_json` wrote; `BadValue` says which field is missing or of the wrong kind."""
-    return make(Reaction, told)
+    """The reaction that `to_json` wrote, perhaps of a newer version; `BadValue` says which field is missing or of the wrong kind."""
+    return make_kept(Reaction, told)

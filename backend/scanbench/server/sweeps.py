@@ -20,10 +20,12 @@ from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
+from scanbench.server.kept import unreadable
 from scanbench.server.states import NOW, States
 from scanbench.session.session import Session
 from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus, SweptError
 from scanbench.store.store import Store
+from scanbench.typed import BadValue
 from scanbench.wire.events import SweepChanged
 from scanbench.wire.host import Sources
 from scanbench.wire.jobs import CellFound, JobDone, RunSweep, StartPoint, Trying
@@ -134,7 +136,10 @@ class Sweeps:
         told = await asyncio.to_thread(self._store.sweeps.reaction, id, error, state)
         if told is None:
             raise NotFound(f"this sweep knows no reaction to {error} from {state}")
-        return from_json(told)
+        try:
+            return from_json(told)
+        except BadValue as why:
+            raise unreadable(f"the reaction to {error} from {state}", why) from why
 
     async def compare(self, before: int, after: int) -> Comparison:
         """What became of the cells from one sweep to the other."""

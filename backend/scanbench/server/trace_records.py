@@ -7,18 +7,18 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import cast
 
 from scanbench.engines.sample import MAX_SIGNALS
 from scanbench.jobs.client import FAULT, Make, alone
 from scanbench.runtime.clock import fresh_token
+from scanbench.server.kept import readable, unreadable
 from scanbench.session.session import Session
 from scanbench.store.records import Json, KeptRow
 from scanbench.store.store import Store
 from scanbench.taps.spool import Spool, read_pages
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, TooMany, TraceBuffer, buffer_of
-from scanbench.typed import make
+from scanbench.typed import BadValue, make_kept
 from scanbench.wire.events import RetrospectiveChanged
 from scanbench.wire.refused import Refused
 from scanbench.wire.traces import RecordRetrospective, RetrospectiveAt, RetrospectiveDone, TraceStatus
@@ -98,7 +98,7 @@ class TraceRecords:
 
     async def of_project(self, project: int) -> list[TraceRecord]:
         """The newest first."""
-        return list(map(_record, await asyncio.to_thread(self._store.kept.all, "trace", project)))
+        return readable(await asyncio.to_thread(self._store.kept.all, "trace", project), _record)
 
     async def one(self, id: int) -> TraceRecord:
         """One record."""
@@ -279,10 +279,8 @@ def _loaded(path: Path, record: TraceRecord) -> TraceBuffer:
 
 
 def _record(row: KeptRow) -> TraceRecord:
-    content = row.content
-    signals = tuple(make(TraceSignal, each) for each in cast("list[dict[str, object]]", content["signals"]))
-    number: Callable[[str], int] = lambda name: cast(int, content[name])  # noqa: E731
-    return TraceRecord(
-        row, "trace" if content["origin"] == "trace" else "retrospective", signals, number("every"), cast("int | None", content["triggered"]), number("first"),
-        number("end"), number("rows"), number("interval_ns"), number("version"),
-    )  # fmt: skip
+    origin = "trace" if row.content.get("origin") == "trace" else "retrospective"
+    try:
+        return make_kept(TraceRecord, {**row.content, "origin": origin, "row": row})
+    except BadValue as error:
+        raise unreadable(f"the record {row.name}", error) from error

@@ -13,9 +13,11 @@ from scanbench.program.program import Program
 from scanbench.public import Public
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.runtime.programs import NoProgram
+from scanbench.server.kept import readable, unreadable
 from scanbench.session.session import Session
 from scanbench.store.records import MappingRow, NotFound
 from scanbench.store.store import Store
+from scanbench.typed import BadValue, make_kept
 from scanbench.verify.trace.bind import check
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping, fits, propose
 from scanbench.verify.trace.read import MAX_BYTES, read_trace
@@ -124,8 +126,7 @@ class TraceFiles:
             return await asyncio.to_thread(work)
 
     def _proposal(self, table: Table, saved: list[MappingRow], sources: Sources | None) -> TraceMapping:
-        for row in saved:
-            mapping = mapping_of(row)
+        for mapping in readable(saved, mapping_of):
             if fits(mapping, table):
                 return mapping
         if sources is None:
@@ -156,10 +157,10 @@ class TraceFiles:
     async def save_mapping(self, project: int, name: str, mapping: TraceMapping, author: str) -> MappingRow:
         """Saves one; it replaces that of the same name."""
         try:
-            TraceMapping.from_json(mapping.to_json())
+            kept = TraceMapping.from_json(mapping.to_json())
         except BadMapping as bad:
             raise Refused(str(bad)) from bad
-        content = json.loads(mapping.to_json())
+        content = json.loads(kept.to_json())
         return await asyncio.to_thread(self._store.mappings.save, project, name, content, author)
 
     async def delete_mapping(self, mapping: int) -> None:
@@ -169,4 +170,7 @@ class TraceFiles:
 
 def mapping_of(row: MappingRow) -> TraceMapping:
     """The mapping that was saved."""
-    return TraceMapping.from_json(json.dumps(row.content))
+    try:
+        return make_kept(TraceMapping, row.content)
+    except BadValue as error:
+        raise unreadable(f"the mapping {row.name}", error) from error

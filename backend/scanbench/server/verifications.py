@@ -12,6 +12,7 @@ from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
 from scanbench.runtime.clock import monotonic_ns, wall_time
+from scanbench.server.kept import readable, unreadable
 from scanbench.server.uploads import TraceFile
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.server.verify_rows import Rows, RowsPage
@@ -20,7 +21,7 @@ from scanbench.store.records import Json, KeptRow, NotFound
 from scanbench.store.store import Store
 from scanbench.verify.contract import Memory, Range
 from scanbench.verify.trace.mapping import TraceMapping
-from scanbench.wire.codec import BadMessage, Splitter, pack, pack_body, unpack
+from scanbench.wire.codec import LENGTH, BadMessage, pack, pack_body, unpack_kept
 from scanbench.wire.events import VerificationsChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import KeptRows, UseRow
@@ -229,7 +230,7 @@ class Verifications:
 
     async def records(self, project: int) -> list[Kept]:
         """The newest first."""
-        return [_kept(row) for row in await asyncio.to_thread(self._store.kept.all, "verification", project)]
+        return readable(await asyncio.to_thread(self._store.kept.all, "verification", project), _kept)
 
     async def record(self, id: int) -> Kept:
         """One that was kept."""
@@ -268,7 +269,7 @@ class Verifications:
         """Its rows as a file."""
         kept = await self.record(id)
         project = (await asyncio.to_thread(self._store.projects.get, kept.row.project)).name
-        head = _head(kept.status, project, kept.row.instance, str(kept.row.content["model"]), iso(kept.row.at))
+        head = _head(kept.status, project, kept.row.instance, str(kept.row.content.get("model", "")), iso(kept.row.at))
         return await asyncio.to_thread(lambda: _exported(head, self._read(id), format))
 
     def _read(self, id: int) -> Rows:
@@ -276,9 +277,11 @@ class Verifications:
         rows = self._read_last.get(id)
         if rows is None:
             try:
-                (came,) = Splitter().feed(self._path(id).read_bytes())
-            except (OSError, ValueError, BadMessage) as error:
+                came = unpack_kept(self._path(id).read_bytes()[LENGTH.size :])
+            except OSError as error:
                 raise Refused(f"the rows of this record cannot be read: {error}") from error
+            except BadMessage as error:
+                raise unreadable("the rows of this record", error) from error
             assert isinstance(came, KeptRows)
             rows = Rows.of(came)
             self._read_last = {id: rows}
@@ -316,6 +319,9 @@ def _exported(head: ReportHead, rows: Rows, format: Format) -> Exported:
 
 def _kept(row: KeptRow) -> Kept:
     """The status is kept as the rows are, packed."""
-    status = unpack(bytes.fromhex(str(row.content["status"])))
+    try:
+        status = unpack_kept(bytes.fromhex(str(row.content.get("status"))))
+    except (ValueError, BadMessage) as error:
+        raise unreadable(f"the record {row.name}", error) from error
     assert isinstance(status, VerificationStatus)
     return Kept(row, status)

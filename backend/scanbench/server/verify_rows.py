@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from scanbench.public import Public
 from scanbench.verify.contract import Column, Row
-from scanbench.wire.codec import unpack
+from scanbench.wire.codec import unpack_kept
 from scanbench.wire.verification import KeptRows, PackedRow, ScansVerified
 
 MOST_ROWS = 20_000
@@ -148,6 +148,6 @@ class Rows:
 
 def row_of(packed: PackedRow) -> Row:
     """The row in these bytes."""
-    row = unpack(packed.data)
+    row = unpack_kept(packed.data)
     assert isinstance(row, Row)
     return row

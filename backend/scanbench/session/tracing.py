@@ -1,19 +1,21 @@
 """The traces of one PLC, seen from the parent: what people want recorded, and what the host says of it."""
 
+import logging
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
-from typing import Protocol, TypeVar, cast
+from typing import Protocol, TypeVar
 
 from scanbench.store.records import Json, NotFound
 from scanbench.taps.trace import TraceDefinition
 from scanbench.taps.trace_buffer import Samples
-from scanbench.typed import make
+from scanbench.typed import BadValue, make_kept
 from scanbench.wire import events
 from scanbench.wire import host as protocol
 from scanbench.wire.refused import Refused, Unavailable
 from scanbench.wire.traces import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 
+log = logging.getLogger("scanbench")
 A = TypeVar("A")
 
 
@@ -28,8 +30,8 @@ class _Wanted:
     """What the next host is told, when this one dies or is switched off."""
 
     definition: TraceDefinition
-    by: str
-    on: bool
+    by: str = ""
+    on: bool = False
 
 
 class Tracing:
@@ -41,7 +43,7 @@ class Tracing:
     ) -> None:  # fmt: skip
         """`kept` is what an earlier life of the server gave to `keep`."""
         self._ask, self._publish, self._keep = ask, publish, keep
-        self._wanted = {number: _read(content) for number, content in kept.items()}
+        self._wanted = {number: wanted for number, each in kept.items() if (wanted := _read(each)) is not None}
         self._told: dict[int, TraceStatus] = {}
         self._next = max(self._wanted, default=0) + 1
 
@@ -155,6 +157,9 @@ def _json(wanted: _Wanted) -> Json:
     return asdict(wanted)
 
 
-def _read(content: Json) -> _Wanted:
-    definition = make(TraceDefinition, cast("Mapping[str, object]", content["definition"]))
-    return _Wanted(definition, str(content["by"]), bool(content["on"]))
+def _read(content: Json) -> _Wanted | None:
+    try:
+        return make_kept(_Wanted, content)
+    except BadValue as error:
+        log.error("a trace that another version of Scanbench kept is left out: %s", error)
+        return None

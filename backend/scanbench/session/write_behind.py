@@ -19,7 +19,7 @@ from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.session.keeper import Keeper
 from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
-from scanbench.typed import BadValue, make
+from scanbench.typed import BadValue, make_kept
 from scanbench.wire.events import LogEntry
 from scanbench.wire.host import MarkKind
 
@@ -246,6 +246,7 @@ def line_of(kept: LogRow) -> LogEntry:
 def breakpoint_of(kept: Mapping[str, object]) -> Breakpoint | None:
     """A breakpoint as the store has it; None if a different version of Scanbench stored something that this one does not know."""
     try:
-        return make(Breakpoint, kept)
-    except BadValue:
+        return make_kept(Breakpoint, kept)
+    except BadValue as error:
+        log.error("a breakpoint that another version of Scanbench kept is left out: %s", error)
         return None

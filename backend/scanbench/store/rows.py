@@ -1,6 +1,7 @@
 """From the tables' objects to the records that the store gives out."""
 
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import cast
 
 from scanbench.store.records import (
@@ -18,6 +19,7 @@ from scanbench.store.records import (
     RecordInfo,
     StateRow,
     Status,
+    StoreError,
     SweepRow,
     SweepStatus,
     SweptError,
@@ -39,7 +41,7 @@ from scanbench.store.tables import (
     TestRecord,
     WatchList,
 )
-from scanbench.typed import make
+from scanbench.typed import BadValue, make_kept
 
 
 def project(row: Project) -> ProjectRow:
@@ -93,11 +95,17 @@ def state(row: ProgramState) -> StateRow:
 
 def sweep(row: Sweep, counts: Mapping[str | None, int]) -> SweepRow:
     """A sweep; `counts` are its cells by verdict."""
+    try:
+        errors = tuple(make_kept(SweptError, each) for each in row.errors)
+    except BadValue as error:
+        raise StoreError(
+            f"sweep {row.id} cannot be read: {error}. Use the version of Scanbench that kept it"
+        ) from error
     return SweepRow(
         id=row.id, project=row.project_id, instance_id=row.instance_id, instance=row.instance, model=row.model,
         program_version=row.program_version, by=row.by, at=row.at, status=cast(SweepStatus, row.status),
         message=row.message, window=row.window, states=tuple(row.states),
-        errors=tuple(make(SweptError, each) for each in row.errors), seconds=row.seconds, done=sum(counts.values()),
+        errors=errors, seconds=row.seconds, done=sum(counts.values()),
         counts={verdict: count for verdict, count in counts.items() if verdict is not None},
     )  # fmt: skip
 
@@ -126,9 +134,9 @@ def log(row: Log) -> LogRow:
 
 
 def watch_list(row: WatchList) -> WatchListRow:
-    """A watch list."""
-    content = cast(dict[str, list[object]], row.content)
-    entries = cast(list[list[str]], content["entries"])
-    groups = cast(list[str], content["groups"])
-    kept = WatchContent(tuple(groups), tuple(WatchEntry(*entry) for entry in entries))
+    """A watch list. Of its entries only the values are kept, in the order of the fields; a newer version may know more."""
+    entries = cast(list[list[str]], row.content.get("entries", []))
+    groups = cast(list[str], row.content.get("groups", []))
+    known = len(fields(WatchEntry))
+    kept = WatchContent(tuple(groups), tuple(WatchEntry(*entry[:known]) for entry in entries))
     return WatchListRow(row.id, row.project_id, row.owner, row.name, kept, row.version, row.by, row.at)

@@ -131,6 +131,12 @@ def body_length(start: bytes | bytearray) -> int:
     return length
 
 
+def unpack_kept(body: bytes) -> object:
+    """The message that was kept in `body`, perhaps by a newer version: the fields that it knows besides, which are the last
+    ones, are left alone."""
+    return unpack(body, _read_kept)
+
+
 class Splitter:
     """Cuts a stream of bytes into messages."""
 
@@ -183,7 +189,7 @@ def _write(value: object) -> msgpack.ExtType:
     return msgpack.ExtType(_OBJECT, pack_body([name, *(getattr(value, field) for field in _FIELDS[name])]))
 
 
-def _reader(deeper: _Read, bounded: bool) -> _Read:
+def _reader(deeper: _Read, bounded: bool, kept: bool) -> _Read:
     def read(code: int, data: bytes) -> object:
         if code != _OBJECT:
             raise ValueError(f"unknown kind of value {code}")
@@ -193,6 +199,8 @@ def _reader(deeper: _Read, bounded: bool) -> _Read:
                 if isinstance(value, int) and not -_LARGEST_NUMBER <= value < _LARGEST_NUMBER:
                     raise ValueError(f"{value} is too large a number for anything in {name}")
         cls = _CLASSES[name]
+        if kept:
+            del values[len(_FIELDS[name]) :]
         check(cls, values)
         return cls(*values)
 
@@ -203,14 +211,15 @@ def _too_deep(code: int, data: bytes) -> object:
     raise ValueError(f"objects within objects, more than {_DEEPEST} deep")
 
 
-def _readers(bounded: bool) -> _Read:
+def _readers(bounded: bool = False, kept: bool = False) -> _Read:
     """Reads an object and what is within it. A file may come from anywhere: each level takes its part of the C stack."""
     read: _Read = _too_deep
     for _ in range(_DEEPEST):
-        read = _reader(read, bounded)
+        read = _reader(read, bounded, kept)
     return read
 
 
-_read = _readers(bounded=False)
+_read = _readers()
+_read_kept = _readers(kept=True)
 _read_entry = _readers(bounded=True)
 """Of a run file: what is counted on from a number has to stay one that can be written."""

@@ -4,7 +4,7 @@ import json
 import os
 import struct
 import zlib
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
 from tests.recording.recorded import COUNTER, advance, begun, of_file, resumed
 from tests.runtime.bench import program
+from tests.wire.packed import packed_with
 
 AT = datetime(2026, 1, 1, tzinfo=UTC)
 Blocks = list[tuple[Kind, int, bytes]]
@@ -44,6 +45,12 @@ def about(**changed: object) -> bytes:
     return json.dumps({**asdict(ABOUT), **changed}).encode()
 
 
+def newer_entry() -> bytes:
+    """With a field that only a newer version knows: whoever does not know it would replay it wrong."""
+    kept = ENTRIES.unpack(entry(0))
+    return packed_with("Entry", *(getattr(kept, each.name) for each in fields(kept)), "more")
+
+
 CASES: dict[str, tuple[Blocks, str]] = {
     "nothing": ([], "damaged at its beginning"),
     "no about": ([STATE], "damaged at its beginning"),
@@ -51,7 +58,7 @@ CASES: dict[str, tuple[Blocks, str]] = {
     "about is deep": ([(Kind.ABOUT, 0, b"[" * 60_000)], "does not say what was recorded"),
     "about is long": ([(Kind.ABOUT, 0, b" " * 70_000)], "70000 bytes, and 65536 is the most"),
     "about of something else": ([(Kind.ABOUT, 0, b'{"model": 1}')], "does not say what was recorded"),
-    "about with a list": ([(Kind.ABOUT, 0, about(model=[1]))], "model is not right"),
+    "about with a list": ([(Kind.ABOUT, 0, about(model=[1]))], "model must be a text"),
     "no program": ([FIRST[0], STATE], "needs program version 1, which is not before it"),
     "no checkpoint": (FIRST, "before its first checkpoint"),
     "a second about": ([*FIRST, FIRST[0]], "nothing of this kind can be here"),
@@ -63,6 +70,10 @@ CASES: dict[str, tuple[Blocks, str]] = {
     "a delta of nothing": ([*FIRST, (Kind.DELTA, 0, b"abc")], "nothing of this kind can be here"),
     "an entry that is none": ([*FIRST, STATE, (Kind.ENTRY, 0, b"\xc1")], "the entry at byte"),
     "an entry that is something else": ([*FIRST, STATE, (Kind.ENTRY, 0, b"\x01")], "the entry at byte"),
+    "an entry of a newer version": (
+        [*FIRST, STATE, (Kind.ENTRY, 0, newer_entry())],
+        "Entry has 5 fields, not 6. Open it with the version of scanbench that wrote it",
+    ),
     "an entry of another scan": ([*FIRST, STATE, (Kind.ENTRY, 3, entry(2))], "of scan 2, and is kept at scan 3"),
     "time goes back": ([*FIRST, (Kind.KEYFRAME, 5, STATE[2]), (Kind.ENTRY, 2, entry(2))], "after one of scan 5"),
 }
@@ -121,6 +132,29 @@ def test_what_cannot_be_unpacked_is_refused(kind: Kind, payload: bytes, tmp_path
     with pytest.raises(RunFileError, match=f"the {kind.name.lower()} at byte"):
         Recording.open(path, ENTRIES, read_only=True)
     assert open_files() == before
+
+
+@pytest.mark.parametrize("told", [about(of_a_newer_version=[1]), about()[:-1].rpartition(b",")[0] + b"}"])
+def test_what_was_recorded_may_say_more_or_less(told: bytes, tmp_path: Path) -> None:
+    path = write(tmp_path / "run", [(Kind.ABOUT, 0, told), FIRST[1], STATE])
+    with Recording.open(path, ENTRIES, read_only=True) as recording:
+        assert recording.about == ABOUT
+
+
+@pytest.mark.parametrize(("kind", "packing", "reserved"), [(7, 0, 0), (0, 0, 0), (3, 2, 0), (3, 0, 1)])
+def test_a_block_of_a_newer_version_is_no_damage(kind: int, packing: int, reserved: int, tmp_path: Path) -> None:
+    """What is damaged is cut off when the run goes on."""
+    path = write(tmp_path / "run", [*FIRST, STATE])
+    with path.open("ab") as file:
+        head = struct.pack("<4sBBHIQ", b"\xf5RB\n", kind, packing, reserved, 3, 0)
+        file.write(head + struct.pack("<I", zlib.crc32(b"abc", zlib.crc32(head))) + b"abc")
+    before = path.read_bytes()
+    for read_only in (True, False):
+        with pytest.raises(
+            RunFileError, match=f"is of kind {kind}, .* Open it with the version of scanbench that wrote"
+        ):
+            Recording.open(path, ENTRIES, read_only=read_only)
+    assert path.read_bytes() == before
 
 
 def test_many_programs_are_not_read_for_ever(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,11 +16,11 @@ from tempfile import TemporaryDirectory
 from scanbench import __version__
 from scanbench.faults.reaction.reaction import WINDOW
 from scanbench.store.store import Store
+from tests.store.golden_data import GOLDEN
 from tests.store.said import BESIDE, said
 from tests.web.dap.client import BrowserClient
 from tests.web.server import Browser, Message, Server
 
-GOLDEN = Path(__file__).with_name("golden")
 PROGRAM = """\
 TYPE Color : (red, green, blue); END_TYPE
 PROGRAM Main

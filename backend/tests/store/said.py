@@ -59,7 +59,7 @@ def _project(store: Store, data: Path, project: ProjectRow) -> object:
 
 def _instance(store: Store, instance: InstanceRow) -> object:
     model = stand_in("any")  # what errors are called is a model's affair
-    tracing = Tracing(_nobody, lambda _: None, lambda _: None, store.traces.all(instance.id))
+    tracing = Tracing(nobody, lambda _: None, lambda _: None, store.traces.all(instance.id))
     return {
         "instance": instance,
         "errors": [row_of(model, each) for each in store.errors.history(instance.id)],
@@ -69,7 +69,8 @@ def _instance(store: Store, instance: InstanceRow) -> object:
     }
 
 
-async def _nobody(_make: Callable[[int], object], _answer: type[A], /) -> A:
+async def nobody(_make: Callable[[int], object], _answer: type[A], /) -> A:
+    """Asks no PLC."""
     raise AssertionError("there is no PLC to ask")
 
 

@@ -1,28 +1,18 @@
 """Golden databases: what a released version kept is read by every later one, and says the same. See docs/formats.md."""
 
 import json
-import shutil
 import sqlite3
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from sqlalchemy import JSON
 
 from scanbench.store.tables import Base
+from tests.store.golden_data import FILES, GOLDEN, newest, opened
 from tests.store.said import missing, said
 
-GOLDEN = Path(__file__).with_name("golden")
-FILES = sorted(GOLDEN.glob("*.sql"), key=lambda path: [int(part) for part in path.stem.split(".")])
 RELEASES = [path.stem for path in FILES]
-
-
-def opened(path: Path, data: Path) -> Path:
-    """A data directory with this golden database."""
-    if (beside := path.with_suffix("")).is_dir():
-        shutil.copytree(beside, data)
-    with closing(sqlite3.connect(data / "scanbench.db")) as connection:
-        connection.executescript(path.read_text("utf-8"))
-    return data
 
 
 @pytest.mark.parametrize("path", FILES, ids=RELEASES)
@@ -33,12 +23,34 @@ def test_a_golden_database_says_what_it_said(path: Path, tmp_path: Path) -> None
 
 def test_each_table_of_the_newest_has_rows(tmp_path: Path) -> None:
     """A table that comes with a later release comes with a golden database of that one."""
-    data = opened(FILES[-1], tmp_path / "data")
+    data = opened(newest(), tmp_path / "data")
     with closing(sqlite3.connect(data / "scanbench.db")) as connection:
         made = {name for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
         counts = {name: connection.execute(f"SELECT count(*) FROM {name}").fetchone()[0] for name in made}
     assert made == set(Base.metadata.tables) | {"alembic_version"}
     assert [name for name, count in counts.items() if not count] == []
+
+
+def newer(value: object) -> object:
+    """With more fields in each object, as a newer version may keep it."""
+    if isinstance(value, dict):
+        return {**{name: newer(each) for name, each in value.items()}, "of a newer version": {"more": 1}}
+    return [newer(each) for each in value] if isinstance(value, list) else value
+
+
+def test_fields_that_a_newer_version_keeps_are_left_alone(tmp_path: Path) -> None:
+    data = opened(newest(), tmp_path / "data")
+    told = said(data)
+    columns = [(table.name, column.name) for table in Base.metadata.tables.values() for column in table.columns
+               if isinstance(column.type, JSON) and (table.name, column.name) != ("program_version", "sources")]  # fmt: skip
+    with closing(sqlite3.connect(data / "scanbench.db")) as connection, connection:
+        for table, column in columns:
+            of = f"FROM {table} WHERE {column} IS NOT NULL"
+            for row, kept in connection.execute(f"SELECT rowid, {column} {of}").fetchall():
+                changed = json.dumps(newer(json.loads(kept)))
+                connection.execute(f"UPDATE {table} SET {column} = ? WHERE rowid = ?", (changed, row))
+    assert len(columns) >= 10
+    assert missing(told, said(data)) == []
 
 
 def test_what_is_not_said_any_more_is_found() -> None:

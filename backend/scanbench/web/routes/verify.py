@@ -8,6 +8,7 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
 from scanbench.faults.disturb.disturb import DisturbanceInfo
+from scanbench.server.kept import readable
 from scanbench.server.uploads import Checked
 from scanbench.server.verifications import Exported
 from scanbench.server.verify_rows import RowsPage
@@ -199,7 +200,7 @@ async def on_check_mapping(bench: Bench, instance: Id, check: wire.CheckTraceMap
 @router.get("/projects/{project}/trace-mappings")
 async def on_mappings(bench: Bench, project: Id) -> list[wire.SavedMapping]:
     """The mappings that were saved in a project."""
-    return list(map(translate_verify.saved_mapping, await bench.trace_files.mappings(project)))
+    return readable(await bench.trace_files.mappings(project), translate_verify.saved_mapping)
 
 
 @router.post("/projects/{project}/trace-mappings", status_code=201)

@@ -1,0 +1,109 @@
+"""The fields of all that is kept, and their kinds: `python -m tests.wire.kept_shapes` writes `golden/kept.json`.
+
+It is made again when fields were added, and where a format or the revision of the database was raised.
+"""
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, fields, is_dataclass
+from functools import cache
+from pathlib import Path
+from typing import get_args, get_type_hints
+
+from scanbench.debug.breakpoint import Breakpoint
+from scanbench.faults.reaction.reaction import Reaction
+from scanbench.recording.blocks import About
+from scanbench.recording.reader import RunReader, no_programs
+from scanbench.server.trace_records import TraceRecord
+from scanbench.store.records import KeptRow, SweptError, WatchEntry
+from scanbench.taps.trace import TraceDefinition
+from scanbench.verify.contract import Row
+from scanbench.verify.trace.mapping import TraceMapping
+from scanbench.wire.codec import ENTRIES
+from scanbench.wire.events import VerificationStatus
+from scanbench.wire.host import Driven, Sources
+from scanbench.wire.verification import KeptRows
+from tests.recording.golden_run import GOLDEN as RUNS
+
+GOLDEN = Path(__file__).with_name("golden") / "kept.json"
+BY_NAME: tuple[type, ...] = (About, Breakpoint, Reaction, SweptError, TraceDefinition, TraceMapping, TraceRecord)
+"""Kept as JSON objects, with all that is in them."""
+BY_PLACE: tuple[type, ...] = (Driven, KeptRows, Row, Sources, VerificationStatus, WatchEntry)
+"""Kept as lists of values: the order of fields counts."""
+Shape = Mapping[str, str]
+
+
+def of(cls: type) -> Shape:
+    """Its fields, in their order."""
+    hints = get_type_hints(cls)
+    return {each.name: _kind(hints[each.name]) for each in fields(cls)}
+
+
+def optional(cls: type) -> frozenset[str]:
+    """Fields with a default."""
+    return frozenset(
+        each.name for each in fields(cls) if each.default is not MISSING or each.default_factory is not MISSING
+    )  # fmt: skip
+
+
+def _kind(hint: object) -> str:
+    return re.sub(
+        r"\b(?:\w+\.)+(\w+)", r"\1", hint.__name__ if isinstance(hint, type) and not get_args(hint) else str(hint)
+    )
+
+
+@cache
+def kept() -> tuple[dict[str, type], dict[str, type]]:
+    """By the names of classes: those that are kept by names of fields, and by places."""
+    by_name = {each.__name__: each for root in BY_NAME for each in _within(root)}
+    by_name.pop(KeptRow.__name__, None)  # a row of the database, and no JSON
+    roots = (*BY_PLACE, *_in_runs())
+    return by_name, {each.__name__: each for root in roots for each in _within(root)}
+
+
+def _within(hint: object) -> Iterator[type]:
+    """The dataclasses in an annotation."""
+    if isinstance(hint, type) and is_dataclass(hint):
+        yield hint
+        for each in get_type_hints(hint).values():
+            yield from _within(each)
+    for each in get_args(hint):
+        yield from _within(each)
+
+
+def _in_runs() -> Iterator[type]:
+    """Of the commands, plans and effects in golden run files."""
+    for path in RUNS.glob("*.run"):
+        with RunReader(path, no_programs, ENTRIES) as reader:
+            reader.follow()
+            yield from _used(reader.entries)
+
+
+def _used(value: object) -> Iterator[type]:
+    if is_dataclass(value) and not isinstance(value, type):
+        yield type(value)
+        for field in fields(value):
+            yield from _used(getattr(value, field.name))
+    elif isinstance(value, list | tuple):
+        for each in value:
+            yield from _used(each)
+
+
+def shapes() -> dict[str, dict[str, Shape]]:
+    """As they are now."""
+    by_name, by_place = kept()
+    return {
+        "by name": {name: of(cls) for name, cls in sorted(by_name.items())},
+        "by place": {name: of(cls) for name, cls in sorted(by_place.items())},
+    }
+
+
+def main() -> None:
+    """Writes them."""
+    GOLDEN.parent.mkdir(exist_ok=True)
+    GOLDEN.write_text(json.dumps(shapes(), indent=1, ensure_ascii=False) + "\n", "utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,120 @@
+"""What one version keeps is read by another: fields that are missing have their defaults, those that are unknown are left alone."""
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+
+import pytest
+
+from scanbench.typed import BadValue, make, make_kept
+from scanbench.verify.contract import Range
+from scanbench.wire.codec import BadMessage, pack_body, unpack, unpack_kept
+from scanbench.wire.events import VerificationStatus, VerifyWish
+from scanbench.wire.host import Driven
+from tests.store.said import missing
+from tests.wire.kept_shapes import GOLDEN, Shape, kept, of, optional, shapes
+from tests.wire.packed import packed_with
+
+
+@dataclass(frozen=True)
+class Inner:
+    text: str
+    number: int = 7
+
+
+@dataclass(frozen=True)
+class Outer:
+    inner: Inner
+    more: tuple[Inner, ...] = ()
+    by_name: Mapping[str, Inner] | None = None
+
+
+NEWER = {"inner": {"text": "a", "unknown": 1}, "more": [{"text": "b", "number": 8, "unknown": []}], "unknown": {"x": 1}}
+
+
+def test_unknown_fields_are_left_alone_at_any_depth() -> None:
+    assert make_kept(Outer, NEWER) == Outer(Inner("a"), (Inner("b", 8),))
+    by_name = {"inner": {"text": "a"}, "by_name": {"c": {"text": "c", "unknown": 1}}}
+    assert make_kept(Outer, by_name) == Outer(Inner("a"), (), {"c": Inner("c")})
+
+
+def test_of_a_client_they_are_refused() -> None:
+    with pytest.raises(BadValue, match="inner: unknown is unknown; there are text, number"):
+        make(Outer, NEWER)
+
+
+@pytest.mark.parametrize(
+    ("kept", "says"),
+    [
+        ({}, "inner is missing"),
+        ({"inner": {}}, "inner: text is missing"),
+        ({"inner": {"text": 1}}, "inner: text must be a text, not 1"),
+        ({"inner": "a"}, "inner must be an object"),
+    ],
+)
+def test_what_has_no_default_or_is_of_another_kind_is_named(kept: Mapping[str, object], says: str) -> None:
+    with pytest.raises(BadValue, match=says):
+        make_kept(Outer, kept)
+
+
+STATUS = VerificationStatus(3, 1, "Ada", VerifyWish(Range(file="main.st"), "free", 0), "past", "free", note="all of it")
+
+
+def values(message: VerificationStatus | Driven) -> list[object]:
+    """Of its fields."""
+    return [getattr(message, each.name) for each in fields(message)]
+
+
+def test_packed_fields_that_an_older_version_did_not_know_have_their_defaults() -> None:
+    assert unpack_kept(pack_body(STATUS)) == STATUS
+    assert unpack_kept(packed_with("VerificationStatus", *values(STATUS)[:-2])) == replace(STATUS, note="")
+
+
+def test_packed_fields_of_a_newer_version_are_left_alone() -> None:
+    newer = packed_with("VerificationStatus", *values(STATUS), "more", [1, 2])
+    assert unpack_kept(newer) == STATUS
+    with pytest.raises(BadMessage, match="VerificationStatus has"):  # between processes both are one version
+        unpack(newer)
+    driven = Driven(paused=True)
+    assert unpack_kept(packed_with("Driven", *values(driven), 1.5)) == driven
+
+
+# ---- the fields of all that is kept ---------------------------------------------------------------------------------
+
+THEN: dict[str, dict[str, Shape]] = json.loads(GOLDEN.read_text("utf-8"))
+
+
+def test_each_field_that_was_kept_is_still_of_its_kind() -> None:
+    """One that goes, or is of another kind, needs another format, or a migration of the database: see docs/formats.md. Where the
+    place counts, an older version refuses a value that it does not know."""
+    now = shapes()
+    assert missing(THEN["by name"], now["by name"]) == []
+    for name, then in THEN["by place"].items():
+        for field, kind in then.items():
+            found = now["by place"].get(name, {}).get(field, "")
+            assert found == kind or _grown(kind, found), (name, field, kind, found)
+
+
+def _grown(then: str, now: str) -> bool:
+    """Whether there are more values of the same enumeration."""
+    values = re.compile(r"Literal\[(.*?)\]")
+    was, found = values.search(then), values.search(now)
+    if was is None or found is None or values.sub("", then) != values.sub("", now):
+        return False
+    return set(was[1].split(", ")) <= set(found[1].split(", "))
+
+
+def test_new_fields_have_defaults_and_come_last_where_the_place_counts() -> None:
+    """`python -m tests.wire.kept_shapes` writes down those that are right."""
+    by_name, by_place = kept()
+    for cls in (*by_name.values(), *by_place.values()):
+        was = THEN["by name" if cls in by_name.values() else "by place"].get(cls.__name__)
+        if was is not None:
+            assert of(cls).keys() - was.keys() <= optional(cls), cls
+    for name, then in THEN["by place"].items():
+        assert list(of(by_place[name]))[: len(then)] == list(then), name
+
+
+def test_the_fields_of_all_that_is_kept_are_written_down() -> None:
+    assert shapes() == THEN, "run python -m tests.wire.kept_shapes"
