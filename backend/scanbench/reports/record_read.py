@@ -1,5 +1,6 @@
 """A test record from its XML. Whatever is wrong with the file is told with its place."""
 
+import re
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from functools import cache
@@ -14,7 +15,7 @@ from scanbench.faults.inject import Origin
 from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict, What
 from scanbench.plcmodel.document import Document, first_of, parse
 from scanbench.plcmodel.model import Severity
-from scanbench.problems import Problem
+from scanbench.problems import Problem, Span
 from scanbench.reports.record import (
     RecordAccepted,
     RecordCell,
@@ -25,15 +26,19 @@ from scanbench.reports.record import (
     TestRecord,
 )
 from scanbench.reports.record_text import RecordLine
+from scanbench.reports.record_xml import VERSION
 
 FILE = "record.xml"
+_BEGINNING = 10_000
+"""Characters among which the version is."""
+_ROOT = re.compile(r"<TestRecord\s[^>]*?\bVersion=[\"'](\d{1,9})[\"']")
 
 
 def from_xml(text: str, file: str = FILE) -> TestRecord | list[Problem]:
     """The record, or everything that is wrong with the text."""
     document = parse(text, file, _schema(), "TestRecord", "a test record")
     if not isinstance(document, Document):
-        return document
+        return _of_another_version(text, file) or document
     root = document.root
     if wrong := first_of(chain(_bad_moments(document), _bad_cells(document))):
         return wrong
@@ -54,6 +59,19 @@ def from_xml(text: str, file: str = FILE) -> TestRecord | list[Problem]:
             for node in root.findall("Line")
         ),
     )
+
+
+def _of_another_version(text: str, file: str) -> list[Problem]:
+    """All else that is wrong with it is so for this version only."""
+    match = _ROOT.search(text, 0, _BEGINNING)
+    if match is None or match[1] == VERSION:
+        return []
+    line, column = text.count("\n", 0, match.start(1)) + 1, match.start(1) - text.rfind("\n", 0, match.start(1))
+    message = (
+        f"this is a test record of Version {match[1]}, and this Scanbench reads Version {VERSION}: "
+        "bring it in with the version that wrote it"
+    )
+    return [Problem("M002", message, Span(file, line, column, line, column + len(match[1])))]
 
 
 def _bad_moments(document: Document) -> Iterator[Problem]:

@@ -350,7 +350,12 @@ def test_json_that_is_no_reaction(change: dict[str, object], says: str) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "line", "says"),
     [
-        ('Version="1"', 'Version="2"', 2, "Version"),
+        (
+            'Version="1"',
+            'Version="2"',
+            2,
+            "of Version 2, and this Scanbench reads Version 1: bring it in with the version",
+        ),
         ('ProgramVersion="3"', 'ProgramVersion="three"', 2, "three"),
         ('ProgramVersion="3"', 'ProgramVersion="-1"', 2, "-1"),
         ('Status="cleared"', 'Status="mended"', None, "mended"),

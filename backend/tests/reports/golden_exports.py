@@ -1,0 +1,69 @@
+"""Makes golden exports: `python -m tests.reports.golden_exports` has the golden database's records exported, and an error sweep made.
+
+They are made once for each number of a format: later versions read them again, and write all that is in them.
+"""
+
+import asyncio
+import json
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TypeVar
+
+from scanbench.reports.record_read import from_xml
+from scanbench.server.verifications import Format, Verifications
+from scanbench.store.store import Store
+from tests.cli.calling import scanbench
+from tests.store.golden_data import newest, opened
+from tests.store.golden_database import PROGRAM
+from tests.store.said import plain
+
+GOLDEN = Path(__file__).with_name("golden")
+ERRORS = ("io-bus-error", "fal", "battery-error", "basic-io-error")
+A = TypeVar("A")
+
+
+def with_store(data: Path, ask: Callable[[Store], A]) -> A:
+    """What the golden database answers."""
+    store = Store(f"sqlite:///{opened(newest(), data) / 'scanbench.db'}")
+    try:
+        return ask(store)
+    finally:
+        store.close()
+
+
+def verification(store: Store, data: Path, format: Format) -> str:
+    """The verification that is kept in the golden database, as a file."""
+    kept = Verifications(store, data / "verifications", data / "cache")
+    return asyncio.run(kept.export_record(1, format)).text
+
+
+def _sweep(folder: Path) -> str:
+    folder.mkdir()
+    (folder / "main.st").write_text(PROGRAM, "utf-8")
+    (folder / "project.json").write_text('{"model": "CJ1M-CPU63"}', "utf-8")
+    only = [text for each in ERRORS for text in ("--only", each)]
+    return scanbench("errors", "sweep", str(folder), *only, "--window", "20", "--json").stdout
+
+
+def main() -> None:
+    """Makes all of them."""
+    with TemporaryDirectory() as directory:
+        data = Path(directory) / "data"
+
+        def told(store: Store) -> tuple[str, str, str]:
+            return store.records.get(1).text, verification(store, data, "json"), verification(store, data, "csv")
+
+        xml, report, table = with_store(data, told)
+        sweep = _sweep(Path(directory) / "line")
+    (GOLDEN / "record-1.xml").write_text(xml, "utf-8")
+    (GOLDEN / "record-1.json").write_text(
+        json.dumps(plain(from_xml(xml)), indent=1, ensure_ascii=False) + "\n", "utf-8"
+    )
+    (GOLDEN / "verification-1.json").write_text(report, "utf-8")
+    (GOLDEN / "verification-1.csv").write_text(table, "utf-8", newline="")
+    (GOLDEN / "sweep-1.json").write_text(sweep, "utf-8")
+
+
+if __name__ == "__main__":
+    main()

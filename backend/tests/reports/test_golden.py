@@ -1,0 +1,84 @@
+"""Golden exports: what was written once is read for ever, and whoever reads it finds all of it in what is written today."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+from lxml import etree
+
+from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader
+from scanbench.faults.reaction.sweep import Cell
+from scanbench.plcmodel.load import model_named
+from scanbench.reports.record import TestRecord
+from scanbench.reports.record_read import from_xml
+from scanbench.reports.record_xml import to_xml
+from scanbench.reports.sweep_report import SweepResult, outcomes_in, sweep_json
+from tests.reports.golden_exports import GOLDEN, verification, with_store
+from tests.store.said import missing, plain
+
+
+def text(name: str) -> str:
+    """Of a golden file, with its ends of lines."""
+    return (GOLDEN / name).read_bytes().decode("utf-8")
+
+
+def kinds(value: object) -> object:
+    """The names and kinds of all that is in a value; of a list those of its first entry."""
+    if isinstance(value, dict):
+        return {name: kinds(each) for name, each in value.items()}
+    if isinstance(value, list):
+        return [kinds(each) for each in value[:1]]
+    return type(value).__name__
+
+
+def elements(node: etree._Element) -> object:
+    """An element with all that is in it."""
+    within: dict[str, list[object]] = {}
+    for each in node:
+        within.setdefault(str(each.tag), []).append(elements(each))
+    made: dict[str, object] = {str(name): str(value) for name, value in node.attrib.items()}
+    return made | within
+
+
+def test_a_golden_test_record_says_what_it_said() -> None:
+    record = from_xml(text("record-1.xml"))
+    assert isinstance(record, TestRecord)
+    assert missing(json.loads(text("record-1.json")), plain(record)) == []
+    then, now = (etree.fromstring(each.encode()) for each in (text("record-1.xml"), to_xml(record)))
+    assert missing(elements(then), elements(now)) == []
+
+
+def test_a_golden_sweep_says_what_it_said() -> None:
+    told = json.loads(text("sweep-1.json"))
+    found = [(each.error, each.state, each.verdict, each.scans) for each in outcomes_in(told)]
+    assert found == [(each["id"], each["state"], each["verdict"], each["scans"]) for each in told["results"]]
+    assert {verdict for _, _, verdict, _ in found} == {"stopped", "never_read", "no_effect", "reacted"}
+
+
+def test_a_sweep_has_all_that_a_golden_one_has() -> None:
+    then = json.loads(text("sweep-1.json"))
+    then["results"] = [next(each for each in then["results"] if each["verdict"] == "reacted")]
+    del then["unhandled"]  # which the command adds
+    then["counts"] = {}
+    error = next(each for each in model_named("CJ1M-CPU63").errors() if each.id == "basic-io-error")
+    reaction = Reaction(
+        "reacted", 20, 1, 1, (Reader("main.st", 3, "Main", "flag", 1),), (Difference("Main.x", "0", "1", True, 1),), 1,
+        (Line("main.st", 4),),
+    )  # fmt: skip
+    made = SweepResult("line", "CJ1M-CPU63", 20, (("Start", 100),), (error,), (Cell(error.id, "Start", reaction),))
+    assert missing(kinds(then), kinds(sweep_json(made))) == []
+
+
+def test_a_verification_has_all_that_a_golden_one_has(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    report, table = with_store(
+        data, lambda store: (verification(store, data, "json"), verification(store, data, "csv"))
+    )  # fmt: skip
+    then = json.loads(text("verification-1.json"))
+    assert then.pop("tool").startswith("Scanbench ")
+    assert missing(then, json.loads(report)) == []
+    assert (
+        missing(list(csv.DictReader(io.StringIO(text("verification-1.csv")))), list(csv.DictReader(io.StringIO(table))))
+        == []
+    )
