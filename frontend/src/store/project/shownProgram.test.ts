@@ -117,3 +117,12 @@ it("says which version ran if the project is no longer that version: built since
   useDocuments.setState({ open: { "Main.st": saved("new") } });
   expect(ranApart()).toBeNull();
 });
+
+it("asks nothing of another PLC because of the past of the one before", async () => {
+  const asked = vi.spyOn(rest, "programText").mockResolvedValue(ran(1, "old"));
+  usePlc.setState({ state: past(1) });
+  await vi.waitFor(() => expect(shown().program?.version).toBe(1));
+  useBench.setState({ instance: { id: instance + 1000 } as Instance });
+  expect(asked).toHaveBeenCalledTimes(1);
+  expect(shown().version).toBeNull();
+});

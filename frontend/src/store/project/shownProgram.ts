@@ -81,11 +81,10 @@ usePlc.subscribe((now, before) => {
   if (back) tryAgain();
 });
 useBench.subscribe((now, before) => {
-  if (now.instance?.id !== before.instance?.id) {
-    fetched.clear();
-    useShownProgram.setState(edited);
-  }
-  follow();
+  if (now.instance?.id === before.instance?.id) return follow();
+  // Its state has not come yet: the one that is known is that of the PLC before.
+  fetched.clear();
+  useShownProgram.setState(edited);
 });
 
 /** Whether the editor of a file shows the text that ran, read-only, and not the edited text. */
