@@ -8,7 +8,15 @@ export default defineConfig({
       { test: { name: "units", include: ["src/**/*.test.ts"], exclude: ["src/logic/**"], environment: "node" } },
       {
         // Panels in a page: jsdom and React are loaded once. Each test is a project and a PLC of its own, so the page forgets the one before.
-        test: { name: "panels", include: ["src/**/*.test.tsx"], environment: "jsdom", isolate: false },
+        test: {
+          name: "panels",
+          include: ["src/**/*.test.tsx"],
+          environment: "jsdom",
+          isolate: false,
+          fileParallelism: false,
+          setupFiles: ["src/testing/browser.ts"],
+          testTimeout: 60_000,
+        },
       },
     ],
   },

@@ -1,4 +1,4 @@
-/** What jsdom lacks of a browser, as far as the page uses it. Nothing is laid out: each row is 24 pixels high, all else has room for many. */
+/** Runs before the tests of panels: what jsdom lacks of a browser, as far as the page uses it. Nothing is laid out: each row is 24 pixels high, all else has room for many. */
 import { vi } from "vitest";
 import { FakeSocket } from "./socket";
 
@@ -9,23 +9,17 @@ function heightOf(this: HTMLElement): number {
   return this.matches("[role=row], [role=treeitem], [role=option]") ? ROW : ROOM;
 }
 
-/** Observers that never see a change: nothing changes its size here. */
-class NoObserver {
-  observe(): void {}
+/** Tells the size of what it observes once: nothing changes its size here. */
+class SizeObserver {
+  constructor(private readonly tell: (entries: object[]) => void) {}
+
+  observe(target: Element): void {
+    const size = { width: ROOM, height: ROOM };
+    queueMicrotask(() => target.isConnected && this.tell([{ target, contentRect: size }]));
+  }
+
   unobserve(): void {}
   disconnect(): void {}
-}
-
-export function fillGaps(): void {
-  vi.stubGlobal("WebSocket", FakeSocket);
-  vi.stubGlobal("ResizeObserver", NoObserver);
-  for (const name of ["offsetHeight", "clientHeight"])
-    Object.defineProperty(HTMLElement.prototype, name, { configurable: true, get: heightOf });
-  for (const name of ["offsetWidth", "clientWidth"])
-    Object.defineProperty(HTMLElement.prototype, name, { configurable: true, get: () => ROOM });
-  Object.assign(Element.prototype, { scrollTo: () => undefined, scrollIntoView: () => undefined });
-  Object.assign(HTMLDialogElement.prototype, { showModal, close });
-  Object.assign(URL, { createObjectURL: () => "blob:test", revokeObjectURL: () => undefined });
 }
 
 function showModal(this: HTMLDialogElement): void {
@@ -35,3 +29,19 @@ function showModal(this: HTMLDialogElement): void {
 function close(this: HTMLDialogElement): void {
   this.removeAttribute("open");
 }
+
+vi.stubGlobal("WebSocket", FakeSocket);
+vi.stubGlobal("matchMedia", () => ({
+  matches: false,
+  addEventListener: () => undefined,
+  removeEventListener: () => undefined,
+}));
+vi.stubGlobal("ResizeObserver", SizeObserver);
+for (const name of ["offsetHeight", "clientHeight"])
+  Object.defineProperty(HTMLElement.prototype, name, { configurable: true, get: heightOf });
+for (const name of ["offsetWidth", "clientWidth"])
+  Object.defineProperty(HTMLElement.prototype, name, { configurable: true, get: () => ROOM });
+Object.assign(Element.prototype, { scrollTo: () => undefined, scrollIntoView: () => undefined });
+Object.assign(HTMLDialogElement.prototype, { showModal, close });
+vi.stubGlobal("CSS", { escape: (text: string) => text.replace(/[^\w-]/g, "\\$&") });
+Object.assign(URL, { createObjectURL: () => "blob:test", revokeObjectURL: () => undefined });

@@ -1,5 +1,5 @@
 /** What an idle bench answers over HTTP. */
-import type { CheckResult, Instance, WatchList } from "../wire/types";
+import type { CheckResult, Instance, ProgramText, WatchList } from "../wire/types";
 import { MIKA, MODEL, someApp } from "./samples";
 
 export interface Question {
@@ -20,6 +20,9 @@ export class Status {
   ) {}
 }
 
+/** What the server refuses, in its words. */
+export const refusal = (message: string, near: string[] = []) => new Status(422, { message, near });
+
 type On = (method: string, path: string, route: Route) => void;
 
 export function usualRoutes(on: On, instance: () => Instance): void {
@@ -31,6 +34,8 @@ export function usualRoutes(on: On, instance: () => Instance): void {
     on("GET", `/instances/*/${what}`, none);
   for (const what of ["files", "sweeps", "states", "records", "trace-records", "watch-lists"])
     on("GET", `/projects/*/${what}`, none);
+  on("GET", "/instances/*/program", (): ProgramText => ({ version: 1, files: {}, pous: [] }));
+  on("GET", "/instances/*/history/versions", none);
   on("POST", "/projects/*/check", (): CheckResult => ({ checks: [], pous: [], problems: [] }));
   on("POST", "/projects/*/watch-lists", (question) => storedList(question, 1));
   on("PUT", "/watch-lists/*", (question) => storedList(question, versionIn(question) + 1));

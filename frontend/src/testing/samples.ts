@@ -12,6 +12,7 @@ import type {
 } from "../wire/types";
 
 export const MIKA: User = { name: "Mika", initials: "M" };
+export const JO: User = { name: "Jo", initials: "J" };
 
 const RUNNING: InstanceState = {
   state: "running",
@@ -69,7 +70,7 @@ export const MODEL: ModelInfo = {
   verified_count: 0,
 };
 
-const RUN: Timeline = {
+export const RUN: Timeline = {
   type: "timeline",
   fresh: true,
   marks: [],

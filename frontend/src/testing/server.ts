@@ -2,7 +2,8 @@
  * A server for one test: it speaks over the page's own WebSocket and `fetch`. The test says what the server tells, and sees what the page
  * sent. What a test says nothing about is answered as by an idle PLC: commands are done, lists are empty.
  */
-import type { ClientMessage, Instance, InstanceState, PlcSymbol, Refusal, ServerMessage } from "../wire/types";
+import { messageOf } from "../logic/format/messageOf";
+import type { ClientMessage, Hello, Instance, InstanceState, PlcSymbol, Refusal, ServerMessage } from "../wire/types";
 import { frameOf } from "./frames";
 import { type Question, type Route, Status, usualRoutes } from "./routes";
 import { someHello, someInstance, someProject } from "./samples";
@@ -12,6 +13,14 @@ import type { FakeSocket } from "./socket";
 type Verdict = string | Refusal | undefined;
 
 type Message<T extends ClientMessage["type"]> = Extract<ClientMessage, { type: T }>;
+
+type Arguments = Record<string, unknown>;
+
+interface DapRequest {
+  seq: number;
+  command: string;
+  arguments: Arguments;
+}
 
 export class FakeServer {
   /** What the page sent over the socket, the newest last. */
@@ -27,6 +36,9 @@ export class FakeServer {
   instance: Instance;
   private readonly routes: [string, RegExp, Route][] = [];
   private readonly verdicts = new Map<string, (command: ClientMessage) => Verdict>();
+  private readonly adapter = new Map<string, (args: Arguments) => object>();
+  /** What the page is greeted with besides. */
+  greeting: Partial<Hello> = {};
   private readonly values = new Map<string, bigint>();
   private readonly ids = new Map<number, string>();
   private nextId = 1;
@@ -52,6 +64,16 @@ export class FakeServer {
   /** What commands of a type are answered with. */
   command<T extends ClientMessage["type"]>(type: T, verdict: (command: Message<T>) => Verdict): void {
     this.verdicts.set(type, (command) => verdict(command as Message<T>));
+  }
+
+  /** What a request of the debug adapter protocol is answered with; what is thrown is why not. */
+  debug(command: string, body: (args: Arguments) => object): void {
+    this.adapter.set(command, body);
+  }
+
+  /** Something happened in the debugger. */
+  debugEvent(event: string, body: Arguments): void {
+    this.say({ type: "dap", message: { seq: 1, type: "event", event, body: JSON.parse(JSON.stringify(body)) } });
   }
 
   say(message: ServerMessage): void {
@@ -88,6 +110,12 @@ export class FakeServer {
     return this.sent.filter((message): message is Message<T> => message.type === type);
   }
 
+  /** The arguments of the requests of one kind to the debug adapter. */
+  debugged(command: string): Arguments[] {
+    const requests = this.sentOf("dap").map(({ message }) => requestIn(message));
+    return requests.filter((request) => request.command === command).map((request) => request.arguments);
+  }
+
   /** The bodies of what was asked of a route. */
   askedOf(method: string, path: string): unknown[] {
     return this.asked.filter((one) => one.method === method && one.path === path).map(({ body }) => body);
@@ -98,7 +126,7 @@ export class FakeServer {
   opened(socket: FakeSocket): void {
     this.socket = socket;
     this.ids.clear();
-    this.say(someHello(this.instance));
+    this.say({ ...someHello(this.instance), ...this.greeting });
   }
 
   heard(text: string, socket: FakeSocket): void {
@@ -118,7 +146,7 @@ export class FakeServer {
     this.asked.push(question);
     for (const [method, pattern, route] of this.routes) {
       const match = method === question.method ? pattern.exec(question.path) : null;
-      if (match) return responseOf(route(question, match));
+      if (match) return responseOf(await route(question, match));
     }
     this.unknown.push(`${question.method} ${question.path}`);
     return responseOf(new Status(404, { message: "the test has no such route", near: [] }));
@@ -127,11 +155,21 @@ export class FakeServer {
   private answer(message: ClientMessage): void {
     if (message.type === "watch") this.watch(message);
     else if (message.type === "unwatch") for (const id of message.ids) this.ids.delete(id);
-    else if (message.type === "dap") this.verdicts.get("dap")?.(message);
+    else if (message.type === "dap") this.debugAnswer(requestIn(message.message));
     else {
       const verdict = this.verdicts.get(message.type)?.(message);
       const { message: why, near } = typeof verdict === "object" ? verdict : { message: verdict ?? "", near: [] };
       this.say({ type: "done", ref: message.ref, ok: verdict === undefined, message: why, near, scan: null });
+    }
+  }
+
+  private debugAnswer({ seq, command, arguments: args }: DapRequest): void {
+    const response = { seq, type: "response", request_seq: seq, command };
+    try {
+      const body = this.adapter.get(command)?.(args) ?? {};
+      this.say({ type: "dap", message: { ...response, success: true, body: JSON.parse(JSON.stringify(body)) } });
+    } catch (error) {
+      this.say({ type: "dap", message: { ...response, success: false, message: messageOf(error) } });
     }
   }
 
@@ -159,4 +197,8 @@ function responseOf(answer: unknown): Response {
   if (answer === undefined) return new Response(null, { status: 204 });
   if (answer instanceof Status) return new Response(JSON.stringify(answer.body), { status: answer.status });
   return new Response(JSON.stringify(answer));
+}
+
+function requestIn({ seq, command, arguments: args }: Record<string, unknown>): DapRequest {
+  return { seq: Number(seq), command: String(command), arguments: { ...Object(args) } };
 }
