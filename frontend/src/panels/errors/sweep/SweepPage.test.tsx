@@ -1,0 +1,73 @@
+import { render, screen, waitFor, within } from "@testing-library/react";
+import { expect, test } from "vitest";
+import { showSweeps } from "../../../store/errors/sweeps";
+import { button, textOf } from "../../../testing/find";
+import { openPage } from "../../../testing/page";
+import type { FakeServer } from "../../../testing/server";
+import { t } from "../../../text";
+import type { SweepSummary } from "../../../wire/types";
+import { SweepPage } from "./SweepPage";
+
+const sweepOf = (server: FakeServer, more: Partial<SweepSummary> = {}): SweepSummary => ({
+  id: 3,
+  project: server.instance.project.id,
+  instance: "line-1",
+  instance_id: server.instance.id,
+  model: "CJ1M",
+  program_version: 1,
+  by: "Ann",
+  at: "2026-11-20T10:00:00+00:00",
+  status: "running",
+  message: "",
+  done: 25,
+  total: 100,
+  seconds: 10,
+  window: 1000,
+  states: ["Now"],
+  counts: {},
+  ...more,
+});
+
+async function openSweeps(prepare: (server: FakeServer) => void = () => undefined) {
+  const page = await openPage(prepare);
+  render(<SweepPage />);
+  showSweeps();
+  await screen.findByText(t("sweep.empty.title"));
+  return page;
+}
+
+const told = (server: FakeServer, more: Partial<SweepSummary> = {}) =>
+  server.say({ type: "sweep", sweep: sweepOf(server, more), now: "battery-error", cells: [] });
+const list = () => within(screen.getByRole("table", { name: t("sweep.tab.list") }));
+
+test("a sweep that somebody else began is in the list at once, with how far it is, and whatever becomes of it", async () => {
+  const { server } = await openSweeps();
+  told(server);
+  await waitFor(() => expect(textOf(list().getAllByRole("row").at(-1) ?? null)).toContain("Ann"));
+  const line = () => textOf(list().getAllByRole("row").at(-1) ?? null);
+  expect(line()).toContain("25");
+  told(server, { done: 60 });
+  await waitFor(() => expect(line()).toContain("60"));
+  for (const status of ["cancelled", "interrupted", "done"] as const) {
+    told(server, { done: 60, status });
+    await waitFor(() => expect(line()).toContain(t(`sweep.status.${status}`)));
+  }
+});
+
+test("a colleague cancels it, and goes on with it", async () => {
+  const { server, user } = await openSweeps((server) => {
+    const whole = (more: Partial<SweepSummary> = {}) => ({ ...sweepOf(server, more), errors: [], cells: [] });
+    server.on("GET", "/sweeps/*", () => whole());
+    server.on("POST", "/sweeps/*/cancel", () => sweepOf(server, { status: "cancelled" }));
+    server.on("POST", "/sweeps/*/resume", () => sweepOf(server));
+  });
+  told(server);
+  await screen.findByRole("table", { name: t("sweep.tab.list") });
+  await user.click(list().getAllByRole("button")[0] as HTMLElement);
+  expect((await screen.findByRole("progressbar")).getAttribute("aria-valuenow")).toBe("25");
+  await user.click(button(t("cancel")));
+  await waitFor(() => expect(server.asked.at(-1)?.path).toBe("/sweeps/3/cancel"));
+  told(server, { status: "cancelled" });
+  await user.click(await screen.findByRole("button", { name: t("sweep.resume") }));
+  await waitFor(() => expect(server.asked.at(-1)?.path).toBe("/sweeps/3/resume"));
+});
