@@ -1,0 +1,143 @@
+import { render, screen, waitFor } from "@testing-library/react";
+import { expect, test } from "vitest";
+import { grouped } from "../../../logic/format/numbers";
+import { useLinks } from "../../../store/plc/links";
+import { BATTERY, RAISED, row } from "../../../testing/catalogue";
+import { box, button, textOf } from "../../../testing/find";
+import { openPage } from "../../../testing/page";
+import { JO, MIKA, someInstance } from "../../../testing/samples";
+import type { FakeServer } from "../../../testing/server";
+import { t } from "../../../text";
+import type { InstanceState } from "../../../wire/types";
+import { Banners } from "./Banners";
+
+async function openBanners(prepare: (server: FakeServer) => void = () => undefined) {
+  const page = await openPage(prepare);
+  render(<Banners />);
+  return page;
+}
+
+const alert = () => textOf(screen.queryByRole("alert"));
+const past = (scan: number, by = "Ann") => ({ state: "past", scan, past: { by, live_scan: 2000 } }) as const;
+
+const TRAP: InstanceState["trap"] = {
+  kind: "division",
+  message: "division by zero",
+  file: "Main.st",
+  line: 9,
+  column: 3,
+  scan: 1500,
+};
+
+test("a run-time error says what, where and when; the place is a way there", async () => {
+  const { server, user, places } = await openBanners();
+  server.becomes({ state: "trapped", trap: TRAP });
+  await waitFor(() => expect(alert()).toContain("Division by zero"));
+  expect(alert()).toContain(t("trap.scan", { scan: grouped(1500) }));
+  await user.click(button("Main.st:9"));
+  expect(places).toEqual(["file Main.st"]);
+});
+
+test("after the cause is mended one goes on: what is present is recovered first, the program goes on in MONITOR", async () => {
+  const { server, user } = await openBanners();
+  server.say({ type: "errors", rows: [row(BATTERY, RAISED)] });
+  server.becomes({ state: "trapped", trap: TRAP });
+  await user.click(await screen.findByRole("button", { name: t("trap.goon") }));
+  await waitFor(() => expect(server.sentOf("mode")).toMatchObject([{ mode: "MONITOR" }]));
+  expect(server.sentOf("recover")).toMatchObject([{ ids: null }]);
+  server.becomes({ state: "running", trap: null });
+  await waitFor(() => expect(screen.queryByRole("alert")).toBeNull());
+});
+
+test("where the model does not allow MONITOR at once, the way leads by PROGRAM", async () => {
+  const { server, user } = await openBanners();
+  let stopped = false;
+  server.command("mode", ({ mode }) => {
+    if (mode === "PROGRAM") stopped = true;
+    return stopped ? undefined : "Only PROGRAM is possible now";
+  });
+  server.becomes({ state: "trapped", trap: TRAP });
+  await user.click(await screen.findByRole("button", { name: t("trap.goon") }));
+  await waitFor(() => expect(server.sentOf("mode").map(({ mode }) => mode)).toEqual(["MONITOR", "PROGRAM", "MONITOR"]));
+});
+
+test("the past says which scan and by whom; back to live is one click", async () => {
+  const { server, user } = await openBanners();
+  server.becomes(past(500));
+  const banner = await screen.findByRole("region", { name: t("past.label") });
+  expect(textOf(banner)).toContain(t("past.title", { scan: 500, live: grouped(2000) }));
+  expect(textOf(banner)).toContain(t("past.by", { by: "Ann" }));
+  await user.click(button(t("past.live")));
+  await waitFor(() => expect(server.sentOf("travel")).toMatchObject([{ scan: null }]));
+});
+
+test("a branch gets a name and begins in the scan that is shown; the page goes there", async () => {
+  const { server, user } = await openBanners((server) =>
+    server.on("POST", "/instances/*/branch", ({ body }) => {
+      const made = someInstance(server.instance.id + 5000, server.instance.project);
+      server.instance = { ...made, name: (body as { name: string }).name };
+      return server.instance;
+    }),
+  );
+  const { id } = server.instance;
+  server.becomes(past(500));
+  await user.click(await screen.findByRole("button", { name: t("past.branch") }));
+  await user.clear(box(t("instances.name")));
+  await user.type(box(t("instances.name")), "what-if");
+  await user.click(button(t("create")));
+  await waitFor(() => expect(server.asked.map(({ path }) => path)).toContain(`/instances/${id + 5000}/model`));
+  expect(server.askedOf("POST", `/instances/${id}/branch`)).toEqual([{ name: "what-if", scan: 500 }]);
+  await waitFor(() => expect(screen.queryByRole("region", { name: t("past.label") })).toBeNull());
+});
+
+/** The page was opened with the address of a scan; others look at the PLC. */
+async function openLink(scan: number, instance?: number) {
+  return openBanners((server) => {
+    server.greeting = { users: [MIKA, JO] };
+    useLinks.setState({
+      opened: { instance: instance ?? server.instance.id, scan, panel: null },
+      question: null,
+      trouble: null,
+    });
+  });
+}
+
+test("a link to a scan asks first while others look at the PLC; then the address is its own again", async () => {
+  const { server, user } = await openLink(300);
+  const question = await screen.findByRole("region", { name: t("link.label") });
+  expect(textOf(question)).toContain(t("link.ask.title", { scan: 300 }));
+  expect(server.sentOf("travel")).toEqual([]);
+  await user.click(button(t("link.ask", { scan: 300 })));
+  await waitFor(() => expect(server.sentOf("travel")).toMatchObject([{ scan: 300 }]));
+  server.becomes(past(300, "Mika"));
+  await waitFor(() => expect(location.pathname).toBe(`/i/${server.instance.id}/scan/300`));
+  server.becomes({ state: "running", past: null });
+  await waitFor(() => expect(location.pathname).toBe(`/i/${server.instance.id}`));
+});
+
+test("one may stay; and what there is not is said in words", async () => {
+  const { server, user } = await openLink(300);
+  await user.click(await screen.findByRole("button", { name: t("link.not") }));
+  expect(screen.queryByRole("region", { name: t("link.label") })).toBeNull();
+  expect(server.sentOf("travel")).toEqual([]);
+});
+
+test.each([
+  ["a scan that is not in the run", 999_999, undefined, "999"],
+  ["an instance that is not there", 3, 4711, "4711"],
+] as const)("a link to %s says so", async (_, scan, instance, said) => {
+  const { server, user } = await openLink(scan, instance);
+  await waitFor(() => expect(alert()).toContain(said));
+  await user.click(button(t("link.read")));
+  expect(screen.queryByRole("alert")).toBeNull();
+  expect(server.sentOf("travel")).toEqual([]);
+});
+
+test("without a connection the page says since when, and tries again when told to", async () => {
+  const { server, user } = await openBanners();
+  server.hangUp();
+  await waitFor(() => expect(alert()).toContain(server.instance.name));
+  expect(alert()).toContain(grouped(server.instance.state.scan));
+  await user.click(button(t("lost.now")));
+  await waitFor(() => expect(screen.queryByRole("alert")).toBeNull());
+});

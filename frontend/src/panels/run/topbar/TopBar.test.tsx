@@ -1,0 +1,109 @@
+import { render, screen, waitFor, within } from "@testing-library/react";
+import { expect, test } from "vitest";
+import { box, button, choose, menuItem, textOf } from "../../../testing/find";
+import { openPage } from "../../../testing/page";
+import { t } from "../../../text";
+import { TopBar } from "./TopBar";
+
+async function openBar() {
+  const page = await openPage();
+  render(<TopBar onResetLayout={() => undefined} />);
+  return page;
+}
+
+const state = () => textOf(screen.getByRole("status", { name: t("state.label") }));
+const dialog = (title: string) => screen.findByRole("dialog", { name: title });
+const noDialog = () => waitFor(() => expect(screen.queryByRole("dialog")).toBeNull());
+
+test("a run until a condition: a name that is not known gets the one that comes near; what it waits for is shown", async () => {
+  const { server, user } = await openBar();
+  server.command("run", ({ until }) =>
+    until?.includes("totl") ? { message: "Main.parts.totl is not known", near: ["Main.parts.total"] } : undefined,
+  );
+  await choose(user, t("run.more"), t("run.until"));
+  const asking = await dialog(t("run.until.title"));
+  await user.type(box(t("run.until.condition"), asking), "Main.parts.totl >= 3");
+  await user.click(button(t("run.scans.do"), asking));
+  expect(textOf(await within(asking).findByRole("alert"))).toContain("totl");
+  await user.click(button("Main.parts.total", asking));
+  expect(box(t("run.until.condition"), asking).value).toBe("Main.parts.total >= 3");
+  expect(within(asking).queryByRole("alert")).toBeNull();
+  await user.click(button(t("run.scans.do"), asking));
+  await noDialog();
+  expect(server.sentOf("run").at(-1)).toMatchObject({ action: "continue", until: "Main.parts.total >= 3" });
+
+  server.becomes({ target: "until Main.parts.total >= 3" });
+  await waitFor(() => expect(state()).toContain("until Main.parts.total >= 3"));
+  server.becomes({ state: "paused", target: "" });
+  await waitFor(() => expect(state()).toContain(t("state.paused")));
+  // What was accepted is offered again.
+  await choose(user, t("run.more"), t("run.until.last", { condition: "Main.parts.total >= 3" }));
+  await waitFor(() => expect(server.sentOf("run")).toHaveLength(3));
+});
+
+test("a hundred scans are asked for by their number, and nothing else is one", async () => {
+  const { server, user } = await openBar();
+  await choose(user, t("run.more"), t("run.scans"));
+  const asking = await dialog(t("run.scans.title"));
+  const count = box(t("run.scans.count"), asking);
+  await user.clear(count);
+  await user.type(count, "0{Enter}");
+  expect(textOf(await within(asking).findByRole("alert"))).toBe(t("run.scans.bad"));
+  await user.clear(count);
+  await user.type(count, "100{Enter}");
+  await noDialog();
+  expect(server.sentOf("run")).toMatchObject([{ action: "continue", scans: 100 }]);
+});
+
+test("a new run is begun after a question only; what is refused stays in it", async () => {
+  const { server, user } = await openBar();
+  await choose(user, t("restart.menu"), t("newrun.menu"));
+  expect(textOf(await dialog(t("newrun.title")))).toContain(t("newrun.about"));
+  await user.click(button(t("cancel")));
+  await noDialog();
+  expect(server.sentOf("new_run")).toEqual([]);
+
+  let refused = true;
+  server.command("new_run", () => (refused ? "There is no room on the disk." : undefined));
+  await choose(user, t("restart.menu"), t("newrun.menu"));
+  await user.click(button(t("newrun.do")));
+  await waitFor(() => expect(textOf(screen.getByRole("alert"))).toContain("no room"));
+  refused = false;
+  await user.click(button(t("newrun.do")));
+  await noDialog();
+  expect(server.sentOf("new_run")).toHaveLength(2);
+});
+
+test.each([
+  ["cold", "restart.cold"],
+  ["warm", "restart.warm"],
+  ["power", "restart.power"],
+] as const)("a %s restart is one command", async (kind, item) => {
+  const { server, user } = await openBar();
+  await choose(user, t("restart.menu"), t(item));
+  await waitFor(() => expect(server.sentOf("restart")).toMatchObject([{ kind }]));
+});
+
+test("a mode is chosen; in RUN the program cannot be rolled back, and the menu says why", async () => {
+  const { server, user } = await openBar();
+  server.becomes({ program_version: 2, previous_version: 1 });
+  await user.click(screen.getByRole("radio", { name: "RUN" }));
+  expect(server.sentOf("mode")).toMatchObject([{ mode: "RUN" }]);
+  server.becomes({ mode: "RUN" });
+  await waitFor(() => expect(screen.getByRole("radio", { name: "RUN" }).getAttribute("aria-checked")).toBe("true"));
+  await user.click(button(t("restart.menu")));
+  expect(menuItem(t("restart.rollback"))).toHaveProperty("disabled", true);
+  expect(textOf(menuItem(t("restart.rollback")))).toContain(t("permit.run.change"));
+  expect(menuItem(t("restart.cold"))).toHaveProperty("disabled", false);
+});
+
+test("in the past one goes scan by scan, and the mode is not to be changed", async () => {
+  const { server, user } = await openBar();
+  server.becomes({ state: "past", scan: 500, past: { by: "Ann", live_scan: 1000 } });
+  await waitFor(() => expect(state()).toContain(t("state.past")));
+  for (const mode of ["PROGRAM", "MONITOR", "RUN"])
+    expect(screen.getByRole("radio", { name: mode })).toHaveProperty("disabled", true);
+  await user.click(button(t("run.back")));
+  await user.click(button(t("run.scan.past")));
+  await waitFor(() => expect(server.sentOf("travel").map(({ scan }) => scan)).toEqual([499, 501]));
+});
