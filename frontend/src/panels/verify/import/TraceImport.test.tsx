@@ -1,0 +1,153 @@
+import { render, screen, waitFor, within } from "@testing-library/react";
+import { expect, test } from "vitest";
+import { openTraceImport } from "../../../store/verify/traceImport";
+import { box, button, choose, textOf } from "../../../testing/find";
+import { openPage } from "../../../testing/page";
+import { symbol } from "../../../testing/samples";
+import type { FakeServer } from "../../../testing/server";
+import { t } from "../../../text";
+import type { CheckTraceMapping, SavedMapping, TraceMapping, TraceProblem, UploadedTrace } from "../../../wire/types";
+import { TraceImport } from "./TraceImport";
+
+const problem = (message: string, column = "", row: number | null = null): TraceProblem => ({
+  message,
+  column,
+  row,
+  warning: false,
+});
+
+const MAPPING: TraceMapping = {
+  axis: "scan",
+  unit: "scan",
+  gaps: "refuse",
+  columns: [
+    { column: "start", path: "start", role: "input" },
+    { column: "sped", path: "", role: "output" },
+  ],
+};
+
+const TRACE: UploadedTrace = {
+  file: "f1",
+  name: "line.csv",
+  rows: 20,
+  columns: ["scan", "start", "sped"],
+  sample: [["0", "FALSE", "1"]],
+  mapping: MAPPING,
+  problems: [],
+};
+
+/** A server that wants a variable for each column that is used. */
+async function openImport(prepare: (server: FakeServer) => void = () => undefined) {
+  const saved: SavedMapping[] = [];
+  const page = await openPage((server) => {
+    server.on("POST", "/projects/*/traces", () => TRACE);
+    server.on("GET", "/projects/*/trace-mappings", () => saved);
+    server.on("POST", "/projects/*/trace-mappings", ({ body }) => {
+      const { name, mapping } = body as { name: string; mapping: TraceMapping };
+      saved.push({ id: 1, name, by: "Mika", mapping });
+      return saved[0];
+    });
+    server.on("POST", "/instances/*/trace-check", ({ body }) => {
+      const { mapping } = body as CheckTraceMapping;
+      const wrong = (mapping.columns ?? []).filter(({ path, role }) => role !== "ignore" && !path);
+      const problems = wrong.map(({ column }) => problem("names no variable", column, 1));
+      return { ok: wrong.length === 0, problems, first: 0, last: 19, missing: 0 };
+    });
+    prepare(server);
+  });
+  render(<TraceImport />);
+  openTraceImport();
+  await screen.findByRole("dialog", { name: t("import.trace.title") });
+  const upload = (name: string) =>
+    page.user.upload(screen.getByLabelText(t("import.trace.file")), new File(["x"], name));
+  return { ...page, upload };
+}
+
+const start = () => button(t("import.trace.start"));
+const verdict = () => textOf(screen.getAllByRole("status").at(-1) ?? null);
+const role = (column: string) =>
+  screen.getByRole<HTMLSelectElement>("combobox", { name: t("import.trace.role.of", { column }) });
+const variable = (column: string) =>
+  screen.getByRole<HTMLInputElement>("combobox", { name: t("import.trace.variable.of", { column }) });
+
+test("a broken file is refused with its row, and nothing of it is there", async () => {
+  const { upload } = await openImport((server) =>
+    server.on("POST", "/projects/*/traces", () => ({
+      ...TRACE,
+      file: "",
+      problems: [problem("has too many cells", "", 3)],
+    })),
+  );
+  expect(start()).toHaveProperty("disabled", true);
+  await upload("broken.csv");
+  const alert = await screen.findByRole("alert");
+  expect(textOf(alert)).toContain(t("import.trace.refused", { name: "broken.csv" }));
+  expect(textOf(alert)).toContain(t("import.trace.problem.row", { row: 3 }));
+  expect(screen.queryByRole("table", { name: t("import.trace.columns") })).toBeNull();
+  expect(start()).toHaveProperty("disabled", true);
+});
+
+test("what is wrong is told with row and column; mended by hand and by offers, the mapping can be verified", async () => {
+  const { server, user, upload } = await openImport((server) =>
+    server.on("GET", "/instances/*/complete", () => [symbol("Main.belt.position", "INT")]),
+  );
+  await upload("line.csv");
+  await waitFor(() => expect(verdict()).toContain(t("import.trace.check.bad.one")));
+  const problems = textOf(screen.getByRole("list", { name: t("import.trace.problems") }));
+  expect(problems).toContain(t("import.trace.problem.column", { column: "sped" }));
+  expect(problems).toContain(t("import.trace.problem.row", { row: 1 }));
+  expect(textOf(screen.getByRole("table"))).toContain(t("import.trace.proposed"));
+  expect(start()).toHaveProperty("disabled", true);
+
+  await user.type(variable("sped"), "Main.belt.pos");
+  await user.click(await screen.findByRole("option", { name: /Main\.belt\.position/ }));
+  expect(variable("sped").value).toBe("Main.belt.position");
+  await waitFor(() => expect(verdict()).toContain(t("import.trace.check.ok", { first: 0, last: 19 })));
+  await user.selectOptions(role("sped"), t("import.trace.role.ignore"));
+  await waitFor(() => expect(start()).toHaveProperty("disabled", false));
+
+  // The mended file keeps what was mapped by hand; put away and opened again it is as it was left.
+  await upload("line.csv");
+  await waitFor(() => expect(server.asked.filter(({ path }) => path.includes("/traces?"))).toHaveLength(2));
+  await user.click(button(t("cancel")));
+  await waitFor(() => expect(screen.queryByRole("dialog")).toBeNull());
+  openTraceImport();
+  await screen.findByRole("dialog");
+  expect(role("sped").value).toBe("ignore");
+  expect(variable("sped").value).toBe("Main.belt.position");
+});
+
+test("a mapping is saved under a name, and fits again", async () => {
+  const { user, upload } = await openImport();
+  await upload("line.csv");
+  await waitFor(() => expect(variable("start").value).toBe("start"));
+  await user.type(variable("sped"), "speed");
+  await user.click(button(t("import.trace.save")));
+  const asking = await screen.findByRole("dialog", { name: t("import.trace.save") });
+  await user.type(box(t("import.trace.save.name"), asking), "Line 1");
+  await user.click(button(t("import.trace.save.do"), asking));
+  await waitFor(() => expect(verdict()).toContain(t("import.trace.saved", { name: "Line 1" })));
+  await user.clear(variable("sped"));
+  await user.type(variable("sped"), "lamp");
+  await choose(user, t("import.trace.load"), "Line 1");
+  await waitFor(() => expect(variable("sped").value).toBe("speed"));
+});
+
+test("what the server refuses to begin stays in the dialog", async () => {
+  const { server, user, upload } = await openImport((server) =>
+    server.on("POST", "/instances/*/trace-verifications", () => {
+      throw new TypeError("the connection broke");
+    }),
+  );
+  await upload("line.csv");
+  await user.type(variable("sped"), "speed");
+  await waitFor(() => expect(start()).toHaveProperty("disabled", false));
+  await user.click(start());
+  await waitFor(() =>
+    expect(textOf(within(screen.getByRole("dialog")).getByRole("alert"))).toContain(t("lost.change")),
+  );
+  expect(server.askedOf("POST", `/instances/${server.instance.id}/trace-verifications`)).toMatchObject([
+    { file: "f1" },
+  ]);
+  expect(screen.getByRole("dialog")).not.toBeNull();
+});
