@@ -1,0 +1,180 @@
+import { render, screen, waitFor } from "@testing-library/react";
+import { expect, test, vi } from "vitest";
+import { edit, useDocuments } from "../../../store/project/documents";
+import { box, button, textOf } from "../../../testing/find";
+import { openPage } from "../../../testing/page";
+import { Status } from "../../../testing/routes";
+import type { FakeServer } from "../../../testing/server";
+import { t } from "../../../text";
+import type { OnlineChange } from "../../../wire/types";
+import { EditorPanel } from "./EditorPanel";
+
+// A plain field in the place of Monaco: what is typed goes the same way.
+vi.mock("./CodeView", () => ({
+  default: ({ path, past }: { path: string; past: string | null }) => {
+    const text = useDocuments(({ open }) => open[path]?.text ?? "");
+    return (
+      <textarea
+        aria-label={path}
+        value={past ?? text}
+        readOnly={past !== null}
+        onChange={({ target }) => edit(path, target.value)}
+      />
+    );
+  },
+}));
+vi.mock("./DiffView", () => ({ default: ({ theirs }: { theirs: string }) => <pre>{theirs}</pre> }));
+
+const PATH = "Main.st";
+const FILE = { path: PATH, version: 1, author: "Mika" };
+
+async function openEditor(prepare: (server: FakeServer) => void = () => undefined) {
+  const page = await openPage((server) => {
+    server.on("GET", "/projects/*/files", () => [FILE]);
+    server.on("GET", `/projects/*/files/${PATH}`, () => ({ ...FILE, text: "stored" }));
+    server.on("PUT", `/projects/*/files/${PATH}`, () => ({ ...FILE, version: 2 }));
+    prepare(server);
+  });
+  render(<EditorPanel path={PATH} />);
+  await waitFor(() => expect(text().value).toBe("stored"));
+  return page;
+}
+
+const text = () => box(PATH);
+const saveButton = () => button(t("save"));
+const buildButton = () => button(t("build"));
+
+test("what is typed is saved with the version that it began from", async () => {
+  const { server, user } = await openEditor();
+  expect(saveButton()).toHaveProperty("disabled", true);
+  await user.type(text(), " and more");
+  await user.click(saveButton());
+  await waitFor(() => expect(saveButton()).toHaveProperty("disabled", true));
+  expect(server.askedOf("PUT", `/projects/${server.instance.project.id}/files/${PATH}`)).toEqual([
+    { text: "stored and more", version: 1 },
+  ]);
+});
+
+test.each(["mine", "theirs"] as const)(
+  "of two who save the second one is shown both texts, and takes %s",
+  async (choice) => {
+    let first = true;
+    const { server, user } = await openEditor((server) =>
+      server.on("PUT", `/projects/*/files/${PATH}`, () => {
+        if (!first) return { ...FILE, version: 3 };
+        first = false;
+        return new Status(409, { message: "", theirs: { ...FILE, version: 2, text: "Jo's", author: "Jo" } });
+      }),
+    );
+    await user.type(text(), " mine");
+    await user.click(saveButton());
+    await screen.findByText(t("conflict.title", { path: PATH, version: 2, author: "Jo" }));
+    await screen.findByText("Jo's");
+    await user.click(button(t(`conflict.${choice}`)));
+    await waitFor(() => expect(screen.queryByRole("alert")).toBeNull());
+    expect(text().value).toBe(choice === "mine" ? "stored mine" : "Jo's");
+    const sent = server.askedOf("PUT", `/projects/${server.instance.project.id}/files/${PATH}`);
+    expect(sent.at(-1)).toMatchObject({ text: "stored mine", version: choice === "mine" ? 2 : 1 });
+  },
+);
+
+test("a file that somebody deletes: a text that was edited stays, says who, and saved is a file again", async () => {
+  const { server, user } = await openEditor();
+  await user.type(text(), " mine");
+  server.say({ type: "deleted", path: PATH, author: "Jo" });
+  await screen.findByText(t("deleted.by", { author: "Jo", path: PATH }));
+  expect(text().value).toBe("stored mine");
+  await user.click(saveButton());
+  await waitFor(() => expect(screen.queryByText(t("deleted.by", { author: "Jo", path: PATH }))).toBeNull());
+  expect(server.askedOf("PUT", `/projects/${server.instance.project.id}/files/${PATH}`)).toEqual([
+    { text: "stored mine", version: 0 },
+  ]);
+});
+
+test("without a connection nothing can be saved or built, and both say why; the text stays", async () => {
+  const { server, user } = await openEditor();
+  await user.type(text(), " mine");
+  server.hangUp();
+  await waitFor(() => expect(saveButton()).toHaveProperty("disabled", true));
+  expect(saveButton().title).toBe(t("lost.nosave"));
+  expect(buildButton()).toHaveProperty("disabled", true);
+  expect(buildButton().title).toBe(t("lost.nobuild"));
+  expect(text().value).toBe("stored mine");
+});
+
+test("a build says for whom; what it changed can be taken back until it was", async () => {
+  const { server, user } = await openEditor((server) => {
+    const change: OnlineChange = {
+      instance: server.instance.id,
+      name: "line-1",
+      kept: 58,
+      lost: [],
+      lost_count: 0,
+      refusal: "",
+    };
+    const project = { ...server.instance.project, version: 2 };
+    const result = {
+      ok: true,
+      needs_agreement: false,
+      message: "",
+      changes: [change],
+      pous: [],
+      problems: [],
+      project,
+    };
+    server.on("POST", "/projects/*/build", () => result);
+  });
+  await user.click(buildButton());
+  const outcome = await screen.findByRole("status");
+  await waitFor(() => expect(textOf(outcome)).toContain("line-1"));
+  server.becomes({ program_version: 2, previous_version: 1 });
+  await user.click(button(t("change.rollback")));
+  await waitFor(() => expect(server.sentOf("roll_back")).toHaveLength(1));
+  await waitFor(() => expect(screen.queryByRole("button", { name: t("change.rollback") })).toBeNull());
+});
+
+test("a build that is refused opens the problems", async () => {
+  const { user, places } = await openEditor((server) => {
+    const problem = {
+      file: PATH,
+      line: 3,
+      column: 1,
+      end_line: 3,
+      end_column: 7,
+      message: "NOTYPE",
+      code: "E1",
+      severity: "error",
+    };
+    const { project } = server.instance;
+    const result = {
+      ok: false,
+      needs_agreement: false,
+      message: "1 error",
+      changes: [],
+      pous: [],
+      problems: [problem],
+      project,
+    };
+    server.on("POST", "/projects/*/build", () => result);
+  });
+  await user.click(buildButton());
+  await waitFor(() => expect(places).toEqual(["panel problems"]));
+  expect(textOf(screen.getByRole("status"))).toContain(t("build.refused"));
+});
+
+test("the past before a build shows the text that ran, to be read only; the own one comes back", async () => {
+  const { server, user } = await openEditor((server) => {
+    server.instance = { ...server.instance, project: { ...server.instance.project, version: 2 } };
+    server.on("GET", "/instances/*/program", () => ({ version: 1, files: { [PATH]: "as it ran" }, pous: [] }));
+  });
+  await user.type(text(), " mine");
+  server.becomes({ state: "past", scan: 10, program_version: 1, past: { by: "Ann", live_scan: 1000 } });
+  await waitFor(() => expect(text().value).toBe("as it ran"));
+  expect(text()).toHaveProperty("readOnly", true);
+  expect(saveButton()).toHaveProperty("disabled", true);
+  await screen.findByText(t("past.text", { version: 1 }));
+  await screen.findByText(t("past.text.unsaved"));
+  server.becomes({ state: "running", scan: 1000, program_version: 2, past: null });
+  await waitFor(() => expect(text().value).toBe("stored mine"));
+  expect(saveButton()).toHaveProperty("disabled", false);
+});

@@ -1,0 +1,54 @@
+import { render, screen, waitFor, within } from "@testing-library/react";
+import { expect, test } from "vitest";
+import { button, textOf } from "../../../testing/find";
+import { openPage } from "../../../testing/page";
+import { t } from "../../../text";
+import type { FileInfo } from "../../../wire/types";
+import { Explorer } from "./Explorer";
+
+async function openExplorer() {
+  const files: FileInfo[] = [{ path: "Main.st", version: 1, author: "Mika" }];
+  const page = await openPage((server) => {
+    server.on("GET", "/projects/*/files", () => files);
+    server.on("PUT", "/projects/*/files/.*", () => {
+      throw new Error("two parts at most");
+    });
+    for (const path of ["*", "*/*"])
+      server.on("PUT", `/projects/*/files/${path}`, ({ path }) => {
+        const saved = { path: decodeURIComponent(path.split("/files/")[1] ?? ""), version: 1, author: "Mika" };
+        files.push(saved);
+        return saved;
+      });
+  });
+  render(<Explorer />);
+  const add = (...chosen: File[]) =>
+    page.user.upload(screen.getByLabelText(t("file.add"), { selector: "input" }), chosen);
+  return { ...page, files, add };
+}
+
+test("files of other tools are taken as they are; a table goes to the plant by itself; the first one opens", async () => {
+  const { server, add, places } = await openExplorer();
+  const latin1 = new Uint8Array([..."Name := 'T"].map((sign) => sign.charCodeAt(0)).concat(0xfc, 0x72, 0x27));
+  await add(new File(["time; CIO0\n0; 0\n"], "inputs.csv"), new File([latin1], "Name.st"));
+  const { id } = server.instance.project;
+  await waitFor(() => expect(places).toEqual(["file plant/inputs.csv"]));
+  expect(server.askedOf("PUT", `/projects/${id}/files/plant/inputs.csv`)).toMatchObject([
+    { text: "time; CIO0\n0; 0\n" },
+  ]);
+  expect(server.askedOf("PUT", `/projects/${id}/files/Name.st`)).toMatchObject([{ text: "Name := 'Tür'" }]);
+});
+
+test("a name that is taken is refused with the reason, the others are added", async () => {
+  const { user, add, files } = await openExplorer();
+  await add(new File(["x"], "main.ST"), new File(["y"], "Belt.st"));
+  const dialog = await screen.findByRole("dialog", { name: t("file.add.refused") });
+  expect(textOf(dialog)).toContain(`main.ST: ${t("file.add.exists")}`);
+  expect(files.map(({ path }) => path)).toEqual(["Main.st", "Belt.st"]);
+  await user.click(
+    within(dialog)
+      .getAllByRole("button", { name: t("close") })
+      .at(-1) as HTMLElement,
+  );
+  expect(screen.queryByRole("dialog")).toBeNull();
+  expect(button(t("file.add"))).toHaveProperty("disabled", false);
+});
