@@ -6,7 +6,7 @@ import { describe, expect, it } from "vitest";
 
 const HERE = dirname(fileURLToPath(import.meta.url));
 const ROOT = join(HERE, "../..");
-const FOLDERS = ["frontend/src", "e2e/bench", "e2e/pages", "e2e/shots", "e2e/tests", "vscode/test"];
+const FOLDERS = ["frontend/src", "e2e/bench", "e2e/fixtures", "e2e/pages", "e2e/shots", "e2e/tests", "vscode/test"];
 
 /** *After*, *before*, *is*, *again*, *corrected*, *different* are meant. The same words as in `backend/tests/docs/test_words.py`. */
 const CALQUE =
