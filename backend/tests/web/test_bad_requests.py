@@ -10,13 +10,14 @@ from urllib.parse import quote
 import pytest
 
 from scanbench.web.openapi import document
+from tests.amounts import amount, nightly
 from tests.web.server import Server
 from tests.web.test_simulator import MODEL, PROGRAM
 from tests.web.test_sweeps import finished
 
 Json = dict[str, object]
 JSON = {"Content-Type": "application/json"}
-EACH = 8
+EACH = amount(8, 3)
 """Bodies of one route, chosen from all that there are."""
 IDS = ("0", "-1", str(2**31), str(2**63), str(10**20), "nobody", "%00")
 NUMBERS = (-1, 0, 1.5, 2**31, 2**53, 2**63, 2**64, 10**400, True, "7")
@@ -181,6 +182,7 @@ def named(alone: Server) -> Json:
     }  # fmt: skip
 
 
+@nightly
 def test_no_request_makes_the_server_fail(alone: Server, named: Json) -> None:
     statuses: Counter[int] = Counter()
     for method, address, body in Api({**named, "error": "battery-error"}).requests():
