@@ -1,9 +1,10 @@
 """The verifications of a server: those that go on, and those that somebody kept."""
 
 import asyncio
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 from scanbench import __version__
 from scanbench.public import iso
@@ -26,6 +27,7 @@ from scanbench.wire.events import VerificationsChanged, VerificationStatus, Veri
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import KeptRows, UseRow
 
+A = TypeVar("A")
 MOST = 10
 """Verifications that go on at a time: each is a process."""
 MOST_OPEN = 30
@@ -263,14 +265,25 @@ class Verifications:
     async def record_rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
         """Its rows, as those of a verification."""
         await self.record(id)
-        return await asyncio.to_thread(lambda: self._read(id).page(first, count, differing))
+        return await self._in_record(id, lambda rows: rows.page(first, count, differing))
 
     async def export_record(self, id: int, format: Format) -> Exported:
         """Its rows as a file."""
         kept = await self.record(id)
         project = (await asyncio.to_thread(self._store.projects.get, kept.row.project)).name
         head = _head(kept.status, project, kept.row.instance, str(kept.row.content.get("model", "")), iso(kept.row.at))
-        return await asyncio.to_thread(lambda: _exported(head, self._read(id), format))
+        return await self._in_record(id, lambda rows: _exported(head, rows, format))
+
+    async def _in_record(self, id: int, find: Callable[[Rows], A]) -> A:
+        """What there is in the rows of a record, each of which is read only now."""
+
+        def work() -> A:
+            try:
+                return find(self._read(id))
+            except BadMessage as error:
+                raise unreadable("the rows of this record", error) from error
+
+        return await asyncio.to_thread(work)
 
     def _read(self, id: int) -> Rows:
         """Those that were read last stay in memory: whoever looks at them turns pages."""
@@ -280,8 +293,6 @@ class Verifications:
                 came = unpack_kept(self._path(id).read_bytes()[LENGTH.size :])
             except OSError as error:
                 raise Refused(f"the rows of this record cannot be read: {error}") from error
-            except BadMessage as error:
-                raise unreadable("the rows of this record", error) from error
             assert isinstance(came, KeptRows)
             rows = Rows.of(came)
             self._read_last = {id: rows}

@@ -18,10 +18,12 @@ from scanbench.store.store import Store
 from scanbench.store.tables import Sweep, WatchList
 from scanbench.verify.contract import Range
 from scanbench.verify.trace.mapping import TraceMapping
-from scanbench.wire.codec import pack_body
+from scanbench.wire.codec import pack, pack_body
 from scanbench.wire.events import VerificationStatus, VerifyWish
 from scanbench.wire.refused import Refused
+from scanbench.wire.verification import KeptRows, PackedRow
 from tests.store.said import nobody
+from tests.wire.packed import packed_with
 
 RECORD: Json = {
     "origin": "trace", "signals": [{"text": "Main.n"}], "every": 1, "triggered": None, "first": 0, "end": 1, "rows": 1,
@@ -66,8 +68,13 @@ def test_a_verification_record(store: Store, project: int, tmp_path: Path) -> No
     good = keep(store, project, "good", {"status": pack_body(STATUS).hex()}, "verification")
     assert [each.row.id for each in asyncio.run(records.records(project))] == [good]
     (tmp_path / f"{good}.rows").write_bytes(b"\1\0\0\0\xc1")
-    with pytest.raises(Refused, match=f"the rows of this record {SAYS}"):
-        asyncio.run(records.record_rows(good, 0, 1, False))
+    rows = KeptRows(0, (PackedRow(0, 1, 0, None, packed_with("Row", "weather", 0)),), (), (), (), {})
+    for data in (b"\1\0\0\0\xc1", pack(rows)):
+        (tmp_path / f"{good}.rows").write_bytes(data)
+        with pytest.raises(Refused, match=f"the rows of this record {SAYS}"):
+            asyncio.run(records.record_rows(good, 0, 1, False))
+        with pytest.raises(Refused, match=f"the rows of this record {SAYS}"):
+            asyncio.run(records.export_record(good, "csv"))
 
 
 def test_a_mapping_is_saved_as_it_is_read(store: Store, project: int, tmp_path: Path) -> None:

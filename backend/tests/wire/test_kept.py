@@ -7,6 +7,9 @@ from dataclasses import dataclass, fields, replace
 
 import pytest
 
+from scanbench.host.run_files import sources_in
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError
 from scanbench.typed import BadValue, make, make_kept
 from scanbench.verify.contract import Range
 from scanbench.wire.codec import BadMessage, pack_body, unpack, unpack_kept
@@ -78,6 +81,15 @@ def test_packed_fields_of_a_newer_version_are_left_alone() -> None:
         unpack(newer)
     driven = Driven(paused=True)
     assert unpack_kept(packed_with("Driven", *values(driven), 1.5)) == driven
+
+
+def test_sources_of_a_newer_version_are_refused() -> None:
+    """What they do not say here may make another program of them."""
+    packed = packed_with("Sources", "GENERIC-IEC", {"main.st": "PROGRAM Main END_PROGRAM"}, 1_000_000, 1, "more")
+    with pytest.raises(
+        RunFileError, match=r"program version 1 of the run file .* Open it with the version of scanbench"
+    ):
+        sources_in(KeptProgram(1, packed, ""))
 
 
 # ---- the fields of all that is kept ---------------------------------------------------------------------------------
