@@ -145,6 +145,7 @@ describe("layers", () => {
     const seen = new Set([join(root, "main.tsx")]);
     for (const path of seen) if (path.startsWith(root)) for (const next of needs(path)) seen.add(next);
     expect([...seen].filter((path) => path.startsWith("monaco-editor"))).toEqual([]);
+    expect([...seen].filter((path) => relative(root, path).startsWith("testing/"))).toEqual([]);
     expect([...seen]).toContain(join(root, "panels/project/editor/EditorPanel.tsx"));
     expect(needs(join(root, "panels/project/editor/monaco.ts"))).toContain("monaco-editor/editor");
   });

@@ -8,7 +8,7 @@ export const button = (name: string | RegExp, inside?: HTMLElement) =>
 export const box = (name: string | RegExp, inside?: HTMLElement) =>
   (inside ? within(inside) : screen).getByRole<HTMLInputElement>("textbox", { name });
 
-/** A text of the catalogue as the beginning of a name: behind it may stand a key or a fact. */
+/** A text of the catalogue as the beginning of a name: a key or a fact may follow. */
 export const begins = (text: string) => new RegExp(`^${text.replace(/[.+*?^$()|[\]\\{}]/g, "\\$&")}`);
 
 /** Opens the menu of a button and chooses in it. */

@@ -58,7 +58,7 @@ const BREAKPOINT: BreakpointInfo = {
   reached: 3,
 };
 
-/** The program stands in an instance of a block that the program called. */
+/** The program is halted in an instance of a block that it called. */
 function halted(server: FakeServer) {
   const source = { name: "Main.st", path: "Main.st" };
   const frame = (id: number, name: string, line: number) => ({ id, name, line, column: 1, source });
@@ -131,7 +131,7 @@ test("two people: who made it halt is said, the way there is one click; whose br
   expect(textOf(section(t("debug.breakpoints")))).toContain(t("debug.bp.none"));
 });
 
-test("a breakpoint at a variable that there is not is refused where it is typed, and stands nowhere", async () => {
+test("a breakpoint at a variable that there is not is refused where it is typed, and is not kept", async () => {
   const { server, user } = await openDebug((server) =>
     server.debug("scanbench/setBreakpoint", ({ breakpoint }) => {
       const known = JSON.stringify(breakpoint).includes("Main.a[2].count");

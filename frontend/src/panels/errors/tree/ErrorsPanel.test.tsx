@@ -133,7 +133,7 @@ test("a scan that goes by while one thinks is over, without a key being pressed"
   expect(generate()).toHaveProperty("disabled", true);
 });
 
-test("a condition with an unknown name is refused below the row, mended with one click, and waits", async () => {
+test("a condition with an unknown name is refused below the row, corrected with one click, and waits", async () => {
   const { server, user } = await openSimulator();
   server.command("arm", ({ start }) =>
     start.condition === "strat" ? { message: "condition: strat is not known", near: ["start"] } : undefined,
@@ -165,7 +165,7 @@ const REACTED: Reaction = {
   difference_count: 1,
 };
 
-test("the reaction stands in the tree and in words; its readers are links; a finding says what to do next", async () => {
+test("the reaction is shown in the tree and in words; its readers are links; a finding says what to do next", async () => {
   const { server, user, places } = await openSimulator((server) => {
     server.on("GET", `/instances/*/errors/${BASIC.id}/reaction`, () => REACTED);
     server.on("GET", `/instances/*/errors/${BATTERY.id}/reaction`, () => ({

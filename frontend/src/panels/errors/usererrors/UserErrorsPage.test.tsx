@@ -1,5 +1,6 @@
-import { render, screen, waitFor, within } from "@testing-library/react";
+import { cleanup, render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { loadUserErrors } from "../../../store/errors/userErrors";
 import { box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { refusal, Status } from "../../../testing/routes";
@@ -63,7 +64,7 @@ const error = (name: string) => within(list()).getByText(name).closest("[role=op
 const field = (key: Parameters<typeof t>[0]) => box(t(key));
 const EXAMPLE = t("usererrors.empty.example.name");
 
-test("the first one starts from an example; what is wrong stands under its field while one types", async () => {
+test("the first one starts from an example; what is wrong is shown under its field while one types", async () => {
   const { user } = await openErrors();
   await user.click(button(new RegExp(EXAMPLE)));
   expect(textOf(error(EXAMPLE))).toContain("W10.00");
@@ -106,12 +107,15 @@ test("a second one follows its name, gets details, and is reached by keyboard", 
   expect(button(t("save"))).toHaveProperty("disabled", true);
 });
 
-test("what is not saved is there again when the page is opened anew", async () => {
-  const { user } = await openErrors();
+test("what is not saved is there again after the page was loaded again", async () => {
+  const { server, user } = await openErrors();
   await user.click(button(new RegExp(EXAMPLE)));
-  const kept = Object.values(localStorage).join();
-  expect(kept).toContain("pump-overheated");
+  cleanup();
+  await loadUserErrors(null); // the page has forgotten what it read and what was typed
+  render(<UserErrorsPage />);
+  await waitFor(() => expect(textOf(error(EXAMPLE))).toContain("W10.00"));
   expect(textOf(screen.getByRole("status"))).toContain(t("unsaved"));
+  expect(server.askedOf("PUT", `/projects/${server.instance.project.id}/user-errors`)).toEqual([]);
 });
 
 test("a file is imported whole or not at all: refused with its line, the dialog stays", async () => {

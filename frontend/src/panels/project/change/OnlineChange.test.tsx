@@ -38,7 +38,7 @@ const tick = (name: string) => screen.getByRole<HTMLInputElement>("checkbox", { 
 const gone = () => waitFor(() => expect(screen.queryByRole("dialog")).toBeNull());
 const fate = (plc: string) => screen.getByRole("table", { name: `${plc}: ${t("change.fate.reinitialized")}` });
 
-test("what begins anew is listed with the reason; nothing is built without a yes", async () => {
+test("what is reinitialized is listed with the reason; nothing is built without a yes", async () => {
   const { user, dialog, builds } = await askAbout([change(1, "line-1")]);
   expect(textOf(dialog)).toContain(t("change.kept", { count: 58 }));
   expect(textOf(fate("line-1"))).toContain("Main.shift");

@@ -38,7 +38,7 @@ test("a run-time error says what, where and when; the place is a way there", asy
   expect(places).toEqual(["file Main.st"]);
 });
 
-test("after the cause is mended one goes on: what is present is recovered first, the program goes on in MONITOR", async () => {
+test("after the cause is corrected one goes on: what is present is recovered first, the program goes on in MONITOR", async () => {
   const { server, user } = await openBanners();
   server.say({ type: "errors", rows: [row(BATTERY, RAISED)] });
   server.becomes({ state: "trapped", trap: TRAP });

@@ -22,7 +22,13 @@ test("a project needs its model: it is not made before the models are here, and 
     });
     server.on("GET", "/models/*", () => ({ ...MODELS[0], areas: [], catalogue: [], code_words: [], status_words: [] }));
     server.on("POST", "/projects", () => someProject(800));
-    server.on("POST", "/instances", () => someInstance(800, someProject(800)));
+    server.on("PUT", "/projects/*/files/*", () => ({ path: "Main.st", version: 1, author: "Mika" }));
+    const result = { ok: true, needs_agreement: false, message: "", changes: [], pous: [], problems: [] };
+    server.on("POST", "/projects/*/build", () => ({ ...result, project: someProject(800) }));
+    server.on("POST", "/instances", () => {
+      server.instance = someInstance(800, someProject(800));
+      return server.instance;
+    });
   });
   let closed = false;
   render(<NewProject onClose={() => (closed = true)} />);

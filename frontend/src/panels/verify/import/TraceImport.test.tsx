@@ -87,7 +87,7 @@ test("a broken file is refused with its row, and nothing of it is there", async 
   expect(start()).toHaveProperty("disabled", true);
 });
 
-test("what is wrong is told with row and column; mended by hand and by offers, the mapping can be verified", async () => {
+test("what is wrong is told with row and column; corrected by hand and by offers, the mapping can be verified", async () => {
   const { server, user, upload } = await openImport((server) =>
     server.on("GET", "/instances/*/complete", () => [symbol("Main.belt.position", "INT")]),
   );
@@ -106,7 +106,7 @@ test("what is wrong is told with row and column; mended by hand and by offers, t
   await user.selectOptions(role("sped"), t("import.trace.role.ignore"));
   await waitFor(() => expect(start()).toHaveProperty("disabled", false));
 
-  // The mended file keeps what was mapped by hand; put away and opened again it is as it was left.
+  // The corrected file keeps what was mapped by hand; put away and opened again it is as it was left.
   await upload("line.csv");
   await waitFor(() => expect(server.asked.filter(({ path }) => path.includes("/traces?"))).toHaveLength(2));
   await user.click(button(t("cancel")));
