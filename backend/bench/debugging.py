@@ -65,7 +65,7 @@ class Costs:
 
 @dataclass(frozen=True, slots=True)
 class Swaps:
-    """ms: the pauses in the seam where all is ready, and the work before that, beside the program."""
+    """ms: the pauses in the seam where all is ready, and the work before that, while the program runs."""
 
     debug_pause: float
     debug_build: float

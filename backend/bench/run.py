@@ -1,4 +1,4 @@
-"""Speed of the native engine beside C written by hand, measured in the same run by the same method.
+"""Speed of the native engine compared with C written by hand, measured in the same run by the same method.
 
 Both run the program 2,000 scans first and must then agree on its checksum `chk`. Time is thread CPU time, as the machine
 may have other things to do; samples of the two alternate, and medians of five are compared.

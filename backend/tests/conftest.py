@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, settings
 from scanbench.host.zygote import zygote
 from tests.amounts import amount
 
-# The same examples on every run: a red test stays red until it is mended. SCANBENCH_EXPLORE=1 goes looking for new ones.
+# The same examples on every run: a red test stays red until it is fixed. SCANBENCH_EXPLORE=1 goes looking for new ones.
 settings.register_profile(
     "steady", max_examples=amount(300, 40), derandomize=True, deadline=None, database=None,
     suppress_health_check=[HealthCheck.too_slow],

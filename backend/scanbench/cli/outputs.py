@@ -1,4 +1,4 @@
-"""Files that a command writes beside what it prints: reports for people and for machines."""
+"""Files that a command writes in addition to what it prints: reports for people and for machines."""
 
 from pathlib import Path
 

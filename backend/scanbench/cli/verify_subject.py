@@ -155,7 +155,7 @@ def _program(given: Given) -> tuple[Program, dict[str, str]]:
 
 
 def _ran(given: Given, path: Path) -> tuple[Program, str]:
-    """Runs the project and records it; what a report should say of the run beside."""
+    """Runs the project and records it; gives the program, and what a report should say about the run."""
     program, files = _program(given)
     commands = read_commands(program, given.options)
     with recorded(path, program, files, read_interval(given.interval)) as recording:

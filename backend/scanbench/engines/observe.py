@@ -1,4 +1,4 @@
-"""What a program does, statement by statement, noted beside the image: the contract of observed code.
+"""What a program does, statement by statement, noted outside of the image: the contract of observed code.
 
 Code is observed when it was made so (`interpreter.observed`, `native.observed`); other code pays nothing. Observing never
 changes the image. A site is a statement of the user's files (`symbols.sites`); the system program, the plant and libraries

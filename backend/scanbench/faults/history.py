@@ -230,8 +230,8 @@ class History:
         return changed
 
     def _reaction_to(self, entry: Entry, command: Generate, id: str) -> RowReaction | None:
-        """A fault that comes again and again is compared once, from its first time on; so is one that only gets other
-        details: beside a run in which it is present already there is little to see."""
+        """A fault that recurs is compared once, from its first time on; so is one that only gets new details, as a comparison
+        with a run in which it is present already shows little."""
         if command.origin != "simulator":
             return None
         known = self._now.get(id)

@@ -1,4 +1,4 @@
-"""What is built beside a running PLC: a change of its program, what that would do, and optimised code."""
+"""What is built while a PLC runs: a change of its program, what that would do, and optimised code."""
 
 import logging
 import threading

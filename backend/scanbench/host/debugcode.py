@@ -1,4 +1,4 @@
-"""Debugged code for the programs of one host: built beside the loop, put in place in its seam."""
+"""Debugged code for the programs of one host: built while the loop runs, put in place in its seam."""
 
 from dataclasses import dataclass
 

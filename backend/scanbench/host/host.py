@@ -1,4 +1,4 @@
-"""The process of one PLC: the link's thread and the loop's, and builds beside them."""
+"""The process of one PLC: the threads of the link, of the loop and of builds."""
 
 import logging
 import os

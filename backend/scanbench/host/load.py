@@ -40,7 +40,7 @@ class Loads:
     def look(self, pids: Iterable[int]) -> dict[int, Load]:
         """The load of each; a process that is gone is not there. At the first look its CPU is 0.
 
-        One look at a time, and not in an event loop: the kernel may let it wait. `of` may be called beside it.
+        One look at a time, and not in an event loop: the kernel may let it wait. `of` may be called at the same time.
         """
         found: dict[int, Load] = {}
         seen: dict[int, tuple[int, int]] = {}

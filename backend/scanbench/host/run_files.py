@@ -33,7 +33,7 @@ def fresh_path(directory: Path, purpose: str) -> Path:
 
 
 def set_aside(path: Path) -> None:
-    """Keeps a run file beside the one that begins; the one before it is gone."""
+    """Renames the run file before a new run begins; it replaces the one that was set aside before."""
     if path.exists():
         path.replace(path.with_name(f"{path.name}.previous"))
 

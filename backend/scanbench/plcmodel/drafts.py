@@ -1,6 +1,6 @@
 """Errors as somebody writes them: every attribute as its text, right or wrong. What a form edits, and `errors.xml` holds.
 
-`read_drafts` takes any document that follows the schema, so a file whose addresses are wrong can be mended in the form.
+`read_drafts` takes any document that follows the schema, so a file whose addresses are wrong can be corrected in the form.
 """
 
 from dataclasses import dataclass, field

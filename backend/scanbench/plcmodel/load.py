@@ -20,7 +20,7 @@ class NoSuchModel(Exception):
 
 
 def model_directory() -> Path:
-    """Where the models are: SCANBENCH_MODELS, what a wheel brings, or `models` beside `backend`."""
+    """Where the models are: SCANBENCH_MODELS, what a wheel brings, or `models` next to `backend`."""
     named, here = os.environ.get("SCANBENCH_MODELS"), Path(__file__).resolve()
     brought = here.parents[1] / "share" / "models"
     directory = Path(named) if named else brought if brought.is_dir() else here.parents[3] / "models"

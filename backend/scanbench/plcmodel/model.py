@@ -183,7 +183,7 @@ class Model:
     code_word: Location | None = None
     """Shows the code of the most serious error present."""
     status_words: tuple[str, ...] = ()
-    """Addresses worth showing beside the catalogue."""
+    """Addresses worth showing in addition to the catalogue."""
     fatal: FatalBehaviour = FatalBehaviour()
     log: ErrorLog | None = None
     specials: tuple[Special, ...] = ()

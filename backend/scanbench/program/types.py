@@ -169,7 +169,7 @@ class ArrayType:
 
 @dataclass(frozen=True, slots=True)
 class OpenArray:
-    """ARRAY[*] OF element: the type of an in-out whose bounds come with the call, in hidden variables beside the slot.
+    """ARRAY[*] OF element: the type of an in-out whose bounds come with the call, in hidden variables after the slot.
 
     The members `name$low1`, `name$high1`, `name$low2`, ... are LINT inputs of the same owner.
     """

@@ -58,7 +58,7 @@ def settle(expr: Expr) -> Expr:
 
 
 def real_beside(types: Sequence[Type | None], wanted: Type | None) -> Elementary:
-    """What a real literal is beside values of these types: REAL where that is wanted and holds all of them, else LREAL."""
+    """The type of a real literal in an operation with values of these types: REAL if that is wanted and holds all of them, else LREAL."""
     return REAL if wanted == REAL and all(type is not None and widens(type, REAL) for type in types) else LREAL
 
 

@@ -12,7 +12,7 @@ _CHUNK = 1 << 20
 
 @dataclass(slots=True)
 class Rewritten:
-    """A new file beside the old one."""
+    """A new file next to the old one."""
 
     source: RunFile
     file: RunFile

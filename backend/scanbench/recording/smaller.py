@@ -1,4 +1,4 @@
-"""What is made of a run file beside it, in the recording's own thread: a smaller one, and copies."""
+"""Files that are made of a run file, in the recording's own thread: a smaller one, and copies."""
 
 import errno
 import os

@@ -149,7 +149,7 @@ class _Document:
         return f"<tr>{first}{names}{group}{over('note')}</tr><tr>{sides}{used}</tr>"
 
     def _shown(self) -> tuple[list[Column], list[Column], int]:
-        """The columns that fit, those first that differ somewhere; and how many there are beside."""
+        """The columns that fit, those first that differ somewhere; and the number of those left out."""
         bad = {difference.name for _, difference in self._differences}
         names = sorted(self._report.ordered(), key=lambda each: each.name not in bad)
         outputs = [each for each in names if each.name in self._report.outputs]

@@ -8,7 +8,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
     "en": {
         "title": "Verification report", "range": "Range", "scans": "Scans",
         "source": "Control device", "live": "the PLC, while it ran", "past": "the recorded run, run again natively",
-        "trace": "trace of a real controller: {name}", "interval": "Task interval",
+        "trace": "controller log: {name}", "interval": "Task interval",
         "verdict": "Result", "no_difference": "No difference", "differences_found": "Differences found",
         "nothing_compared": "Nothing was compared",
         "compared": "Scans compared", "skipped": "Scans not compared", "differing": "Rows that differ",

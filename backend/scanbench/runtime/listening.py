@@ -36,7 +36,7 @@ class Within:
 
 
 class Listening:
-    """Which code runs beside the ordinary one of a program, and who is called from it."""
+    """Which flavour of a program's code runs in place of the ordinary one, and who is called from it."""
 
     def __init__(self, loaded: Loaded) -> None:
         self._loaded = loaded

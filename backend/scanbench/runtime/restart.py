@@ -63,7 +63,7 @@ def retained(program: Program, memory: Image) -> list[tuple[int, int]]:
 
 
 def go_on(program: Program, memory: Image, image: bytearray) -> None:
-    """What no restart begins again: the count of scans, time, and RUN mode. The next scan is the program's first."""
+    """Writes into `image` what every restart keeps: the count of scans, the time, and mode RUN. The next scan is the program's first."""
     for offset in (Layout.CLOCK, Layout.SCAN, Layout.BUDGET_LIMIT, Layout.EPOCH, Layout.ORIGIN):
         image[offset : offset + 8] = memory[offset : offset + 8]
     image[Layout.MODE] = Mode.RUN if Header(memory).mode is Mode.RUN else Mode.MONITOR

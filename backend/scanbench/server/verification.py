@@ -47,7 +47,7 @@ _TRAPPED = "the PLC is stopped by a run-time error: restart it to go on"
 
 @dataclass(frozen=True, slots=True)
 class TraceSource:
-    """A trace of a real controller as the control device."""
+    """A controller log, used as the control device."""
 
     file: Path
     name: str

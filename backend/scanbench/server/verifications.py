@@ -104,7 +104,7 @@ class Verifications:
     async def begin_trace(
         self, session: Session, file: TraceFile, mapping: TraceMapping, range: Range, limit: int, author: str
     ) -> VerificationStatus:  # fmt: skip
-        """Verifies the trace of a real controller with the program of an instance."""
+        """Verifies a controller log with the program of an instance."""
         trace = TraceSource(file.path, file.name, mapping.to_json())
         return await self._begin(session, VerifyWish(range, "free", 0, None, limit), trace, author)
 

@@ -1,4 +1,4 @@
-"""Records that somebody kept in a project: of traces, of verifications. What is large of them lies in files beside the database."""
+"""Records that somebody kept in a project: of traces, of verifications. Their large parts are in files next to the database."""
 
 from typing import Literal
 

@@ -1,4 +1,4 @@
-"""A recorded run to be verified: its run file is run again on the code that ran live, beside the monitor."""
+"""A recorded run to be verified: its run file is run again with the code that ran live, and compared with the monitor."""
 
 from collections.abc import Callable, Mapping
 from typing import TypeVar

@@ -13,7 +13,7 @@ __all__ = ["BadEdit", "Begun", "Subject", "Verifier"]
 
 
 class Subject(Protocol):
-    """What is verified: a control device beside the monitor, scan by scan. What it says no to is `Unreadable`."""
+    """What is verified: a control device compared with the monitor, scan by scan. What it refuses is `Unreadable`."""
 
     @property
     def first(self) -> int:

@@ -28,7 +28,7 @@ class BuiltFiles(StaticFiles):
     def file_response(
         self, full_path: str | os.PathLike[str], stat_result: os.stat_result, scope: Scope, status_code: int = 200
     ) -> Response:
-        """The compressed file beside it where there is one and the browser takes it."""
+        """The compressed version of the file, if there is one and the browser accepts it."""
         packed = f"{os.fspath(full_path)}.gz"
         if not os.path.isfile(packed):
             return super().file_response(full_path, stat_result, scope, status_code)

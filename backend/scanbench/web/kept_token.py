@@ -1,6 +1,6 @@
 """The token stays the same over restarts: open pages come back by themselves, and a bookmarked address goes on working.
 
-It lies beside the database, readable by its owner only; deleting the file gives a new one at the next start.
+It is kept next to the database, readable by its owner only; deleting the file gives a new one at the next start.
 """
 
 import os

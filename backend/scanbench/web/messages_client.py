@@ -1,4 +1,4 @@
-"""What a browser says on the WebSocket, beside the commands (`messages_commands.py`). `ref` is chosen by the sender and comes back
+"""What a browser says on the WebSocket, in addition to the commands (`messages_commands.py`). `ref` is chosen by the sender and comes back
 in `Done`, so that a refusal lands in the row that caused it.
 """
 

@@ -42,7 +42,7 @@ class NewVerification(Wire):
 
 
 class NewTraceVerification(Wire):
-    """A trace of a real controller as the control device; the file is uploaded before, see `UploadedTrace`."""
+    """A controller log as the control device; the file is uploaded before, see `UploadedTrace`."""
 
     file: str = Field(min_length=1, max_length=80, description="as `UploadedTrace.file`")
     mapping: "TraceMapping"
@@ -149,7 +149,7 @@ class NewDisturbance(Wire):
     times: int = Field(default=0, ge=0, le=1_000_000, description="with a probability: at most so often; 0: for ever")
 
 
-# ---- traces of real controllers --------------------------------------------------------------------------------------
+# ---- controller logs -------------------------------------------------------------------------------------------------
 
 Role = Literal["input", "output", "ignore"]
 

@@ -62,7 +62,7 @@ _WORDS = {
 
 
 def frontend_directory() -> Path:
-    """Where the built frontend is: SCANBENCH_FRONTEND, what a wheel brings, or `frontend/dist` beside `backend`."""
+    """Where the built frontend is: SCANBENCH_FRONTEND, what a wheel brings, or `frontend/dist` next to `backend`."""
     named = os.environ.get("SCANBENCH_FRONTEND")
     if named:
         return Path(named)

@@ -55,7 +55,7 @@ def record(of: Kept) -> wire.VerificationRecord:
     )  # fmt: skip
 
 
-# ---- traces of real controllers --------------------------------------------------------------------------------------
+# ---- controller logs -------------------------------------------------------------------------------------------------
 
 
 def mapping(of: wire.TraceMapping) -> TraceMapping:

@@ -1,4 +1,4 @@
-"""What a session tells its subscribers, in order. Value frames go beside these, as bytes."""
+"""What a session tells its subscribers, in order. Value frames are sent separately, as bytes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -163,7 +163,7 @@ class Attend:
 
 @dataclass(frozen=True, slots=True)
 class Build:
-    """Compiles beside the running program, and swaps in the seam; answered with `Ack`."""
+    """Compiles while the program runs, and swaps in the seam; answered with `Ack`."""
 
     ref: int
     sources: Sources

@@ -35,7 +35,7 @@ class BeginVerify:
 
 @dataclass(frozen=True, slots=True)
 class BeginTrace:
-    """As `BeginVerify`, for a trace of a real controller: the file as it was uploaded, and how its columns are meant (JSON of
+    """As `BeginVerify`, for a controller log: the file as it was uploaded, and how its columns are meant (JSON of
     `verify.mapping.TraceMapping`). Answered with `VerifyBegun`."""
 
     ref: int

@@ -15,9 +15,9 @@ LANGUAGE = sorted(code for code in TABLE if not code.startswith("M"))
 
 
 def examples(code: str) -> tuple[str, str]:
-    """The failing and the mended example of a page."""
-    failing, mended = FENCE.findall((PAGES / f"{code}.md").read_text("utf-8"))
-    return failing[1], mended[1]
+    """The failing and the corrected example of a page."""
+    failing, corrected = FENCE.findall((PAGES / f"{code}.md").read_text("utf-8"))
+    return failing[1], corrected[1]
 
 
 def test_every_problem_has_a_page_with_its_title() -> None:
@@ -26,11 +26,11 @@ def test_every_problem_has_a_page_with_its_title() -> None:
 
 
 @pytest.mark.parametrize("code", LANGUAGE)
-def test_the_failing_example_fails_and_the_mended_one_does_not(code: str) -> None:
+def test_the_failing_example_fails_and_the_corrected_one_does_not(code: str) -> None:
     model = MODELS["CJ1M-CPU63" if code == "T011" else "GENERIC-IEC"]
-    failing, mended = (check_sources({"a.st": text}, model).problems for text in examples(code))
+    failing, corrected = (check_sources({"a.st": text}, model).problems for text in examples(code))
     assert code in {problem.code for problem in failing}, failing
-    assert [problem for problem in mended if problem.severity is Severity.ERROR or problem.code == code] == []
+    assert [problem for problem in corrected if problem.severity is Severity.ERROR or problem.code == code] == []
 
 
 def test_the_index_lists_every_page() -> None:

@@ -12,7 +12,7 @@ from .test_load import SMALL
 @pytest.mark.parametrize("code", sorted(code for code in TABLE if code.startswith("M")))
 def test_the_failing_example_fails(code: str, load: Load) -> None:
     """They are parts of a small model that has no problems."""
-    failing, mended = examples(code)
-    assert SMALL.count(mended) == 1, mended
-    problems = load(SMALL.replace(mended, failing))[1]
+    failing, corrected = examples(code)
+    assert SMALL.count(corrected) == 1, corrected
+    problems = load(SMALL.replace(corrected, failing))[1]
     assert code in {problem.code for problem in problems}, problems

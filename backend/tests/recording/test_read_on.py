@@ -172,7 +172,7 @@ def test_a_file_that_was_cut_off_is_told(tmp_path: Path) -> None:
             reading.read_on()
 
 
-def test_damage_is_told_of_until_it_is_mended(tmp_path: Path) -> None:
+def test_damage_is_reported_until_it_is_repaired(tmp_path: Path) -> None:
     data = whole_run()[0]
     path = _written(tmp_path / "run", data[:-100])
     with _opened(path) as reading:

@@ -149,7 +149,7 @@ def test_a_page_of_a_trace_with_skipped_scans_says_what_was_not_compared() -> No
         HEAD, source="trace", trace="press {4}.csv", skipped=12, stretches=((5, 5), (7, 17)), forgotten=3, differing=0
     )
     text = to_html(Report(head, COLUMNS, (row(1),), ("state",), ("speed",)))
-    assert "trace of a real controller: press {4}.csv" in text
+    assert "controller log: press {4}.csv" in text
     assert "Not compared: 5, 7 – 17. 3 rows are not in this report." in text
     assert "All scans were compared" not in text
 

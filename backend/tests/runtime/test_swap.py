@@ -94,8 +94,10 @@ def test_after_a_trap_the_new_program_starts_warm(engine: EngineFactory) -> None
     resource.run(3)
     assert resource.header.halted_by_trap
     scan = resource.header.scan
-    mended = TRAPPING.replace("VAR n : INT := 5;", "VAR first : LINT; n : INT := 6;").replace("STRING[9]", "STRING[8]")
-    message = change(resource, program(mended.replace("text := 'kept'; p := REF(total); q := 1 / d;", "")), engine)
+    corrected = TRAPPING.replace("VAR n : INT := 5;", "VAR first : LINT; n : INT := 6;").replace(
+        "STRING[9]", "STRING[8]"
+    )
+    message = change(resource, program(corrected.replace("text := 'kept'; p := REF(total); q := 1 / d;", "")), engine)
     assert "version 2: warm start" in message
     assert "what is retained is kept" in message
     for path, expected in (

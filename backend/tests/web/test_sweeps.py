@@ -3,7 +3,7 @@
 from tests.web.server import Browser, Message, Server
 from tests.web.test_simulator import MODEL, PROGRAM
 
-MENDED = PROGRAM.replace("    ;\n", "    lamp := TRUE;\n")
+CORRECTED = PROGRAM.replace("    ;\n", "    lamp := TRUE;\n")
 
 
 def finished(browser: Browser, sweep: int) -> Message:
@@ -73,9 +73,9 @@ def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None
         assert {row["id"] for row in look if row["status"] == "generated"} == {"battery-error"}
         assert server.state(opened.json()["id"])["state"] == "paused"
 
-        # A mended program is better, and the states are carried over to it.
+        # A corrected program is better, and the states are carried over to it.
         text = server.http.get(f"/api/projects/{project}/files/main.st").json()
-        saved = {"text": MENDED, "version": text["version"]}
+        saved = {"text": CORRECTED, "version": text["version"]}
         assert server.http.put(f"/api/projects/{project}/files/main.st", json=saved).status_code == 200
         built = server.http.post(f"/api/projects/{project}/build", json={"agreed": True}).json()
         assert built["ok"], built
@@ -171,7 +171,7 @@ def test_a_version_that_was_only_swept_has_a_record(server: Server) -> None:
         assert begun["instance_id"] == instance
         finished(browser, begun["id"])
         file = f"/api/projects/{project}/files/main.st"
-        assert server.http.put(file, json={"text": MENDED, "version": 1}).status_code == 200
+        assert server.http.put(file, json={"text": CORRECTED, "version": 1}).status_code == 200
         assert server.http.post(f"/api/projects/{project}/build", json={}).json()["ok"]
         browser.wait(lambda: server.state(instance)["program_version"] == 2)
     record = server.http.get(f"/api/instances/{instance}/record", params={"version": 1})

@@ -795,8 +795,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket
-         * @description Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket.
+         * Makes a retrospective trace: runs recorded scans again while the PLC runs; progress comes by the instance's WebSocket
+         * @description Makes a retrospective trace: runs recorded scans again while the PLC runs; progress comes by the instance's WebSocket.
          */
         post: operations["create_instance_retrospective"];
         delete?: never;
@@ -4257,7 +4257,7 @@ export interface components {
         };
         /**
          * NewTraceVerification
-         * @description A trace of a real controller as the control device; the file is uploaded before, see `UploadedTrace`.
+         * @description A controller log as the control device; the file is uploaded before, see `UploadedTrace`.
          */
         NewTraceVerification: {
             /**

@@ -88,7 +88,7 @@ def _names(node: object) -> Iterator[str]:
 
 
 def make_note(owner: Record, member: Member, initial: bytes) -> None:
-    """Places the note beside the variable. That of a function's input comes with the call."""
+    """Places the note next to the variable. That of a function's input comes with the call."""
     scalar = isinstance(member.type, Subrange)
     given = scalar and member.section is Section.INPUT and owner.kind is Kind.STRUCT
     section = Section.INPUT if given else Section.VAR

@@ -80,7 +80,7 @@ def _compare(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
 
 
 def _characters(body: Body, one: Expr, other: Expr, span: Span) -> Expr:
-    """A text beside a character: a literal of one character is that, and a character beside a string is a string."""
+    """A string and a character as operands: a literal of one character becomes a character, else the character becomes a string."""
     if other.type is None:
         return one
     constant = isinstance(one, Const)
@@ -125,7 +125,7 @@ def _same(
 
 
 def _beside(body: Body, literal: Expr, type: Elementary, span: Span, wanted: Type | None) -> Expr:
-    """An untyped literal beside an operand of `type`: that type, or a larger one where it does not fit."""
+    """An untyped literal whose other operand has `type`: it gets that type, or a larger one if it does not fit."""
     assert isinstance(literal, Const)
     if literal.type == ANY_INT and type.kind in (Kind.INT, Kind.UINT):
         low, high = bounds(type)

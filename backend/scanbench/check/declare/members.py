@@ -189,5 +189,5 @@ def _with_arguments(variable: tree.Variable) -> tree.Variable:
 
 
 def own_memory(name: str) -> str:
-    """The hidden variable beside an `AT %I*` that is used as long as no address is given."""
+    """The hidden variable of an `AT %I*` that is used as long as no address is given."""
     return f"{name}$memory"

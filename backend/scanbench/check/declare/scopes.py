@@ -75,7 +75,7 @@ def place_of(member: Member, base: Base, owner: Record, null_trap: int) -> Place
     if member.located:
         return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@")
     if owner.name == SYSTEM.name:
-        return Place(member.type, base, member.offset)  # an engine writes it beside the program
+        return Place(member.type, base, member.offset)  # the engine writes it too, not only the program
     prefix = "frame " if base is Base.FRAME else ""
     variable = f"{prefix}{member.home or owner.name}.{member.name}".upper()
     if member.bound:

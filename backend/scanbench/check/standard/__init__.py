@@ -1,4 +1,4 @@
-"""The standard library's lower half: intrinsics, which ST cannot say. The upper half is the `.st` files beside this one.
+"""The standard library's lower half: intrinsics, which ST cannot say. The upper half is the `.st` files in this folder.
 
 Integers: arguments and result have the same elementary type T unless stated. Strings are STRING (a byte a character) or
 WSTRING (a UTF-16 unit a character), all of one call and its result of one width unless stated; s is a string of either;

@@ -1,4 +1,4 @@
-"""The library's upper half: what the `.st` files beside this one declare, for every type that the standard names."""
+"""The library's upper half: what the `.st` files in this folder declare, for every type that the standard names."""
 
 import re
 from collections.abc import Iterator

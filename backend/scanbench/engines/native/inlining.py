@@ -9,7 +9,7 @@ LARGE = 24
 """Statements from which on a body is compiled by itself: a call costs it nothing, and LLVM takes more than linear time
 for a caller that has swallowed hundreds of them."""
 COPY, MOST_COPIED = 10, 600
-"""What a copy of a callee costs beside its statements, and what all copies in a module may: with a copy of everything
+"""What a copy of a callee costs in addition to its statements, and what all copies in a module may: with a copy of everything
 below, a chain of functions would take quadratic time."""
 MOST_SWALLOWED = 1500
 """Statements of the standard library that become part of one body. What has a thousand timers calls the others."""

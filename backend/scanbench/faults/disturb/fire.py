@@ -87,7 +87,7 @@ class Hold(Firing):
             table[at] = (old | mask, data | value)
         if len(table) > Layout.FORCE_LIMIT:
             return Refusal(
-                f"no room to hold {len(spots)} bytes beside what is forced: at most {Layout.FORCE_LIMIT} bytes. Name a "
+                f"no room to hold {len(spots)} bytes in addition to what is forced: at most {Layout.FORCE_LIMIT} bytes. Name a "
                 "single input"
             )
         what = f"Input {self.path}" if self.path.strip() else f"All inputs ({len(spots)} bytes)"

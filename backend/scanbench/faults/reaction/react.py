@@ -1,4 +1,4 @@
-"""How a program reacts to an error: the run with it beside the same run without it, scan by scan.
+"""How a program reacts to an error: the run with it is compared with the same run without it, scan by scan.
 
 Both begin in one state and get the same commands. Runs are deterministic, so whatever differs outside of error memory is
 the program's doing. What the PLC or the program entered by itself is not given to the run without the error: it finds

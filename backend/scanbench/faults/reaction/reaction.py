@@ -1,4 +1,4 @@
-"""How a program reacted to an error: a run with it beside the same run without it. Data only; `react.py` finds it out."""
+"""How a program reacted to an error: a run with it compared with the same run without it. Data only; `react.py` computes it."""
 
 from dataclasses import dataclass
 from typing import ClassVar, Literal

@@ -31,7 +31,7 @@ class Signal:
 
 @dataclass(frozen=True, slots=True)
 class Trace:
-    """A trace of a real controller, understood: each row is a scan."""
+    """A controller log whose columns are mapped to variables: each row is a scan."""
 
     name: str
     scans: Scans

@@ -230,7 +230,7 @@ def _used_last(made: Pass, names: NamesInside) -> dict[str, bytes]:
 
 
 def _leaf(names: NamesInside, signal: Signal) -> Leaf:
-    """What a mapped variable is called in a pass."""
+    """The name that a pass has for a variable to which a column is mapped."""
     symbol, size = signal.symbol, signal.type.size
     for leaf in names.at(symbol.offset, size, 0xFF if symbol.bit is None else 1 << symbol.bit):
         if (leaf.offset, leaf.bit, leaf.type.size) == (symbol.offset, symbol.bit, size):

@@ -1,4 +1,4 @@
-"""Verification against a trace of a real controller: the same questions and answers as of a recorded run."""
+"""Verification against a controller log: the same questions and answers as for a recorded run."""
 
 from collections.abc import Mapping
 
@@ -34,7 +34,7 @@ def open_trace(
 
 
 class TraceSubject:
-    """See `Subject`: the monitor on the inputs of a trace, and what it comes to beside what the trace says."""
+    """See `Subject`: the monitor runs on the inputs of a controller log, and its results are compared with those of the log."""
 
     def __init__(
         self, program: Program, trace: Trace, sources: Mapping[str, str] | None = None, note: str = ""

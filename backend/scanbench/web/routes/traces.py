@@ -137,7 +137,7 @@ async def on_record_csv(bench: Bench, record: Id, first: Scan = 0, last: Scan | 
 async def on_new_retrospective(
     bench: Bench, request: Request, instance: Id, new: wire.NewRetrospective
 ) -> RetrospectiveChanged:
-    """Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket."""
+    """Makes a retrospective trace: runs recorded scans again while the PLC runs; progress comes by the instance's WebSocket."""
     signals = tuple(text.strip() for text in new.signals)
     return bench.trace_records.make_retrospective(
         bench.session(instance), signals, new.scans, new.last, new.every, user_of(request).name
