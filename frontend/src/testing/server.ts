@@ -98,6 +98,12 @@ export class FakeServer {
     this.sendFrame([...this.ids].filter(([, watched]) => watched === path).map(([id]) => id));
   }
 
+  /** Scans go by in which no value changes that somebody watches. */
+  runsTo(scan: number): void {
+    this.instance = { ...this.instance, state: { ...this.instance.state, scan } };
+    this.socket?.receive(frameOf(new Map(), scan, this.instance.state.time_ns));
+  }
+
   /** The connection breaks, and the server stays away until a socket is opened again. */
   hangUp(): void {
     this.socket?.break();

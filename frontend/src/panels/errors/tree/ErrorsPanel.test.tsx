@@ -128,7 +128,7 @@ test("a scan that goes by while one thinks is over, without a key being pressed"
   await shape(user, "shape.when", t("shape.when.scan"));
   await type(user, t("shape.scan"), "1200");
   expect(textOf(details())).not.toContain(t("shape.bad.past"));
-  server.becomes({ scan: 1201 });
+  server.runsTo(1201);
   await waitFor(() => expect(textOf(details())).toContain(t("shape.bad.past")));
   expect(generate()).toHaveProperty("disabled", true);
 });

@@ -89,6 +89,8 @@ test("a range shows its words, written one by one; its format is theirs, and tha
   await pick(user, t("format.decimal"));
   await shows("W10", "4660");
   await shows("W11", "1234");
+  await user.type(entry("W10"), "77{Enter}");
+  await waitFor(() => expect(written(server).at(-1)).toBe("W10 77"));
 });
 
 test("by keyboard alone: to a row, type, write, force, release, remove, take back", async () => {
