@@ -30,6 +30,11 @@ function close(this: HTMLDialogElement): void {
   this.removeAttribute("open");
 }
 
+/** No style sheet is loaded, so all elements look the same; computing it each time takes jsdom longer than anything else. */
+const plain = document.createElement("div").style;
+Object.assign(plain, { display: "block", visibility: "visible", pointerEvents: "auto" });
+window.getComputedStyle = () => plain;
+
 vi.stubGlobal("WebSocket", FakeSocket);
 vi.stubGlobal("matchMedia", () => ({
   matches: false,
