@@ -27,7 +27,7 @@ SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend
 NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json vscode/package-lock.json))
 
 .PHONY: help setup setup-test run test check coverage bench shots lock clean
-.PHONY: fuzz features nightly
+.PHONY: fuzz features nightly nightly-unit nightly-e2e
 .PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
 .PHONY: tools-python tools-node system-chromium system-postgresql
 
@@ -125,7 +125,12 @@ e2e: frontend/dist/.stamp
 
 # What `make test` leaves out to stay quick: see backend/tests/amounts.py and e2e/README.md.
 nightly: setup-test
+	@.ci/steps nightly-unit nightly-e2e
+
+nightly-unit:
 	@cd backend && SCANBENCH_NIGHTLY=1 $(BIN)/python $(PYTEST) -m "nightly or hypothesis"
+
+nightly-e2e: frontend/dist/.stamp
 	@cd e2e && $(NPM) run --silent nightly
 
 # ------------------------------------------------------------------------------------------------ Python

@@ -1,6 +1,6 @@
 """How much of what is made up is compared: in `make test` so much that it stays quick, in `make nightly` and CI far more.
 
-Whoever uses this marks the test with `nightly`, which is what `make nightly` runs.
+`make nightly` runs the tests marked `nightly` and those of hypothesis, which mark themselves.
 """
 
 import os

@@ -272,12 +272,12 @@ class RunFile:
         head = self._head(offset, size)
         if len(head) < _BLOCK.size or _decode(head, offset) is not None:
             return
-        sync, kind, packing, _, length, _, _ = _BLOCK.unpack(head)
+        sync, kind, packing, reserved, length, _, _ = _BLOCK.unpack(head)
         begin = offset + _BLOCK.size
         if sync == _SYNC and begin + length <= size and self._is_right(head, begin, begin + length):
             raise RunFileError(
-                f"{self.path.name}: the block at byte {offset} is of kind {kind}, packed in way {packing}, which this scanbench "
-                "does not know. Open it with the version of scanbench that wrote it"
+                f"{self.path.name}: the block at byte {offset} is of kind {kind}, packed in way {packing}, with {reserved} in its reserved "
+                "field, and this scanbench does not know that together. Open it with the version of scanbench that wrote it"
             )
 
     def _damage(self, offset: int, size: int) -> Damage:

@@ -76,8 +76,9 @@ class RunReader:
     # ---- the file -------------------------------------------------------------------------------------------------
 
     def follow(self, until: int | None = None) -> bool:
-        """Reads on, up to scan `until` or to the end of the file. False if the file was replaced since the last call: then
-        the caller has to start again. `Unreadable`."""
+        """Reads what was appended. `until`: the scan up to which the caller knows the run is over; `entries` has those up to it,
+        without it those up to the last scan that the file knows. False if the file was opened: the first time, after `close`, and
+        when it was replaced; then the caller has to start again. `Unreadable`."""
         try:
             with self.reading():
                 new, same = self._read_on()

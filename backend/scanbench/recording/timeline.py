@@ -46,7 +46,7 @@ class Timeline:
         """The state of the live PLC while an earlier scan is shown."""
         self._sent = 0
         self._whole = True
-        """Whether the journal still has all entries that it had when the earlier scan was first shown."""
+        """Whether no entry was dropped from the journal since what is shown was last restored."""
 
     @classmethod
     def begin(

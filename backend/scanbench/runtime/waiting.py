@@ -17,7 +17,7 @@ class Waiting:
         self.agenda = agenda
         self.until: Condition | None = None
         """A live run comes back after each scan after which it holds. Made for the program that is live: after a change of
-        the program it is the same for the new one, if that is possible. It stays in force through time travel."""
+        the program whoever set it has to make it again (`Timeline.submit` does). It stays in force through time travel."""
         self.samplings: tuple[Sampling, ...] = ()
         """What is sampled, but not while a program runs that they were not made for. A scan of the past that is run again
         has its rows already, so it gets none."""

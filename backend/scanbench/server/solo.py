@@ -19,7 +19,7 @@ from scanbench.store.records import InstanceRow
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.refused import Refused
 
-_NOT_RUNNING = ("paused", "halted", "stopped", "trapped", "fatal")
+_SETTLED = ("paused", "halted", "stopped", "trapped", "fatal")
 
 
 class Solo:
@@ -62,7 +62,7 @@ class Solo:
 
     async def settled(self) -> None:
         """Waits until the PLC is there and does not run; `Refused` when it cannot be there."""
-        while self.session.state.state not in _NOT_RUNNING:
+        while self.session.state.state not in _SETTLED:
             if self.session.state.state in ("failed", "no_space"):
                 raise Refused(self.session.state.message)
             await asyncio.sleep(0.01)

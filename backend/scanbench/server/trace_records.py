@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 from scanbench.engines.sample import MAX_SIGNALS
 from scanbench.jobs.client import FAULT, Make, alone
@@ -39,8 +40,7 @@ class TraceRecord:
     """A kept record: what of, when, and whose."""
 
     row: KeptRow
-    origin: str
-    """`trace` or `retrospective`."""
+    origin: Literal["trace", "retrospective"]
     signals: tuple[TraceSignal, ...]
     every: int
     triggered: int | None
@@ -279,8 +279,10 @@ def _loaded(path: Path, record: TraceRecord) -> TraceBuffer:
 
 
 def _record(row: KeptRow) -> TraceRecord:
-    origin = "trace" if row.content.get("origin") == "trace" else "retrospective"
+    content = {**row.content, "row": row}
+    if content.get("origin") == "flight":  # what a retrospective trace was called before 0.1.0
+        content["origin"] = "retrospective"
     try:
-        return make_kept(TraceRecord, {**row.content, "origin": origin, "row": row})
+        return make_kept(TraceRecord, content)
     except BadValue as error:
         raise unreadable(f"the record {row.name}", error) from error

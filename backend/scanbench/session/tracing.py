@@ -101,7 +101,7 @@ class Tracing:
 
     async def pages(self, number: int, first: int, last: int | None) -> AsyncIterator[tuple[TraceStatus, Samples]]:
         """All samples of these scans, the newest first, as the oldest are forgotten first while they are read; one page at
-        least, with what it is of. `Refused` if the trace was recorded again since the page before."""
+        least, with what it is of. `Refused` if a different buffer is shown than for the page before."""
         generation: int | None = None
         while True:
             answer = await self._read(number, lambda ref, end=last: ReadTrace(ref, number, first, end, None, page=True))  # type: ignore[misc]

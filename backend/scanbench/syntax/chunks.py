@@ -1,4 +1,5 @@
-"""A file in chunks that are parsed one by one: each POU, and the text between. An edit reparses only its chunk."""
+"""A file in chunks that are parsed one by one: each POU, and the text between. An edit within POUs reparses
+only these; any other edit, all of it."""
 
 from dataclasses import dataclass, field
 

@@ -61,7 +61,7 @@ class TraceStatus(Public):
     state: State
     signals: tuple[TraceSignal, ...]
     generation: int
-    """Changes whenever the trace is recorded again."""
+    """Changes with every buffer that is shown: when the trace is recorded again, a trigger came again, or its signals changed."""
     triggered: int | None
     """After which scan the trigger came, of what is shown."""
     hits: int

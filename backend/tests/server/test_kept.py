@@ -59,6 +59,17 @@ def test_a_trace_record(store: Store, project: int, tmp_path: Path) -> None:
     assert [each.row.id for each in asyncio.run(records.of_project(project))] == [good]
 
 
+def test_a_record_of_earlier_scans_from_before_it_was_called_retrospective(
+    store: Store, project: int, tmp_path: Path
+) -> None:
+    records = TraceRecords(store, tmp_path, tmp_path)
+    id = keep(store, project, "old", {**RECORD, "origin": "flight"}, "trace")
+    assert asyncio.run(records.one(id)).origin == "retrospective"
+    bad = keep(store, project, "unknown", {**RECORD, "origin": "guessed"}, "trace")
+    with pytest.raises(Refused, match=SAYS):
+        asyncio.run(records.one(bad))
+
+
 def test_a_verification_record(store: Store, project: int, tmp_path: Path) -> None:
     records = Verifications(store, tmp_path, tmp_path)
     for bad in ({}, {"status": "no hex"}, {"status": "c1"}):

@@ -5672,7 +5672,7 @@ export interface components {
             first: number;
             /**
              * Generation
-             * @description Changes whenever the trace is recorded again.
+             * @description Changes with every buffer that is shown: when the trace is recorded again, a trigger came again, or its signals changed.
              */
             generation: number;
             /**

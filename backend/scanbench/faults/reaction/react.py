@@ -209,8 +209,8 @@ class _Run:
         return self._reaction(scan, observer.sites.statements)
 
     def _kinds_shown(self) -> frozenset[What]:
-        """What of the error can be read in this scan: its code, unless a more serious error is present; once it was recovered,
-        only its record in the log."""
+        """What of the error can be read in this scan: its flag, its details and its record in the log, its code too unless a more
+        serious error hides it; once it was recovered, only its record in the log."""
         if self._chosen.error.id not in self._resource.journal.derived(ACTIVE):
             return frozenset(("log",))
         code = sum(
