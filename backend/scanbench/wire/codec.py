@@ -133,7 +133,7 @@ def body_length(start: bytes | bytearray) -> int:
 
 def unpack_kept(body: bytes) -> object:
     """The message that was kept in `body`, perhaps by a newer version: the fields that it knows besides, which are the last
-    ones, are left alone."""
+    ones, are left alone, whatever they hold."""
     return unpack(body, _read_kept)
 
 
@@ -190,21 +190,45 @@ def _write(value: object) -> msgpack.ExtType:
 
 
 def _reader(deeper: _Read, bounded: bool, kept: bool) -> _Read:
+    split = _known_values if kept else _all_values
+
     def read(code: int, data: bytes) -> object:
         if code != _OBJECT:
             raise ValueError(f"unknown kind of value {code}")
-        name, *values = msgpack.unpackb(data, ext_hook=deeper, use_list=False, strict_map_key=False, timestamp=3)
+        name, values = split(data, deeper)
         if bounded:
             for value in values:
                 if isinstance(value, int) and not -_LARGEST_NUMBER <= value < _LARGEST_NUMBER:
                     raise ValueError(f"{value} is too large a number for anything in {name}")
         cls = _CLASSES[name]
-        if kept:
-            del values[len(_FIELDS[name]) :]
         check(cls, values)
         return cls(*values)
 
     return read
+
+
+def _all_values(data: bytes, deeper: _Read) -> tuple[str, list[object]]:
+    """The name of a class, and the values of its fields."""
+    name, *values = msgpack.unpackb(data, ext_hook=deeper, use_list=False, strict_map_key=False, timestamp=3)
+    return name, values
+
+
+def _known_values(data: bytes, deeper: _Read) -> tuple[str, list[object]]:
+    """The same, without the fields that this version does not know: nobody looks into them, as their classes may be new too."""
+    unpacker = msgpack.Unpacker(
+        ext_hook=deeper, use_list=False, strict_map_key=False, timestamp=3, max_buffer_size=len(data)
+    )
+    unpacker.feed(data)
+    try:
+        count = unpacker.read_array_header() - 1
+        name = unpacker.unpack()
+        known = min(count, len(_FIELDS[name]))
+        values = [unpacker.unpack() for _ in range(known)]
+        for _ in range(count - known):
+            unpacker.skip()
+    except msgpack.OutOfData as error:
+        raise ValueError("it is cut off") from error
+    return name, values
 
 
 def _too_deep(code: int, data: bytes) -> object:

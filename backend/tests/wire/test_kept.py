@@ -17,7 +17,7 @@ from scanbench.wire.events import VerificationStatus, VerifyWish
 from scanbench.wire.host import Driven
 from tests.store.said import missing
 from tests.wire.kept_shapes import GOLDEN, Shape, kept, of, optional, shapes
-from tests.wire.packed import packed_with
+from tests.wire.packed import cut_off, object_of, packed_with
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,26 @@ def test_packed_fields_of_a_newer_version_are_left_alone() -> None:
         unpack(newer)
     driven = Driven(paused=True)
     assert unpack_kept(packed_with("Driven", *values(driven), 1.5)) == driven
+
+
+def test_of_packed_fields_of_a_newer_version_nobody_looks_at_the_classes() -> None:
+    unknown, ill = object_of("OfANewerVersion", 1), object_of("Range", 7)
+    assert unpack_kept(packed_with("VerificationStatus", *values(STATUS), unknown, [{"a": ill}], 1)) == STATUS
+    newer = object_of("Range", *(getattr(STATUS.wanted.range, each.name) for each in fields(Range)), unknown)
+    assert unpack_kept(packed_with("VerifyWish", newer, "free", 0)) == STATUS.wanted
+
+
+@pytest.mark.parametrize("name", ["OfANewerVersion", "Ping"])
+def test_in_a_field_that_is_known_a_wrong_class_is_refused(name: str) -> None:
+    with pytest.raises(BadMessage):
+        unpack_kept(packed_with("VerifyWish", object_of(name), "free", 0))
+
+
+def test_packed_fields_that_are_cut_off_are_refused() -> None:
+    """Also where they would be left alone."""
+    for packed in (cut_off("VerifyWish", STATUS.wanted.range), cut_off("Driven", *values(Driven()), "more")):
+        with pytest.raises(BadMessage, match="cut off"):
+            unpack_kept(packed)
 
 
 def test_sources_of_a_newer_version_are_refused() -> None:
