@@ -33,7 +33,7 @@ from scanbench.server.watch_lists import WatchLists
 from scanbench.session.instance import Remembered
 from scanbench.session.log import LOG_LINES
 from scanbench.session.session import Session
-from scanbench.session.write_behind import WriteBehind, breakpoint_of, line_of, row_of
+from scanbench.session.write_behind import WriteBehind, line_of, row_of
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven
@@ -279,8 +279,7 @@ class Workbench:
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits)
         if paused:
             memory.driven = Driven(paused=True)
-        kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints.all, row.id))
-        breakpoints = [each for each in kept if each is not None]
+        breakpoints = await asyncio.to_thread(self._store.breakpoints.all, row.id)
         traces = await asyncio.to_thread(self._store.traces.all, row.id)
         session = Session(
             row, model, memory, self._write_behind, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces,

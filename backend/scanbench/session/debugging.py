@@ -1,17 +1,21 @@
 """Debugging at one PLC, seen from the parent: the breakpoints that people want, and what the host says of them."""
 
+import logging
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Protocol, TypeVar
 
 from scanbench.debug.bound_to import Bound
 from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.store.records import Json
+from scanbench.typed import BadValue, make_kept
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
 from scanbench.wire import host as protocol
 from scanbench.wire.debugging import BreakpointsAre, Coverage, CoverageIs, DebugRequest
 from scanbench.wire.refused import Refused
 
+log = logging.getLogger("scanbench")
 SHARED = ""
 """The group of what all browsers at a PLC share."""
 NOT_YET = "the PLC is not there: the breakpoint is set when it is"
@@ -28,13 +32,16 @@ class Debugging:
     """Keeps what has to be told to the next host, when this one dies or is switched off."""
 
     def __init__(
-        self, ask: Ask, publish: Callable[[events.Event], None], keep: Callable[[Sequence[Breakpoint]], None],
-        kept: Sequence[Breakpoint],
+        self, ask: Ask, publish: Callable[[events.Event], None], keep: Callable[[Sequence[Json]], None],
+        kept: Sequence[Json],
     ) -> None:  # fmt: skip
-        """`keep` keeps those of the shared list, `kept` were kept by an earlier life of the server."""
+        """`keep` keeps those of the shared list, `kept` is what it was given in an earlier life of the server. What cannot be
+        read is kept again as it is, and its number is not given out, so that the version that made it finds it."""
         self._ask, self._publish, self._keep = ask, publish, keep
-        self._verdicts = {each.id: Verdict(each, False, NOT_YET) for each in kept}
-        self._next = max(self._verdicts, default=0) + 1
+        read = [(each, breakpoint_of(each)) for each in kept]
+        self._unread = [content for content, found in read if found is None]
+        self._verdicts = {found.id: Verdict(found, False, NOT_YET) for _, found in read if found is not None}
+        self._next = max([*self._verdicts, *map(_id_of, self._unread)], default=0) + 1
         self._coverage: Coverage | None = None
 
     @property
@@ -68,7 +75,8 @@ class Debugging:
         except Refused as why:
             self._verdicts |= {each.id: Verdict(each, False, why.message) for each in named}
         if group == SHARED:
-            self._keep([each.breakpoint for each in self.verdicts if each.breakpoint.group == SHARED])
+            shared = [asdict(each.breakpoint) for each in self.verdicts if each.breakpoint.group == SHARED]
+            self._keep([*shared, *self._unread])
         self._publish(events.BreakpointsChanged(self.verdicts))
         return tuple(self._verdicts.get(each.id) or Verdict(each, False, "taken away meanwhile") for each in named)
 
@@ -136,3 +144,17 @@ class Debugging:
             case _:
                 return False
         return True
+
+
+def breakpoint_of(kept: Json) -> Breakpoint | None:
+    """A breakpoint as the store has it; None if a different version of Scanbench stored something that this one does not know."""
+    try:
+        return make_kept(Breakpoint, kept)
+    except BadValue as error:
+        log.error("a breakpoint that another version of Scanbench kept is left out: %s", error)
+        return None
+
+
+def _id_of(unread: Json) -> int:
+    id = unread.get("id")
+    return id if isinstance(id, int) else 0

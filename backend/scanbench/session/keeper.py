@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
-from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow
 from scanbench.store.records import Json
 from scanbench.wire.events import LogEntry
@@ -18,7 +17,7 @@ class Keeper(Protocol):
     def keep_line(self, instance: int, line: LogEntry, version: int) -> None:
         """A line of the log, while this version of the program runs."""
 
-    def keep_breakpoints(self, instance: int, breakpoints: Sequence[Breakpoint]) -> None:
+    def keep_breakpoints(self, instance: int, breakpoints: Sequence[Json]) -> None:
         """The breakpoints that everybody shares, all of them."""
 
     def keep_traces(self, instance: int, traces: Mapping[int, Json]) -> None:
@@ -34,7 +33,7 @@ class NothingKept:
     def keep_line(self, instance: int, line: LogEntry, version: int) -> None:
         """Does nothing."""
 
-    def keep_breakpoints(self, instance: int, breakpoints: Sequence[Breakpoint]) -> None:
+    def keep_breakpoints(self, instance: int, breakpoints: Sequence[Json]) -> None:
         """Does nothing."""
 
     def keep_traces(self, instance: int, traces: Mapping[int, Json]) -> None:

@@ -6,7 +6,6 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, History
 from scanbench.host.load import Load, Loads
 from scanbench.jobs.client import SharedJob
@@ -42,7 +41,7 @@ class Session:
     def __init__(
         self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
         rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: SharedJob,
-        breakpoints: Sequence[Breakpoint], cache: Path | None = None, traces: Mapping[int, Json] | None = None,
+        breakpoints: Sequence[Json], cache: Path | None = None, traces: Mapping[int, Json] | None = None,
         why_not: str = "",
     ) -> None:  # fmt: skip
         """`model` is the device; the project's own errors come with the program that runs. `why_not`: why this never runs."""

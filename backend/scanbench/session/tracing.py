@@ -41,11 +41,13 @@ class Tracing:
         self, ask: Ask, publish: Callable[[events.Event], None], keep: Callable[[Mapping[int, Json]], None],
         kept: Mapping[int, Json],
     ) -> None:  # fmt: skip
-        """`kept` is what an earlier life of the server gave to `keep`."""
+        """`kept` is what an earlier life of the server gave to `keep`. What cannot be read is kept again as it is, and its
+        number is not given out, so that the version that made it finds it."""
         self._ask, self._publish, self._keep = ask, publish, keep
         self._wanted = {number: wanted for number, each in kept.items() if (wanted := _read(each)) is not None}
+        self._unread = {number: each for number, each in kept.items() if number not in self._wanted}
         self._told: dict[int, TraceStatus] = {}
-        self._next = max(self._wanted, default=0) + 1
+        self._next = max(kept, default=0) + 1
 
     @property
     def traces(self) -> tuple[TraceStatus, ...]:
@@ -149,7 +151,7 @@ class Tracing:
             raise Refused(answer.message, answer.near)
 
     def _changed(self) -> None:
-        self._keep({number: _json(wanted) for number, wanted in self._wanted.items()})
+        self._keep({**self._unread, **{number: _json(wanted) for number, wanted in self._wanted.items()}})
         self._publish(events.TracesChanged(self.traces))
 
 

@@ -9,17 +9,14 @@ import asyncio
 import logging
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
 from typing import TypeVar, get_args
 
-from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, RowReaction
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.session.keeper import Keeper
 from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
-from scanbench.typed import BadValue, make_kept
 from scanbench.wire.events import LogEntry
 from scanbench.wire.host import MarkKind
 
@@ -31,7 +28,7 @@ AGAIN_S = 1.0
 """When it is tried again what the database refused."""
 _Rows = dict[int, dict[tuple[int, str], ErrorRow]]
 _Lines = dict[int, deque[LogRow]]
-_Breakpoints = dict[int, Sequence[Breakpoint]]
+_Breakpoints = dict[int, Sequence[Json]]
 _Traces = dict[int, Mapping[int, Json]]
 _T = TypeVar("_T")
 _KINDS: dict[str, MarkKind] = {kind: kind for kind in get_args(MarkKind)}
@@ -83,7 +80,7 @@ class WriteBehind(Keeper):
         lines.append(LogRow(line.at, line.scan, line.author, line.kind, line.text, version))
         self._wake.set()
 
-    def keep_breakpoints(self, instance: int, breakpoints: Sequence[Breakpoint]) -> None:
+    def keep_breakpoints(self, instance: int, breakpoints: Sequence[Json]) -> None:
         """The breakpoints that everybody shares, all of them."""
         self._breakpoints[instance] = breakpoints
         self._wake.set()
@@ -139,9 +136,9 @@ class WriteBehind(Keeper):
         self._breakpoints = breakpoints | self._breakpoints
         self._traces = traces | self._traces
 
-    def _keep_breakpoints(self, instance: int, shared: Sequence[Breakpoint]) -> None:
+    def _keep_breakpoints(self, instance: int, shared: Sequence[Json]) -> None:
         def write(_all: Sequence[object]) -> None:
-            self._store.breakpoints.keep(instance, [asdict(each) for each in shared])
+            self._store.breakpoints.keep(instance, shared)
 
         _write_most(f"the breakpoints of instance {instance}", [shared], write)
 
@@ -241,12 +238,3 @@ def _reaction_of(kept: HistoryRow) -> RowReaction | None:
 def line_of(kept: LogRow) -> LogEntry:
     """A line as the store has it."""
     return LogEntry(kept.at, kept.scan, kept.author, kept.text, _KINDS.get(kept.kind, "system"))
-
-
-def breakpoint_of(kept: Mapping[str, object]) -> Breakpoint | None:
-    """A breakpoint as the store has it; None if a different version of Scanbench stored something that this one does not know."""
-    try:
-        return make_kept(Breakpoint, kept)
-    except BadValue as error:
-        log.error("a breakpoint that another version of Scanbench kept is left out: %s", error)
-        return None

@@ -9,8 +9,8 @@ import pytest
 from scanbench.server.trace_records import TraceRecords
 from scanbench.server.uploads import TraceFiles
 from scanbench.server.verifications import Verifications
+from scanbench.session.debugging import breakpoint_of
 from scanbench.session.tracing import Tracing
-from scanbench.session.write_behind import breakpoint_of
 from scanbench.store.kept import What
 from scanbench.store.records import Json, StoreError, WatchContent, WatchEntry
 from scanbench.store.rows import sweep, watch_list

@@ -2,10 +2,12 @@
 
 import asyncio
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from typing import TypeVar
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.session.debugging import Debugging
+from scanbench.store.records import Json
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
 from scanbench.wire.debugging import BreakpointsAre, DebugRequest, SetBreakpoints
@@ -33,10 +35,10 @@ class Host:
 
 
 class Bench:
-    def __init__(self, kept: Sequence[Breakpoint] = ()) -> None:
+    def __init__(self, kept: Sequence[Json] = ()) -> None:
         self.host = Host()
         self.published: list[events.Event] = []
-        self.kept: list[Sequence[Breakpoint]] = []
+        self.kept: list[Sequence[Json]] = []
         self.debugging = Debugging(self.host.ask, self.published.append, self.kept.append, kept)
 
     def set(self, *lines: int, group: str = "", file: str = "Main.st", author: str = "Ann") -> list[Verdict]:
@@ -64,11 +66,11 @@ def test_a_group_and_a_file_are_replaced_alone() -> None:
     }  # fmt: skip
     asyncio.run(bench.debugging.forget_group("vscode"))
     assert all(each.breakpoint.group == "" for each in bench.debugging.verdicts)
-    assert [sorted(each.line for each in kept) for kept in bench.kept] == [[3], [3, 4], [4, 7]]  # the shared ones alone
+    assert [[each["line"] for each in kept] for kept in bench.kept] == [[3], [3, 4], [4, 7]]  # the shared ones alone
 
 
 def test_what_is_set_while_the_plc_is_away_is_told_to_the_next_host() -> None:
-    bench = Bench([Breakpoint(4, "line", "Ann", file="Main.st", line=2)])
+    bench = Bench([asdict(Breakpoint(4, "line", "Ann", file="Main.st", line=2))])
     bench.host.away = True
     (verdict,) = bench.set(6, file="Belt.st")
     assert not verdict.verified
@@ -79,6 +81,18 @@ def test_what_is_set_while_the_plc_is_away_is_told_to_the_next_host() -> None:
     (told,) = bench.host.told
     assert [(each.id, each.line) for each in told.breakpoints] == [(4, 2), (5, 6)]
     assert all(each.verified for each in bench.debugging.verdicts)
+
+
+def test_a_breakpoint_that_cannot_be_read_is_kept_as_it_is_and_keeps_its_number() -> None:
+    newer: Json = {"id": 8, "kind": "of a newer version", "author": "Ann"}
+    bench = Bench([newer, asdict(Breakpoint(4, "line", "Ann", file="Main.st", line=2)), {"of": "a newer version"}])
+    assert [each.breakpoint.id for each in bench.debugging.verdicts] == [4]
+    (verdict,) = bench.set(3)
+    assert verdict.breakpoint.id == 9
+    bench.set()
+    first, last = bench.kept
+    assert first == [asdict(verdict.breakpoint), newer, {"of": "a newer version"}]
+    assert last == [newer, {"of": "a newer version"}]
 
 
 def test_counts_of_the_host_are_told_to_everybody() -> None:
