@@ -171,6 +171,18 @@ class TraceFiles:
 def mapping_of(row: MappingRow) -> TraceMapping:
     """The mapping that was saved."""
     try:
-        return make_kept(TraceMapping, row.content)
+        mapping = make_kept(TraceMapping, {name: _stripped(value) for name, value in row.content.items()})
+        if not all(each.column for each in mapping.columns):
+            raise BadValue("columns: column must not be empty")
     except BadValue as error:
         raise unreadable(f"the mapping {row.name}", error) from error
+    return mapping
+
+
+def _stripped(value: object) -> object:
+    """Without the spaces around texts, with which some mappings were saved."""
+    if isinstance(value, str):
+        return value.strip()
+    if isinstance(value, dict):
+        return {name: _stripped(each) for name, each in value.items()}
+    return [_stripped(each) for each in value] if isinstance(value, list) else value

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.server.trace_records import TraceRecords
-from scanbench.server.uploads import TraceFiles
+from scanbench.server.uploads import TraceFiles, mapping_of
 from scanbench.server.verifications import Verifications
 from scanbench.session.debugging import breakpoint_of
 from scanbench.session.tracing import Tracing
@@ -17,7 +17,7 @@ from scanbench.store.rows import sweep, watch_list
 from scanbench.store.store import Store
 from scanbench.store.tables import Sweep, WatchList
 from scanbench.verify.contract import Range
-from scanbench.verify.trace.mapping import TraceMapping
+from scanbench.verify.trace.mapping import ColumnMap, TraceMapping
 from scanbench.wire.codec import pack, pack_body
 from scanbench.wire.events import VerificationStatus, VerifyWish
 from scanbench.wire.refused import Refused
@@ -95,6 +95,15 @@ def test_a_mapping_is_saved_as_it_is_read(store: Store, project: int, tmp_path: 
     store.mappings.save(project, "of a newer version", {"gaps": "bridge"}, "Ada")
     uploaded = asyncio.run(files.upload(project, "t.csv", b"scan\n1\n", None))
     assert uploaded.proposal == TraceMapping("scan")
+
+
+def test_texts_of_a_mapping_are_stripped_and_no_column_is_empty(store: Store, project: int) -> None:
+    column = {"column": " speed", "path": "Main.n ", "role": " input "}
+    padded = store.mappings.save(project, "padded", {"axis": " scan ", "columns": [column]}, "Ada")
+    assert mapping_of(padded) == TraceMapping("scan", columns=(ColumnMap("speed", "Main.n", "input"),))
+    empty = store.mappings.save(project, "empty", {"columns": [column, {"column": " "}]}, "Ada")
+    with pytest.raises(Refused, match=f"the mapping empty {SAYS}"):
+        mapping_of(empty)
 
 
 def test_a_trace_and_a_breakpoint(caplog: pytest.LogCaptureFixture) -> None:
