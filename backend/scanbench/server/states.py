@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import re
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,6 +13,7 @@ from scanbench.store.records import StateRow, SweepRow
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused
 
+_OF_A_SWEEP = re.compile(r"sweep-(\d+)-\d+\.run")
 NOW = "Now"
 """How the state of a PLC is called that nobody named."""
 
@@ -25,12 +27,10 @@ class States:
     def tidy(self) -> None:
         """Removes files that belong to nothing any more. Waits for the disk."""
         self._directory.mkdir(parents=True, exist_ok=True)
-        known = set[Path]()
-        for project in self._store.projects.all():
-            known.update(self.path(row.id) for row in self._store.states.all(project.id))
-            known.update(path for row in self._store.sweeps.all(project.id) for path in self.of_sweep(row).values())
+        sweeps = self._store.sweeps.ids()
+        known = {self.path(row.id) for each in self._store.projects.all() for row in self._store.states.all(each.id)}
         for path in self._directory.iterdir():
-            if path not in known:
+            if path not in known and _sweep_of(path) not in sweeps:
                 discard(path)
 
     def path(self, id: int) -> Path:
@@ -90,6 +90,12 @@ class States:
         """Forgets a state."""
         await asyncio.to_thread(self._store.states.delete, id)
         await asyncio.to_thread(discard, self.path(id))
+
+
+def _sweep_of(path: Path) -> int | None:
+    """Whose file it is, by its name alone: what else a sweep that cannot be read says is not known."""
+    found = _OF_A_SWEEP.fullmatch(path.name)
+    return None if found is None else int(found[1])
 
 
 def _share(path: Path, other: Path) -> None:

@@ -1,7 +1,7 @@
 """From the tables' objects to the records that the store gives out."""
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import cast
 
 from scanbench.store.records import (
@@ -93,19 +93,31 @@ def state(row: ProgramState) -> StateRow:
     )  # fmt: skip
 
 
+class UnreadableSweep(StoreError):
+    """A newer version of Scanbench kept it."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Swept:
+    """What a sweep keeps as JSON."""
+
+    states: tuple[str, ...]
+    errors: tuple[SweptError, ...]
+
+
 def sweep(row: Sweep, counts: Mapping[str | None, int]) -> SweepRow:
-    """A sweep; `counts` are its cells by verdict."""
+    """A sweep; `counts` are its cells by verdict. `UnreadableSweep` names it."""
     try:
-        errors = tuple(make_kept(SweptError, each) for each in row.errors)
+        swept = make_kept(_Swept, {"states": row.states, "errors": row.errors})
     except BadValue as error:
-        raise StoreError(
+        raise UnreadableSweep(
             f"sweep {row.id} cannot be read: {error}. Use the version of Scanbench that kept it"
         ) from error
     return SweepRow(
         id=row.id, project=row.project_id, instance_id=row.instance_id, instance=row.instance, model=row.model,
         program_version=row.program_version, by=row.by, at=row.at, status=cast(SweepStatus, row.status),
-        message=row.message, window=row.window, states=tuple(row.states),
-        errors=errors, seconds=row.seconds, done=sum(counts.values()),
+        message=row.message, window=row.window, states=swept.states,
+        errors=swept.errors, seconds=row.seconds, done=sum(counts.values()),
         counts={verdict: count for verdict, count in counts.items() if verdict is not None},
     )  # fmt: skip
 

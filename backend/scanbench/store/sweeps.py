@@ -1,5 +1,6 @@
 """The part of the store that keeps states, sweeps and what was accepted of their findings."""
 
+import logging
 from collections.abc import Sequence
 from dataclasses import asdict
 
@@ -22,6 +23,8 @@ from scanbench.store.records import (
     SweptError,
 )
 from scanbench.store.tables import AUTHOR, NAME, AcceptedFinding, ProgramState, Sweep, SweepCell
+
+log = logging.getLogger("scanbench")
 
 
 class States(Repository):
@@ -62,15 +65,26 @@ class Sweeps(Repository):
     """Sweeps and their cells."""
 
     def all(self, project: int) -> list[SweepRow]:
-        """The sweeps of a project, the newest first."""
+        """The sweeps of a project, the newest first. The log names those that cannot be read."""
         with self._database.reading() as session:
             the_project(session, project)
             found = session.scalars(select(Sweep).where(Sweep.project_id == project).order_by(Sweep.id.desc())).all()
             counts = _counts(session, [row.id for row in found])
-            return [rows.sweep(row, counts[row.id]) for row in found]
+            read: list[SweepRow] = []
+            for row in found:
+                try:
+                    read.append(rows.sweep(row, counts[row.id]))
+                except rows.UnreadableSweep as error:
+                    log.error("%s", error)
+            return read
+
+    def ids(self) -> set[int]:
+        """All sweeps of all projects, also those that cannot be read."""
+        with self._database.reading() as session:
+            return set(session.scalars(select(Sweep.id)))
 
     def get(self, sweep: int) -> SweepRow:
-        """One sweep."""
+        """One sweep; `StoreError` when it cannot be read."""
         with self._database.reading() as session:
             return rows.sweep(_sweep(session, sweep), _counts(session, [sweep])[sweep])
 

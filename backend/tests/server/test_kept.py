@@ -121,7 +121,7 @@ def test_a_trace_and_a_breakpoint(caplog: pytest.LogCaptureFixture) -> None:
 def test_a_sweep() -> None:
     row = Sweep(id=3, states=["a"], errors=[{"id": "x", "name": "X", "code": "1", "severity": "mild", "group": "G"}])
     with pytest.raises(
-        StoreError, match=r"sweep 3 cannot be read: severity must be one of fatal, nonfatal.*Use the version"
+        StoreError, match=r"sweep 3 cannot be read: errors: severity must be one of fatal, nonfatal.*Use the version"
     ):
         sweep(row, {})
 
