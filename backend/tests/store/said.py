@@ -25,6 +25,8 @@ A = TypeVar("A")
 BESIDE = ("traces", "verifications")
 """Folders of a data directory whose files belong to rows of the database."""
 USER = "Bob Noyce"
+_GONE = object()
+"""In place of a field that is not there: one that is there may say None."""
 
 
 def said(data: Path) -> object:
@@ -120,8 +122,10 @@ def plain(value: object) -> object:
 
 def missing(then: object, now: object, at: str = "") -> list[str]:
     """Where it does not say any more what it said; what it says besides is new, and may be."""
+    if now is _GONE:
+        return [f"{at}: {then!r} is gone"]
     if isinstance(then, Mapping) and isinstance(now, Mapping):
-        return [line for name, each in then.items() for line in missing(each, now.get(name), f"{at}.{name}")]
+        return [line for name, each in then.items() for line in missing(each, now.get(name, _GONE), f"{at}.{name}")]
     if isinstance(then, list) and isinstance(now, list) and len(then) == len(now):
         pairs = enumerate(zip(then, now, strict=True))
         return [line for index, (each, other) in pairs for line in missing(each, other, f"{at}[{index}]")]

@@ -59,3 +59,4 @@ def test_what_is_not_said_any_more_is_found() -> None:
     assert missing(then, {"a": [{"b": 1, "c": "x", "new": 2}], "d": None, "e": 3}) == []
     assert missing(then, {"a": [{"b": 2, "c": "x"}], "d": None}) == [".a[0].b: 1 is now 2"]
     assert missing(then, {"a": [], "d": 1}) == [".a: [{'b': 1, 'c': 'x'}] is now []", ".d: None is now 1"]
+    assert missing(then, {"a": [{"b": 1}]}) == [".a[0].c: 'x' is gone", ".d: None is gone"]
