@@ -1,8 +1,10 @@
 """The fields of all that is kept, and their kinds: `python -m tests.wire.kept_shapes` writes `golden/kept.json`.
 
-It is made again when fields were added, and where a format or the revision of the database was raised.
+It is made again when fields were added. Where a format or the revision of the database was raised, `--format-raised` writes
+also what could not be read before; without it such a change is refused.
 """
 
+import argparse
 import json
 import re
 from collections.abc import Iterator, Mapping
@@ -25,6 +27,7 @@ from scanbench.wire.events import VerificationStatus
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.verification import KeptRows
 from tests.recording.golden_run import GOLDEN as RUNS
+from tests.store.said import missing
 
 GOLDEN = Path(__file__).with_name("golden") / "kept.json"
 BY_NAME: tuple[type, ...] = (About, Breakpoint, Reaction, SweptError, TraceDefinition, TraceMapping, TraceRecord)
@@ -32,6 +35,7 @@ BY_NAME: tuple[type, ...] = (About, Breakpoint, Reaction, SweptError, TraceDefin
 BY_PLACE: tuple[type, ...] = (Driven, KeptRows, Row, Sources, VerificationStatus, WatchEntry)
 """Kept as lists of values: the order of fields counts."""
 Shape = Mapping[str, str]
+Shapes = Mapping[str, Mapping[str, Shape]]
 
 
 def of(cls: type) -> Shape:
@@ -99,10 +103,56 @@ def shapes() -> dict[str, dict[str, Shape]]:
     }
 
 
+def broken(then: Shapes) -> list[str]:
+    """Why what was kept with fields as they were `then` could not be read now. Where the place counts, an enumeration may have
+    more values: an older version refuses a value that it does not know."""
+    now = shapes()
+    found = missing(then["by name"], now["by name"])
+    for name, was in then["by place"].items():
+        fields_now = now["by place"].get(name, {})
+        for field, kind in was.items():
+            other = fields_now.get(field, "not there")
+            if other != kind and not _grown(kind, other):
+                found.append(f".{name}.{field}: {kind!r} is now {other!r}")
+        if was.keys() <= fields_now.keys() and list(fields_now)[: len(was)] != list(was):
+            found.append(f".{name}: the order was {', '.join(was)}, and new fields come last")
+    return found + [line for group, classes in zip(("by name", "by place"), kept(), strict=True)
+                    for line in _without_default(then[group], classes)]  # fmt: skip
+
+
+def _without_default(then: Mapping[str, Shape], classes: Mapping[str, type]) -> Iterator[str]:
+    for name, cls in classes.items():
+        if name in then:
+            for field in sorted(of(cls).keys() - then[name].keys() - optional(cls)):
+                yield f".{name}.{field}: it is new, and needs a default"
+
+
+def _grown(then: str, now: str) -> bool:
+    """Whether there are more values of the same enumeration."""
+    values = re.compile(r"Literal\[(.*?)\]")
+    was, found = values.search(then), values.search(now)
+    if was is None or found is None or values.sub("", then) != values.sub("", now):
+        return False
+    return set(was[1].split(", ")) <= set(found[1].split(", "))
+
+
+def write(path: Path, raised: bool) -> None:
+    """Writes them; without a format that was raised only where all that was kept can still be read."""
+    why = [] if raised else broken(json.loads(path.read_text("utf-8")))
+    if why:
+        raise SystemExit(
+            "\n".join(why)
+            + "\nWhat was kept could not be read any more: see docs/formats.md. Where a format was raised, or a"
+            " migration was written, run python -m tests.wire.kept_shapes --format-raised"
+        )
+    path.write_text(json.dumps(shapes(), indent=1, ensure_ascii=False) + "\n", "utf-8")
+
+
 def main() -> None:
-    """Writes them."""
-    GOLDEN.parent.mkdir(exist_ok=True)
-    GOLDEN.write_text(json.dumps(shapes(), indent=1, ensure_ascii=False) + "\n", "utf-8")
+    """Writes them, if they may be so."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--format-raised", action="store_true", help="a format or the revision of the database was")
+    write(GOLDEN, parser.parse_args().format_raised)
 
 
 if __name__ == "__main__":
