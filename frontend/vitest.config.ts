@@ -1,11 +1,22 @@
 import { defineConfig } from "vitest/config";
 
+/** In milliseconds; longer than what a test waits for one event (`testing/eventually.ts`), which says what did not happen. */
+const LIMIT = 60_000;
+
 export default defineConfig({
   test: {
     projects: [
       // Nothing in `logic/` remembers anything, so its tests need no process each: two thirds of the time of all of them.
       { test: { name: "logic", include: ["src/logic/**/*.test.ts"], environment: "node", isolate: false } },
-      { test: { name: "units", include: ["src/**/*.test.ts"], exclude: ["src/logic/**"], environment: "node" } },
+      {
+        test: {
+          name: "units",
+          include: ["src/**/*.test.ts"],
+          exclude: ["src/logic/**"],
+          environment: "node",
+          testTimeout: LIMIT,
+        },
+      },
       {
         // Panels in a page: jsdom and React are loaded once. Each test is a project and a PLC of its own, so the page forgets the one before.
         test: {
@@ -15,7 +26,7 @@ export default defineConfig({
           isolate: false,
           fileParallelism: false,
           setupFiles: ["src/testing/browser.ts"],
-          testTimeout: 60_000,
+          testTimeout: LIMIT,
         },
       },
     ],

@@ -7,12 +7,13 @@ import { onNavigate } from "../store/page/navigate";
 import { start } from "../store/plc/bench";
 import { usePlc } from "../store/plc/plc";
 import { link } from "../wire/socket";
+import { eventually, LIMIT } from "./eventually";
 import { FakeServer } from "./server";
 import { connectTo } from "./socket";
 
 configure({
   defaultHidden: true, // nothing here is hidden by a style: whether it could be seen is asked of a browser
-  asyncUtilTimeout: 20_000, // a slow machine is no failure
+  asyncUtilTimeout: LIMIT,
   getElementError: (message) => new Error(message ?? ""), // not the whole page
 });
 connectStores();
@@ -39,6 +40,6 @@ export async function openPage(prepare: (server: FakeServer) => void = () => und
   const went = (kind: string) => (name: string) => places.push(`${kind} ${name}`);
   onNavigate({ file: went("file"), panel: went("panel"), page: went("page") });
   await start();
-  await vi.waitFor(() => expect(usePlc.getState().state).not.toBeNull());
+  await eventually(() => expect(usePlc.getState().state).not.toBeNull());
   return { server, places, user: userEvent.setup() };
 }

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { eventually } from "../../testing/eventually";
 import { rest } from "../../wire/rest";
 import type { Instance, InstanceState, ProgramText, Project } from "../../wire/types";
 import { useBench } from "../plc/bench";
@@ -31,21 +32,21 @@ const shown = () => useShownProgram.getState();
 it("requests the program that ran again once the state of the PLC changes", async () => {
   const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("the PLC does not answer"));
   usePlc.setState({ state: { ...past(1), state: "silent" } });
-  await vi.waitFor(() => expect(shown().refused).toBe("the PLC does not answer"));
+  await eventually(() => expect(shown().refused).toBe("the PLC does not answer"));
   asked.mockResolvedValue(ran(1, "old"));
   usePlc.setState({ state: past(1) });
   expect(shown().refused).toBeNull();
-  await vi.waitFor(() => expect(shown().program?.files).toEqual({ "Main.st": "old" }));
+  await eventually(() => expect(shown().program?.files).toEqual({ "Main.st": "old" }));
 });
 
 it("requests it again once there is a connection", async () => {
   const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("no connection"));
   usePlc.setState({ state: past(1) });
   usePlc.setState({ link: { ...connected, state: "lost" } });
-  await vi.waitFor(() => expect(shown().refused).toBe("no connection"));
+  await eventually(() => expect(shown().refused).toBe("no connection"));
   asked.mockResolvedValue(ran(1, "old"));
   usePlc.setState({ link: connected });
-  await vi.waitFor(() => expect(shown().program?.version).toBe(1));
+  await eventually(() => expect(shown().program?.version).toBe(1));
 });
 
 it("requests it again when the refusal comes after the connection", async () => {
@@ -60,7 +61,7 @@ it("requests it again when the refusal comes after the connection", async () => 
   usePlc.setState({ link: connected });
   asked.mockResolvedValue(ran(1, "old"));
   refuse(new Error("no connection"));
-  await vi.waitFor(() => expect(shown().program?.version).toBe(1));
+  await eventually(() => expect(shown().program?.version).toBe(1));
 });
 
 const open = (text: string, savedText = text) =>
@@ -71,7 +72,7 @@ it("shows the text that ran if the text was saved but not built since", async ()
   open("saved");
   expect(showsRan("Main.st")).toBe(false);
   usePlc.setState({ state: past(2) });
-  await vi.waitFor(() => expect(showsRan("Main.st")).toBe(true));
+  await eventually(() => expect(showsRan("Main.st")).toBe(true));
   expect(shownText("Main.st")).toMatchObject({ text: "built", built: "built" });
   usePlc.setState({ state: live });
   expect(shownText("Main.st").text).toBe("saved");
@@ -81,11 +82,11 @@ it("continues with the edited text in the past if the saved text is the one that
   const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("the PLC does not answer"));
   open("edited", "built");
   usePlc.setState({ state: past(2) });
-  await vi.waitFor(() => expect(shown().refused).not.toBeNull());
+  await eventually(() => expect(shown().refused).not.toBeNull());
   expect(shownText("Main.st")).toMatchObject({ text: "edited", built: "built" });
   asked.mockResolvedValue(ran(2, "built"));
   usePlc.setState({ state: { ...past(2), state: "halted" } });
-  await vi.waitFor(() => expect(shown().program).not.toBeNull());
+  await eventually(() => expect(shown().program).not.toBeNull());
   expect(shownText("Main.st")).toMatchObject({ text: "edited", built: "built" });
 });
 
@@ -93,7 +94,7 @@ it("shows the text of an older version at once, and also when the project is bui
   vi.spyOn(rest, "programText").mockResolvedValue(ran(2, "built"));
   open("built");
   usePlc.setState({ state: past(2) });
-  await vi.waitFor(() => expect(shown().program).not.toBeNull());
+  await eventually(() => expect(shown().program).not.toBeNull());
   expect(showsRan("Main.st")).toBe(false);
   useBench.setState({ project: { id: 1, version: 3 } as Project });
   expect(showsRan("Main.st")).toBe(true);
@@ -105,7 +106,7 @@ it("says which version ran if the project is no longer that version: built since
   usePlc.setState({ state: past(1) });
   expect(ranApart()).toBe(1);
   usePlc.setState({ state: past(2) });
-  await vi.waitFor(() => expect(shown().program?.version).toBe(2));
+  await eventually(() => expect(shown().program?.version).toBe(2));
   expect(ranApart()).toBeNull();
   const saved = (savedText: string) => ({ text: savedText, savedText }) as Document;
   useDocuments.setState({ open: { "Main.st": saved("old"), "Tank.st": saved("") } });
@@ -121,7 +122,7 @@ it("says which version ran if the project is no longer that version: built since
 it("asks nothing of another PLC because of the past of the one before", async () => {
   const asked = vi.spyOn(rest, "programText").mockResolvedValue(ran(1, "old"));
   usePlc.setState({ state: past(1) });
-  await vi.waitFor(() => expect(shown().program?.version).toBe(1));
+  await eventually(() => expect(shown().program?.version).toBe(1));
   useBench.setState({ instance: { id: instance + 1000 } as Instance });
   expect(asked).toHaveBeenCalledTimes(1);
   expect(shown().version).toBeNull();

@@ -1,4 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { eventually } from "../../testing/eventually";
 import type { VerificationInfo, VerifyRow, VerifyRows } from "../../wire/types";
 import { verify as wire } from "../../wire/verify";
 import { onVerifications, resetVerify } from "./verify";
@@ -78,7 +79,7 @@ beforeEach(() => {
 });
 afterEach(() => vi.restoreAllMocks());
 
-const settled = () => vi.waitFor(() => expect(useVerifyRows.getState().count).toBe(server.count));
+const settled = () => eventually(() => expect(useVerifyRows.getState().count).toBe(server.count));
 
 describe("rows of a verification", () => {
   it("are fetched for the visible lines although earlier differences were dropped", async () => {
@@ -87,7 +88,7 @@ describe("rows of a verification", () => {
     seeLines(0, 30);
     await settled();
     seeLines(300, 330);
-    await vi.waitFor(() => expect(useVerifyRows.getState().byIndex.has(929)).toBe(true));
+    await eventually(() => expect(useVerifyRows.getState().byIndex.has(929)).toBe(true));
   });
 
   it("are fetched for the visible lines, and after scrolling", async () => {
@@ -97,7 +98,7 @@ describe("rows of a verification", () => {
     await settled();
     expect(useVerifyRows.getState().byIndex.has(29)).toBe(true);
     seeLines(500, 530);
-    await vi.waitFor(() => expect(useVerifyRows.getState().byIndex.has(529)).toBe(true));
+    await eventually(() => expect(useVerifyRows.getState().byIndex.has(529)).toBe(true));
     expect(useVerifyRows.getState().byIndex.has(300)).toBe(false);
   });
 
@@ -120,7 +121,7 @@ describe("rows of a verification", () => {
     await settled();
     value = "01";
     onVerifications([info({ rows: 50, generation: 1 })]);
-    await vi.waitFor(() => expect(useVerifyRows.getState().byIndex.get(5)?.outputs.a?.control).toBe("01"));
+    await eventually(() => expect(useVerifyRows.getState().byIndex.get(5)?.outputs.a?.control).toBe("01"));
   });
 
   it("are dropped when the server drops them, and lines count from the first one that is kept", async () => {
@@ -142,7 +143,7 @@ describe("rows of a verification", () => {
     seeLines(0, 30);
     await settled();
     showOnlyDiffering(true);
-    await vi.waitFor(() => expect(useVerifyRows.getState().byIndex.has(700)).toBe(true));
+    await eventually(() => expect(useVerifyRows.getState().byIndex.has(700)).toBe(true));
     const rows = useVerifyRows.getState();
     expect([lineCount(rows), indexAt(rows, 1), lineOfRow(rows, 700)]).toEqual([2, 700, 1]);
     expect([goToDifference("first"), goToDifference("next"), goToDifference("next")]).toEqual([40, 700, null]);
