@@ -69,7 +69,9 @@ test("every version has a history of its own: the old one is shown as one that r
   await waitFor(() =>
     expect(textOf(screen.getByRole("status"))).toContain(t("history.old", { version: 1, running: 2 })),
   );
-  expect(server.asked.at(-1)?.path).toBe(`/instances/${server.instance.id}/history?version=1`);
+  await waitFor(() =>
+    expect(server.askedOf("GET", `/instances/${server.instance.id}/history?version=1`)).toHaveLength(1),
+  );
   expect(textOf(line(BATTERY.name) ?? null)).toContain(t("errors.status.generated"));
   await user.click(button(t("history.old.back")));
   await waitFor(() => expect(textOf(line(BATTERY.name) ?? null)).toContain(t("errors.status.never")));
