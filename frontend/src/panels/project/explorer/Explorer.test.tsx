@@ -10,9 +10,6 @@ async function openExplorer() {
   const files: FileInfo[] = [{ path: "Main.st", version: 1, author: "Mika" }];
   const page = await openPage((server) => {
     server.on("GET", "/projects/*/files", () => files);
-    server.on("PUT", "/projects/*/files/.*", () => {
-      throw new Error("two parts at most");
-    });
     for (const path of ["*", "*/*"])
       server.on("PUT", `/projects/*/files/${path}`, ({ path }) => {
         const saved = { path: decodeURIComponent(path.split("/files/")[1] ?? ""), version: 1, author: "Mika" };
