@@ -25,7 +25,7 @@ export default defineConfig({
           environment: "jsdom",
           isolate: false,
           fileParallelism: false,
-          setupFiles: ["src/testing/browser.ts"],
+          setupFiles: ["src/testing/browser.ts", "src/testing/editor.tsx"],
           testTimeout: LIMIT,
         },
       },

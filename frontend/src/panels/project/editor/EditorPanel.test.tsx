@@ -1,6 +1,5 @@
 import { render, screen, waitFor } from "@testing-library/react";
-import { expect, test, vi } from "vitest";
-import { edit, useDocuments } from "../../../store/project/documents";
+import { expect, test } from "vitest";
 import { box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { Status } from "../../../testing/routes";
@@ -8,22 +7,6 @@ import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
 import type { OnlineChange } from "../../../wire/types";
 import { EditorPanel } from "./EditorPanel";
-
-// A plain field in the place of Monaco: what is typed goes the same way.
-vi.mock("./CodeView", () => ({
-  default: ({ path, past }: { path: string; past: string | null }) => {
-    const text = useDocuments(({ open }) => open[path]?.text ?? "");
-    return (
-      <textarea
-        aria-label={path}
-        value={past ?? text}
-        readOnly={past !== null}
-        onChange={({ target }) => edit(path, target.value)}
-      />
-    );
-  },
-}));
-vi.mock("./DiffView", () => ({ default: ({ theirs }: { theirs: string }) => <pre>{theirs}</pre> }));
 
 const PATH = "Main.st";
 const FILE = { path: PATH, version: 1, author: "Mika" };
