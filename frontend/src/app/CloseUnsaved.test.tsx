@@ -15,10 +15,8 @@ const FILE = { path: PATH, version: 1, author: "Mika" };
 async function closeEdited(refuses = false) {
   const page = await openPage((server) => {
     server.on("GET", "/projects/*/files", () => [FILE]);
-    server.on("GET", `/projects/*/files/${PATH}`, () => ({ ...FILE, text: "stored" }));
-    server.on("PUT", `/projects/*/files/${PATH}`, () =>
-      refuses ? refusal("The disk is full.") : { ...FILE, version: 2 },
-    );
+    server.on("GET", "/projects/*/files/**", () => ({ ...FILE, text: "stored" }));
+    server.on("PUT", "/projects/*/files/**", () => (refuses ? refusal("The disk is full.") : { ...FILE, version: 2 }));
   });
   await openDocument(PATH);
   edit(PATH, "mine");
@@ -59,7 +57,7 @@ test("saved from the question it is closed; what cannot be saved stays, with the
   await refused.user.click(button(t("save"), refused.dialog));
   await waitFor(() => expect(textOf(within(refused.dialog).getByRole("alert"))).toContain("The disk is full."));
   expect(refused.closed).toEqual([]);
-  refused.server.on("PUT", `/projects/*/files/${PATH}`, () => ({ ...FILE, version: 2 }));
+  refused.server.on("PUT", "/projects/*/files/**", () => ({ ...FILE, version: 2 }));
   await refused.user.click(button(t("save"), refused.dialog));
   await gone();
   expect(refused.closed).toHaveLength(1);

@@ -1,16 +1,20 @@
 /** What an idle bench answers over HTTP. */
-import type { CheckResult, Instance, ProgramText, WatchList } from "../wire/types";
+import type { Instance, WatchList } from "../wire/types";
+import type { AnswerOf, BodyOf, Method, PathOf } from "./api";
 import { MIKA, MODEL, someApp } from "./samples";
 
-export interface Question {
+export interface Question<Body = unknown> {
   method: string;
   /** Below `/api`, with what follows a question mark. */
   path: string;
-  body: unknown;
+  body: Body;
 }
 
 /** Makes the answer: an object is sent as JSON, nothing as an empty answer. */
-export type Route = (question: Question, match: RegExpExecArray) => unknown;
+export type Route<Body = unknown, Answer = unknown> = (
+  question: Question<Body>,
+  match: RegExpExecArray,
+) => Answer | Status | Promise<Answer | Status>;
 
 /** An answer with a status of its own. */
 export class Status {
@@ -23,28 +27,30 @@ export class Status {
 /** What the server refuses, in its words. */
 export const refusal = (message: string, near: string[] = []) => new Status(422, { message, near });
 
-type On = (method: string, path: string, route: Route) => void;
+type On = <M extends Method, P extends PathOf<M>>(
+  method: M,
+  path: P,
+  route: Route<BodyOf<M, P>, AnswerOf<M, P>>,
+) => void;
 
 export function usualRoutes(on: On, instance: () => Instance): void {
   const none = () => [];
   on("GET", "", () => someApp(instance()));
   on("GET", "/instances", () => [instance()]);
   on("GET", "/instances/*/model", () => MODEL);
-  for (const what of ["symbols", "complete", "traces", "verifications", "comparisons"])
+  for (const what of ["symbols", "complete", "traces", "verifications", "comparisons"] as const)
     on("GET", `/instances/*/${what}`, none);
-  for (const what of ["files", "sweeps", "states", "records", "trace-records", "watch-lists"])
+  for (const what of ["files", "sweeps", "states", "records", "trace-records", "watch-lists"] as const)
     on("GET", `/projects/*/${what}`, none);
-  on("GET", "/instances/*/program", (): ProgramText => ({ version: 1, files: {}, pous: [] }));
+  on("GET", "/instances/*/program", () => ({ version: 1, files: {}, pous: [] }));
   on("GET", "/instances/*/history/versions", none);
-  on("POST", "/projects/*/check", (): CheckResult => ({ checks: [], pous: [], problems: [] }));
-  on("POST", "/projects/*/watch-lists", (question) => storedList(question, 1));
-  on("PUT", "/watch-lists/*", (question) => storedList(question, versionIn(question) + 1));
+  on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems: [] }));
+  on("POST", "/projects/*/watch-lists", ({ body }) => storedList(body, 1));
+  on("PUT", "/watch-lists/*", ({ body }) => storedList(body, body.version + 1));
 }
 
-const versionIn = ({ body }: Question) => (body as { version: number }).version;
-
 /** A list is stored as it was sent. */
-function storedList({ body }: Question, version: number): WatchList {
-  const list = body as Pick<WatchList, "name" | "shared" | "groups" | "entries">;
-  return { ...list, id: 1, version, author: MIKA.name, count: list.entries.length };
+function storedList(list: BodyOf<"POST", "/projects/*/watch-lists">, version: number): WatchList {
+  const { groups = [], entries = [] } = list;
+  return { ...list, groups, entries, id: 1, version, author: MIKA.name, count: entries.length };
 }

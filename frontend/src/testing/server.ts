@@ -4,6 +4,7 @@
  */
 import { messageOf } from "../logic/format/messageOf";
 import type { ClientMessage, Hello, Instance, InstanceState, PlcSymbol, Refusal, ServerMessage } from "../wire/types";
+import type { AnswerOf, BodyOf, Method, PathOf } from "./api";
 import { frameOf } from "./frames";
 import { type Question, type Route, Status, usualRoutes } from "./routes";
 import { someHello, someInstance, someProject } from "./samples";
@@ -47,18 +48,19 @@ export class FakeServer {
   /** The number of the project and of the PLC: a different one for each test, so that the page forgets the previous test. */
   constructor(id: number) {
     this.instance = someInstance(id, someProject(id));
-    usualRoutes(
-      (...route) => this.on(...route),
-      () => this.instance,
-    );
+    usualRoutes(this.on.bind(this), () => this.instance);
   }
 
   // ---- what a test says ---------------------------------------------------------------------------------------------
 
-  /** What a request is answered with; the last route that fits is taken. `path` is below `/api`, a `*` stands for a part of it. */
-  on(method: string, path: string, route: Route): void {
-    const pattern = path.replace(/[.+?^$()|[\]\\{}]/g, "\\$&").replaceAll("*", "([^/?&]+)");
-    this.routes.unshift([method, new RegExp(`^${pattern}(?:\\?.*)?$`), route]);
+  /**
+   * What a request is answered with, in the shape of the API; the last route that fits is taken. `path` is below `/api`; a `*` stands for a
+   * part of it, `**` for the path of a file.
+   */
+  on<M extends Method, P extends PathOf<M>>(method: M, path: P, route: Route<BodyOf<M, P>, AnswerOf<M, P>>): void {
+    const escaped = path.replace(/[.+?^$()|[\]\\{}]/g, "\\$&");
+    const pattern = new RegExp(`^${escaped.replaceAll("**", "([^?&]+)").replaceAll("*", "([^/?&]+)")}(?:\\?.*)?$`);
+    this.routes.unshift([method, pattern, (question, match) => route(question as Question<BodyOf<M, P>>, match)]);
   }
 
   /** What commands of a type are answered with. */

@@ -167,15 +167,15 @@ const REACTED: Reaction = {
 
 test("the reaction is shown in the tree and in words; its readers are links; a finding says what to do next", async () => {
   const { server, user, places } = await openSimulator((server) => {
-    server.on("GET", `/instances/*/errors/${BASIC.id}/reaction`, () => REACTED);
-    server.on("GET", `/instances/*/errors/${BATTERY.id}/reaction`, () => ({
+    const unread: Reaction = {
       ...REACTED,
       verdict: "never_read",
       readers: [],
       lines: [],
       differences: [],
       difference_count: 0,
-    }));
+    };
+    server.on("GET", "/instances/*/errors/*/reaction", (_, [, , error]) => (error === BASIC.id ? REACTED : unread));
   });
   const rows = [row(BASIC, { ...RAISED, reaction: verdict("reacted", 1) })];
   server.say({ type: "errors", rows: [...rows, row(BATTERY, { ...RAISED, reaction: verdict("never_read") })] });

@@ -20,7 +20,7 @@ function store(server: FakeServer) {
   server.on("GET", "/instances/*/model", () => WITH_AREA);
   server.on("GET", route, () => kept);
   server.on("POST", `${route}/check`, ({ body }) => {
-    const { errors } = body as UserErrorsDraft;
+    const { errors = [] } = body;
     const wrong = errors.flatMap(({ flag }, index) => (flag.startsWith("W999") ? [index] : []));
     const message = "W999 is outside of W: the last word is W511";
     return {
@@ -28,7 +28,7 @@ function store(server: FakeServer) {
     };
   });
   server.on("PUT", route, ({ body }) => {
-    const draft = body as UserErrorsDraft & { version: number };
+    const draft = body as UserErrorsDraft & { version: number }; // the page sends all of it
     if (draft.version !== kept.version) return new Status(409, conflict());
     kept = { ...kept, ...draft, version: kept.version + 1 };
     return kept;

@@ -4,7 +4,7 @@ import { build } from "../../../store/project/documents";
 import { button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
-import type { BuildResult, OnlineChange as Change } from "../../../wire/types";
+import type { OnlineChange as Change } from "../../../wire/types";
 import { OnlineChange } from "./OnlineChange";
 
 const LOST = { path: "Main.shift", reason: "its type was INT and is TIME" };
@@ -21,8 +21,7 @@ const change = (instance: number, name: string, more: Partial<Change> = {}): Cha
 /** A build that asks about these PLCs, and is done once it is agreed to. */
 async function askAbout(changes: Change[]) {
   const page = await openPage((server) =>
-    server.on("POST", "/projects/*/build", ({ body }): BuildResult => {
-      const { agreed } = body as { agreed: boolean };
+    server.on("POST", "/projects/*/build", ({ body: { agreed } }) => {
       const { project } = server.instance;
       return { ok: agreed, needs_agreement: !agreed, message: "", changes, pous: [], problems: [], project };
     }),

@@ -14,8 +14,8 @@ const FILE = { path: PATH, version: 1, author: "Mika" };
 async function openEditor(prepare: (server: FakeServer) => void = () => undefined) {
   const page = await openPage((server) => {
     server.on("GET", "/projects/*/files", () => [FILE]);
-    server.on("GET", `/projects/*/files/${PATH}`, () => ({ ...FILE, text: "stored" }));
-    server.on("PUT", `/projects/*/files/${PATH}`, () => ({ ...FILE, version: 2 }));
+    server.on("GET", "/projects/*/files/**", () => ({ ...FILE, text: "stored" }));
+    server.on("PUT", "/projects/*/files/**", () => ({ ...FILE, version: 2 }));
     prepare(server);
   });
   render(<EditorPanel path={PATH} />);
@@ -43,7 +43,7 @@ test.each(["mine", "theirs"] as const)(
   async (choice) => {
     let first = true;
     const { server, user } = await openEditor((server) =>
-      server.on("PUT", `/projects/*/files/${PATH}`, () => {
+      server.on("PUT", "/projects/*/files/**", () => {
         if (!first) return { ...FILE, version: 3 };
         first = false;
         return new Status(409, { message: "", theirs: { ...FILE, version: 2, text: "Jo's", author: "Jo" } });
@@ -127,7 +127,7 @@ test("a build that is refused opens the problems", async () => {
       message: "NOTYPE",
       code: "E1",
       severity: "error",
-    };
+    } as const;
     const { project } = server.instance;
     const result = {
       ok: false,

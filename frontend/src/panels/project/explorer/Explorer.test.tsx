@@ -10,12 +10,11 @@ async function openExplorer() {
   const files: FileInfo[] = [{ path: "Main.st", version: 1, author: "Mika" }];
   const page = await openPage((server) => {
     server.on("GET", "/projects/*/files", () => files);
-    for (const path of ["*", "*/*"])
-      server.on("PUT", `/projects/*/files/${path}`, ({ path }) => {
-        const saved = { path: decodeURIComponent(path.split("/files/")[1] ?? ""), version: 1, author: "Mika" };
-        files.push(saved);
-        return saved;
-      });
+    server.on("PUT", "/projects/*/files/**", (_, [, , path = ""]) => {
+      const saved = { path: decodeURIComponent(path), version: 1, author: "Mika" };
+      files.push(saved);
+      return saved;
+    });
   });
   render(<Explorer />);
   const add = (...chosen: File[]) =>

@@ -75,7 +75,7 @@ test("a branch gets a name and begins in the scan that is shown; the page goes t
   const { server, user } = await openBanners((server) =>
     server.on("POST", "/instances/*/branch", ({ body }) => {
       const made = someInstance(server.instance.id + 5000, server.instance.project);
-      server.instance = { ...made, name: (body as { name: string }).name };
+      server.instance = { ...made, name: body.name };
       return server.instance;
     }),
   );

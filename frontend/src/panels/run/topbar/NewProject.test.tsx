@@ -2,7 +2,7 @@ import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { begins, box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
-import { someInstance, someProject } from "../../../testing/samples";
+import { MODEL, someInstance, someProject } from "../../../testing/samples";
 import { t } from "../../../text";
 import type { ModelSummary } from "../../../wire/types";
 import { NewProject } from "./NewProject";
@@ -20,9 +20,9 @@ test("a project needs its model: it is not made before the models are here, and 
         arrive = resolve;
       });
     });
-    server.on("GET", "/models/*", () => ({ ...MODELS[0], areas: [], catalogue: [], code_words: [], status_words: [] }));
+    server.on("GET", "/models/*", () => MODEL);
     server.on("POST", "/projects", () => someProject(800));
-    server.on("PUT", "/projects/*/files/*", () => ({ path: "Main.st", version: 1, author: "Mika" }));
+    server.on("PUT", "/projects/*/files/**", () => ({ path: "Main.st", version: 1, author: "Mika" }));
     const result = { ok: true, needs_agreement: false, message: "", changes: [], pous: [], problems: [] };
     server.on("POST", "/projects/*/build", () => ({ ...result, project: someProject(800) }));
     server.on("POST", "/instances", () => {

@@ -5,13 +5,13 @@ import { openPage } from "../../../testing/page";
 import { symbol } from "../../../testing/samples";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { DisturbanceInfo, NewDisturbance } from "../../../wire/types";
+import type { DisturbanceInfo } from "../../../wire/types";
 import { DisturbPanel } from "./DisturbPanel";
 
 async function openDisturb(prepare: (server: FakeServer) => void = () => undefined) {
   const page = await openPage((server) => {
     server.on("POST", "/instances/*/disturbances", ({ body }) => {
-      const known = (body as NewDisturbance).path !== "Main.belt.positon";
+      const known = body.path !== "Main.belt.positon";
       const message = known ? "memory Main.belt.position, bit 3" : "positon is not known";
       return { ok: known, message, near: known ? [] : ["Main.belt.position"], scan: 1001 };
     });

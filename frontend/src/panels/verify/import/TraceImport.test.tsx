@@ -6,7 +6,7 @@ import { openPage } from "../../../testing/page";
 import { symbol } from "../../../testing/samples";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { CheckTraceMapping, SavedMapping, TraceMapping, TraceProblem, UploadedTrace } from "../../../wire/types";
+import type { SavedMapping, TraceMapping, TraceProblem, UploadedTrace } from "../../../wire/types";
 import { TraceImport } from "./TraceImport";
 
 const problem = (message: string, column = "", row: number | null = null): TraceProblem => ({
@@ -43,12 +43,12 @@ async function openImport(prepare: (server: FakeServer) => void = () => undefine
     server.on("POST", "/projects/*/traces", () => TRACE);
     server.on("GET", "/projects/*/trace-mappings", () => saved);
     server.on("POST", "/projects/*/trace-mappings", ({ body }) => {
-      const { name, mapping } = body as { name: string; mapping: TraceMapping };
-      saved.push({ id: 1, name, by: "Mika", mapping });
-      return saved[0];
+      const mapping = { ...body, id: 1, by: "Mika" };
+      saved.push(mapping);
+      return mapping;
     });
     server.on("POST", "/instances/*/trace-check", ({ body }) => {
-      const { mapping } = body as CheckTraceMapping;
+      const { mapping } = body;
       const wrong = (mapping.columns ?? []).filter(({ path, role }) => role !== "ignore" && !path);
       const problems = wrong.map(({ column }) => problem("names no variable", column, 1));
       return { ok: wrong.length === 0, problems, first: 0, last: 19, missing: 0 };

@@ -5,14 +5,7 @@ import { openPage } from "../../../testing/page";
 import { refusal } from "../../../testing/routes";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type {
-  SetCell,
-  VerificationInfo,
-  VerifyColumn,
-  VerifyDifference,
-  VerifyRow,
-  VerifyUse,
-} from "../../../wire/types";
+import type { VerificationInfo, VerifyColumn, VerifyDifference, VerifyRow, VerifyUse } from "../../../wire/types";
 import { VerifyPanel } from "./VerifyPanel";
 
 const WRONG = 501;
@@ -118,18 +111,17 @@ async function openVerify() {
       differing: [1],
     }));
     server.on("PATCH", "/verifications/*", ({ body }) => {
-      const { memory } = body as { memory: VerificationInfo["memory"] | null };
-      info = { ...info, memory: memory ?? info.memory, generation: info.generation + 1 };
+      info = { ...info, memory: body.memory ?? info.memory, generation: info.generation + 1 };
       return info;
     });
     server.on("POST", "/verifications/*/cells", ({ body }) => {
-      const [cell] = (body as { cells: SetCell[] }).cells;
+      const [cell] = body.cells;
       if (cell?.value === "fast") return refusal("fast is not INT");
       set = "0a00";
       info = { ...info, generation: info.generation + 1 };
       return info;
     });
-    server.on("GET", "/verifications/*/uses", (): VerifyUse[] => [USE]);
+    server.on("GET", "/verifications/*/uses", () => [USE]);
   });
   render(<VerifyPanel />);
   await waitFor(() => expect(row(WRONG)).not.toBeNull());
