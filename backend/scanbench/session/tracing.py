@@ -26,7 +26,7 @@ class Ask(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class _Wanted:
+class WantedTrace:
     """What the next host is told, when this one dies or is switched off."""
 
     definition: TraceDefinition
@@ -67,7 +67,7 @@ class Tracing:
         """A new trace, or a new definition for one; `Refused` says why it cannot be."""
         id = max(self._next, max(self._wanted, default=0) + 1) if number is None else self.trace(number).id
         before = self._wanted.get(id)
-        self._wanted[id] = _Wanted(definition, author, start or (before is not None and before.on))
+        self._wanted[id] = WantedTrace(definition, author, start or (before is not None and before.on))
         try:
             await self._accepted(lambda ref: DefineTrace(ref, id, definition, author, start))
         except BaseException:
@@ -155,13 +155,13 @@ class Tracing:
         self._publish(events.TracesChanged(self.traces))
 
 
-def _json(wanted: _Wanted) -> Json:
+def _json(wanted: WantedTrace) -> Json:
     return asdict(wanted)
 
 
-def _read(content: Json) -> _Wanted | None:
+def _read(content: Json) -> WantedTrace | None:
     try:
-        return make_kept(_Wanted, content)
+        return make_kept(WantedTrace, content)
     except BadValue as error:
         log.error("a trace that another version of Scanbench kept is left out: %s", error)
         return None

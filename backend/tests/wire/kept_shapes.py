@@ -10,27 +10,27 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
+from inspect import isabstract
 from pathlib import Path
 from typing import get_args, get_type_hints
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.recording.blocks import About
-from scanbench.recording.reader import RunReader, no_programs
+from scanbench.runtime.command import Command, Effect, Entry
 from scanbench.server.trace_records import TraceRecord
+from scanbench.session.tracing import WantedTrace
 from scanbench.store.records import KeptRow, SweptError, WatchEntry
-from scanbench.taps.trace import TraceDefinition
 from scanbench.verify.contract import Row
 from scanbench.verify.trace.mapping import TraceMapping
-from scanbench.wire.codec import ENTRIES
+from scanbench.wire.codec import pack_body  # noqa: F401 - imports all commands
 from scanbench.wire.events import VerificationStatus
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.verification import KeptRows
-from tests.recording.golden_run import GOLDEN as RUNS
 from tests.store.said import missing
 
 GOLDEN = Path(__file__).with_name("golden") / "kept.json"
-BY_NAME: tuple[type, ...] = (About, Breakpoint, Reaction, SweptError, TraceDefinition, TraceMapping, TraceRecord)
+BY_NAME: tuple[type, ...] = (About, Breakpoint, Reaction, SweptError, TraceMapping, TraceRecord, WantedTrace)
 """Kept as JSON objects, with all that is in them."""
 BY_PLACE: tuple[type, ...] = (Driven, KeptRows, Row, Sources, VerificationStatus, WatchEntry)
 """Kept as lists of values: the order of fields counts."""
@@ -62,7 +62,7 @@ def kept() -> tuple[dict[str, type], dict[str, type]]:
     """By the names of classes: those that are kept by names of fields, and by places."""
     by_name = {each.__name__: each for root in BY_NAME for each in _within(root)}
     by_name.pop(KeptRow.__name__, None)  # a row of the database, and no JSON
-    roots = (*BY_PLACE, *_in_runs())
+    roots = (*BY_PLACE, Entry, *get_args(Effect), *_commands())
     return by_name, {each.__name__: each for root in roots for each in _within(root)}
 
 
@@ -76,22 +76,12 @@ def _within(hint: object) -> Iterator[type]:
         yield from _within(each)
 
 
-def _in_runs() -> Iterator[type]:
-    """Of the commands, plans and effects in golden run files."""
-    for path in RUNS.glob("*.run"):
-        with RunReader(path, no_programs, ENTRIES) as reader:
-            reader.follow()
-            yield from _used(reader.entries)
-
-
-def _used(value: object) -> Iterator[type]:
-    if is_dataclass(value) and not isinstance(value, type):
-        yield type(value)
-        for field in fields(value):
-            yield from _used(getattr(value, field.name))
-    elif isinstance(value, list | tuple):
-        for each in value:
-            yield from _used(each)
+def _commands(of: type[Command] = Command) -> Iterator[type]:
+    """All that a journal may keep; what tests make besides is none of it."""
+    for each in of.__subclasses__():
+        yield from _commands(each)
+        if each.__module__.startswith("scanbench.") and not isabstract(each):
+            yield each
 
 
 def shapes() -> dict[str, dict[str, Shape]]:
