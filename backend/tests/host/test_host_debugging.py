@@ -127,6 +127,7 @@ def test_a_plc_that_is_killed_while_halted_comes_back_before_that_scan(tmp_path:
 def test_a_plc_that_was_halted_comes_back_halted(tmp_path: Path, cache: Path) -> None:
     run = tmp_path / "a.run"
     with Child(run, STATIONS, cache) as child:
+        child.until(lambda state: state.scan > 0)  # so that there is a statement to go back to
         assert child.step("pause").ok
         halt = child.halted()
         assert child.step("back").ok
