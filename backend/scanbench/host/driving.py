@@ -208,7 +208,7 @@ class Driving:
     # ---- time travel ----------------------------------------------------------------------------------------------
 
     def travel(self, travel: protocol.Travel) -> None:
-        """Shows a scan of the past, or the PLC where it is_halted."""
+        """Shows a scan of the past, or the live PLC."""
         program = self._resource.program
         if travel.scan is None:
             self._timeline.return_live()

@@ -21,8 +21,8 @@ from scanbench.reports.record import (
 from scanbench.reports.record_read import from_xml
 from scanbench.reports.record_text import Language, RecordLine
 from scanbench.runtime.clock import wall_time
+from scanbench.server.write_behind import WriteBehind
 from scanbench.session.session import Session
-from scanbench.session.write_behind import WriteBehind
 from scanbench.store.records import BuildRow, NotFound, RecordInfo, RecordRow, SweepRow
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused

@@ -30,10 +30,10 @@ from scanbench.server.trace_records import TraceRecords
 from scanbench.server.uploads import TraceFiles
 from scanbench.server.verifications import Verifications
 from scanbench.server.watch_lists import WatchLists
+from scanbench.server.write_behind import WriteBehind, line_of, row_of
 from scanbench.session.instance import Remembered
 from scanbench.session.log import LOG_LINES
 from scanbench.session.session import Session
-from scanbench.session.write_behind import WriteBehind, line_of, row_of
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven

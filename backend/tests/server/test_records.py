@@ -18,8 +18,8 @@ from scanbench.reports.record import TestRecord
 from scanbench.reports.record_xml import to_xml
 from scanbench.server import test_records as records
 from scanbench.server.test_records import Records
+from scanbench.server.write_behind import WriteBehind
 from scanbench.session.session import Session
-from scanbench.session.write_behind import WriteBehind
 from scanbench.store.records import CellRow, LogRow, SweptError
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused

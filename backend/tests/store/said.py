@@ -14,9 +14,9 @@ from scanbench.server.missing import stand_in
 from scanbench.server.trace_records import TraceRecords
 from scanbench.server.uploads import mapping_of
 from scanbench.server.verifications import Verifications
+from scanbench.server.write_behind import line_of, row_of
 from scanbench.session.debugging import breakpoint_of
 from scanbench.session.tracing import Tracing
-from scanbench.session.write_behind import line_of, row_of
 from scanbench.store.records import InstanceRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.taps.trace_csv import to_csv

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.faults.history import ErrorRow
-from scanbench.session.write_behind import LOG_KEPT, LOG_TRIMMED_EVERY, WriteBehind
+from scanbench.server.write_behind import LOG_KEPT, LOG_TRIMMED_EVERY, WriteBehind
 from scanbench.store.errors import Errors
 from scanbench.store.instances import Logs
 from scanbench.store.records import HistoryRow, LogRow, StoreError
@@ -202,7 +202,7 @@ def test_a_row_that_cannot_be_written_takes_nothing_with_it(
 def test_what_the_database_refuses_is_written_when_it_can_be(
     store: Slow, instance: int, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("scanbench.session.write_behind.AGAIN_S", 0.01)
+    monkeypatch.setattr("scanbench.server.write_behind.AGAIN_S", 0.01)
     add, full, written = Logs.add, True, threading.Event()
 
     def refuse(self: Logs, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
@@ -234,7 +234,7 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
 def test_what_was_written_before_the_database_refused_is_not_written_again(
     store: Slow, instance: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("scanbench.session.write_behind.AGAIN_S", 0.01)
+    monkeypatch.setattr("scanbench.server.write_behind.AGAIN_S", 0.01)
     add, batches, whole = Logs.add, 0, threading.Event()
 
     def refuse(self: Logs, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
