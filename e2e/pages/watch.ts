@@ -73,10 +73,11 @@ export class Watch {
     await this.page.getByRole('menuitem', { name: item, exact: true }).click();
   }
 
-  /** Shows a different list, such as `Belt 3 shared`. */
-  async choose(list: string): Promise<void> {
+  /** Shows a different list, such as `Belt 3`, which everybody shares, and waits until it has arrived. */
+  async chooseShared(list: string): Promise<void> {
     await this.picker.click();
-    await this.page.getByRole('menuitemradio', { name: list, exact: true }).click();
+    await this.page.getByRole('menuitemradio', { name: `${list} shared`, exact: true }).click();
+    await expect(this.picker).toHaveAccessibleName(`Watch list ${list}, shared`);
   }
 
   async renameList(name: string): Promise<void> {

@@ -38,13 +38,13 @@ test('a watch list is shared, and two people change it at once', async ({ openAs
     await mika.watch.picker.click();
     await expect(mika.page.getByRole('menuitemradio')).toHaveText([/Belt 3/]);
     await mika.page.keyboard.press('Escape');
-    await jo.watch.choose('Belt 3 shared');
+    await jo.watch.chooseShared('Belt 3');
     await mika.watch.list('Delete list');
     await expect(jo.watch.pane.getByRole('alert')).toContainText('Mika deleted the list Belt 3');
     await mika.page.getByRole('button', { name: 'Undo' }).click();
     await expect(mika.watch.picker).toContainText('Belt 3');
     await expect(mika.watch.row('W2')).toBeVisible();
-    await jo.watch.choose('Belt 3 shared');
+    await jo.watch.chooseShared('Belt 3');
     await expect(jo.watch.row('W1')).toBeVisible();
   });
 

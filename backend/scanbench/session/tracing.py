@@ -1,5 +1,6 @@
 """The traces of one PLC, seen from the parent: what people want recorded, and what the host says of it."""
 
+import asyncio
 import logging
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import suppress
@@ -48,6 +49,8 @@ class Tracing:
         self._unread = {number: each for number, each in kept.items() if number not in self._wanted}
         self._told: dict[int, TraceStatus] = {}
         self._next = max(kept, default=0) + 1
+        self._one_by_one = asyncio.Lock()
+        """Held by each change until the host has answered, so that the next one begins with what this one made."""
 
     @property
     def traces(self) -> tuple[TraceStatus, ...]:
@@ -63,9 +66,24 @@ class Tracing:
             number, wanted.definition, wanted.by, "stopped", (), 0, None, 0, 0, 0, 0, 0, 0, "the PLC is not there"
         )
 
-    async def define(self, number: int | None, definition: TraceDefinition, author: str, start: bool) -> TraceStatus:
-        """A new trace, or a new definition for one; `Refused` says why it cannot be."""
-        id = max(self._next, max(self._wanted, default=0) + 1) if number is None else self.trace(number).id
+    async def make(self, definition: TraceDefinition, author: str, start: bool) -> TraceStatus:
+        """A new trace; `Refused` says why it cannot be."""
+        async with self._one_by_one:
+            id = max(self._next, max(self._wanted, default=0) + 1)
+            await self._define(id, definition, author, start)
+            self._next = id + 1
+            return self.trace(id)
+
+    async def change(
+        self, number: int, changed: Callable[[TraceDefinition], TraceDefinition], author: str, start: bool
+    ) -> TraceStatus:
+        """`changed` makes the new definition of a trace out of what everybody made of it until now."""
+        async with self._one_by_one:
+            self.trace(number)
+            await self._define(number, changed(self._wanted[number].definition), author, start)
+            return self.trace(number)
+
+    async def _define(self, id: int, definition: TraceDefinition, author: str, start: bool) -> None:
         before = self._wanted.get(id)
         self._wanted[id] = WantedTrace(definition, author, start or (before is not None and before.on))
         try:
@@ -76,26 +94,26 @@ class Tracing:
             else:
                 self._wanted[id] = before
             raise
-        self._next = max(self._next, id + 1)
         self._changed()
-        return self.trace(id)
 
     async def drive(self, number: int, action: str, author: str) -> TraceStatus:
         """`start` (or arm again) or `stop`."""
-        self.trace(number)
-        await self._accepted(lambda ref: DriveTrace(ref, number, action, author))
-        self._wanted[number] = replace(self._wanted[number], on=action == "start")
-        self._changed()
-        return self.trace(number)
+        async with self._one_by_one:
+            self.trace(number)
+            await self._accepted(lambda ref: DriveTrace(ref, number, action, author))
+            self._wanted[number] = replace(self._wanted[number], on=action == "start")
+            self._changed()
+            return self.trace(number)
 
     async def delete(self, number: int, author: str) -> None:
         """Forgets a trace with what it recorded; also while the PLC is off."""
-        self.trace(number)
-        with suppress(Refused, Unavailable):  # it is not there, which is what was wanted
-            await self._accepted(lambda ref: DriveTrace(ref, number, "delete", author))
-        self._wanted.pop(number, None)
-        self._told.pop(number, None)
-        self._changed()
+        async with self._one_by_one:
+            self.trace(number)
+            with suppress(Refused, Unavailable):  # it is not there, which is what was wanted
+                await self._accepted(lambda ref: DriveTrace(ref, number, "delete", author))
+            self._wanted.pop(number, None)
+            self._told.pop(number, None)
+            self._changed()
 
     async def read(self, number: int, first: int, last: int | None, points: int | None) -> bytes:
         """Packed samples; see `TraceBuffer.read`."""

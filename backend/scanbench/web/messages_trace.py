@@ -5,7 +5,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from scanbench.taps.trace import SignalText, TraceDefinition, TraceSignal
+from scanbench.taps.trace import MAX_SCANS, SignalText, TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.web.messages_base import Scan, Wire
 
 
@@ -15,6 +15,21 @@ class DefineTrace(TraceDefinition):
 
     start: bool = True
     """Recorded from now on; else only when it was already."""
+
+
+class ChangeTrace(Wire):
+    """What changes about a trace; what is left out stays, so that nobody takes back what somebody else has just changed."""
+
+    name: str | None = Field(default=None, min_length=1, max_length=100)
+    add: list[SignalText] = Field(
+        default=[], max_length=64, description="signals; those that it has already stay where they are"
+    )
+    remove: list[SignalText] = Field(default=[], description="signals")
+    every: int | None = Field(default=None, ge=1, le=1_000_000)
+    scans: int | None = Field(default=None, ge=2, le=MAX_SCANS)
+    trigger: TraceTrigger | None = Field(default=None, description="null: it has none from now on")
+    repeat: bool | None = None
+    start: bool = Field(default=False, description="recorded from now on; else only when it was already")
 
 
 class KeepTrace(Wire):

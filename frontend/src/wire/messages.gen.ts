@@ -958,12 +958,7 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
-        /**
-         * Changes the definition of a trace, and discards what it recorded
-         * @description Changes the definition of a trace, and discards what it recorded. Without `start`, a change of the signals keeps the
-         *     samples of signals that stay, and a change of the name keeps all samples.
-         */
-        put: operations["save_instance_trace"];
+        put?: never;
         post?: never;
         /**
          * Deletes a trace and what it recorded
@@ -972,7 +967,12 @@ export interface paths {
         delete: operations["delete_instance_trace"];
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Changes the definition of a trace, and discards what it recorded
+         * @description Changes the definition of a trace, and discards what it recorded. Without `start`, a change of the signals keeps the
+         *     samples of signals that stay, and a change of the name keeps all samples.
+         */
+        patch: operations["change_instance_trace"];
         trace?: never;
     };
     "/api/instances/{instance}/traces/{trace}/csv": {
@@ -2624,6 +2624,40 @@ export interface components {
              * @enum {string}
              */
             mode: "PROGRAM" | "MONITOR" | "RUN";
+        };
+        /**
+         * ChangeTrace
+         * @description What changes about a trace; what is left out stays, so that nobody takes back what somebody else has just changed.
+         */
+        ChangeTrace: {
+            /**
+             * Add
+             * @description signals; those that it has already stay where they are
+             * @default []
+             */
+            add: string[];
+            /** Every */
+            every?: number | null;
+            /** Name */
+            name?: string | null;
+            /**
+             * Remove
+             * @description signals
+             * @default []
+             */
+            remove: string[];
+            /** Repeat */
+            repeat?: boolean | null;
+            /** Scans */
+            scans?: number | null;
+            /**
+             * Start
+             * @description recorded from now on; else only when it was already
+             * @default false
+             */
+            start: boolean;
+            /** @description null: it has none from now on */
+            trigger?: components["schemas"]["TraceTrigger"] | null;
         };
         /**
          * CheckRequest
@@ -8748,42 +8782,6 @@ export interface operations {
             };
         };
     };
-    save_instance_trace: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                instance: number;
-                trace: number;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["DefineTrace"];
-            };
-        };
-        responses: {
-            /** @description Client Error */
-            "4XX": {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Refusal"];
-                };
-            };
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["TraceInfo"];
-                };
-            };
-        };
-    };
     delete_instance_trace: {
         parameters: {
             query?: never;
@@ -8811,6 +8809,42 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    change_instance_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChangeTrace"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceInfo"];
+                };
             };
         };
     };

@@ -1,6 +1,6 @@
 /** Traces of an instance, their samples, and records of them: the routes of `web/routes/traces.py`. */
 import { blob, bytes, json, request } from "./rest";
-import type { DefineTrace, Retrospective, TraceInfo, TraceRecordInfo } from "./types";
+import type { ChangeTrace, DefineTrace, Retrospective, TraceInfo, TraceRecordInfo } from "./types";
 
 /** The source of samples. */
 export type Source = { kind: "trace" | "record"; id: number };
@@ -10,10 +10,8 @@ const base = (instance: number, { kind, id }: Source) => (kind === "trace" ? at(
 
 export const traces = {
   all: (instance: number) => json<TraceInfo[]>("GET", `/instances/${instance}/traces`),
-  define: (instance: number, trace: number | null, wanted: DefineTrace) =>
-    trace === null
-      ? json<TraceInfo>("POST", `/instances/${instance}/traces`, wanted)
-      : json<TraceInfo>("PUT", at(instance, trace), wanted),
+  make: (instance: number, wanted: DefineTrace) => json<TraceInfo>("POST", `/instances/${instance}/traces`, wanted),
+  change: (instance: number, trace: number, by: ChangeTrace) => json<TraceInfo>("PATCH", at(instance, trace), by),
   drive: (instance: number, trace: number, action: "start" | "stop") =>
     json<TraceInfo>("POST", `${at(instance, trace)}/${action}`),
   delete: async (instance: number, trace: number): Promise<void> => {

@@ -3,6 +3,7 @@ import type { components } from "./messages.gen";
 
 type Shapes = components["schemas"];
 
+export type ChangeTrace = Shapes["ChangeTrace"];
 export type DefineTrace = Shapes["DefineTrace"];
 export type Retrospective = Shapes["Retrospective"];
 export type TraceDefinition = Shapes["TraceDefinition"];

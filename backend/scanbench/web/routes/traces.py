@@ -32,17 +32,15 @@ async def on_traces(bench: Bench, instance: Id) -> tuple[TraceStatus, ...]:
 async def on_new_trace(bench: Bench, request: Request, instance: Id, new: wire.DefineTrace) -> TraceStatus:
     """A new trace."""
     tracing, author = bench.session(instance).tracing, user_of(request).name
-    return await tracing.define(None, translate_trace.wanted(new), author, new.start)
+    return await tracing.make(translate_trace.wanted(new), author, new.start)
 
 
-@router.put("/instances/{instance}/traces/{trace}")
-async def on_define_trace(
-    bench: Bench, request: Request, instance: Id, trace: Id, changed: wire.DefineTrace
-) -> TraceStatus:
+@router.patch("/instances/{instance}/traces/{trace}")
+async def on_change_trace(bench: Bench, request: Request, instance: Id, trace: Id, by: wire.ChangeTrace) -> TraceStatus:
     """Changes the definition of a trace, and discards what it recorded. Without `start`, a change of the signals keeps the
     samples of signals that stay, and a change of the name keeps all samples."""
     tracing, author = bench.session(instance).tracing, user_of(request).name
-    return await tracing.define(trace, translate_trace.wanted(changed), author, changed.start)
+    return await tracing.change(trace, lambda now: translate_trace.changed(now, by), author, by.start)
 
 
 @router.post("/instances/{instance}/traces/{trace}/start")

@@ -8,7 +8,7 @@ import { t } from "../../text";
 import { Refused } from "../../wire/rest";
 import { type Source, traces as wire } from "../../wire/traces";
 import type {
-  DefineTrace,
+  ChangeTrace,
   Retrospective,
   TraceDefinition,
   TraceInfo,
@@ -198,12 +198,13 @@ const PLAIN: Omit<TraceDefinition, "name" | "signals"> = {
   repeat: false,
 };
 
-async function define(id: number | null, wanted: DefineTrace, add?: string): Promise<boolean> {
+/** Shows the trace that `ask` makes or changes. `add`: the signal that is tried again if it is refused. */
+async function define(ask: (instance: number) => Promise<TraceInfo>, add?: string): Promise<boolean> {
   const instance = instanceId();
   if (instance === null) return false;
   const before = shownOf(get());
   try {
-    const made = await wire.define(instance, id, wanted);
+    const made = await ask(instance);
     set(({ traces }) => ({
       traces: traces.some((known) => known.id === made.id)
         ? traces.map((known) => (known.id === made.id ? made : known))
@@ -213,7 +214,7 @@ async function define(id: number | null, wanted: DefineTrace, add?: string): Pro
       trouble: null,
     }));
     const now = shownOf(get());
-    if (now && !(before?.source.id === id && goesOn(before, now))) rewind(now);
+    if (now && !(before?.source.id === made.id && goesOn(before, now))) rewind(now);
     return true;
   } catch (error) {
     fail(error, add);
@@ -231,7 +232,8 @@ function freshName(): string {
 
 /** Makes a new trace of these signals; recording begins now. */
 export function newTrace(signals: readonly string[]): Promise<boolean> {
-  return define(null, { ...PLAIN, name: freshName(), signals: [...signals], start: true }, signals[0]);
+  const wanted = { ...PLAIN, name: freshName(), signals: [...signals], start: true };
+  return define((instance) => wire.make(instance, wanted), signals[0]);
 }
 
 /** Adds paths to the shown trace, or to a new first one. */
@@ -241,7 +243,7 @@ export async function addAllToTrace(paths: readonly string[]): Promise<boolean> 
   if (trace === null) return newTrace([...new Set(paths)]);
   const fresh = [...new Set(paths)].filter((path) => !trace.definition.signals.includes(path));
   if (fresh.length === 0) return true;
-  return change({ signals: [...trace.definition.signals, ...fresh] }, fresh[0]);
+  return change({ add: fresh }, fresh[0]);
 }
 
 /** From other panels: also opens the trace panel. */
@@ -253,18 +255,18 @@ export function addToTrace(path: string): void {
 export function removeSignal(text: string): void {
   const trace = shownOf(get())?.trace;
   if (!trace) return;
-  const signals = trace.definition.signals.filter((signal) => signal !== text);
-  if (signals.length === 0) void deleteShown();
-  else void change({ signals });
+  if (trace.definition.signals.every((signal) => signal === text)) void deleteShown();
+  else void change({ remove: [text] });
 }
 
-/** Changes the definition of the shown trace. */
-export async function change(part: Partial<TraceDefinition>, add?: string): Promise<boolean> {
+/** Changes the definition of the shown trace: only what is said, so that a change that is still under way is not taken back. */
+export async function change(part: Partial<ChangeTrace>, add?: string): Promise<boolean> {
   const trace = shownOf(get())?.trace;
   if (!trace) return false;
   // A different name or different signals keep the recorded samples, and a recording trace continues.
-  const keeps = Object.keys(part).every((key) => key === "name" || key === "signals");
-  return define(trace.id, { ...trace.definition, ...part, start: !keeps }, add);
+  const keeps = Object.keys(part).every((key) => ["name", "add", "remove"].includes(key));
+  const by: ChangeTrace = { add: [], remove: [], ...part, start: !keeps };
+  return define((instance) => wire.change(instance, trace.id, by), add);
 }
 
 export async function drive(action: "start" | "stop"): Promise<void> {
