@@ -1,19 +1,19 @@
-"""`--raise` of `scanbench run`: an error at a scan, or a fault with a shape in time.
+"""Text -> raising an error, or a fault with a shape in time.
 
-battery-error@100                                   raised before scan 100
-battery-error for 5@100                             and recovered 5 scans later
-battery-error every 100 on 10 times 3 seed 7@20     present for 10 of every 100 scans, three times, varied by chance 7
-battery-error chatter times 4                       on and off in turn
-battery-error for 9 unless Main.ack                 recovered after 9 scans, or when it is acknowledged before
-battery-error when Main.n > 3                       begins when this holds; `when main.st:12`: when that line is reached
-battery-error + io-bus-error:rack=1 gap 3@10        one 3 scans after the other; without a gap in one seam
+battery-error                                    raised
+battery-error for 5                              and recovered 5 scans later
+battery-error every 100 on 10 times 3 seed 7     present for 10 of every 100 scans, three times, varied by chance 7
+battery-error chatter times 4                    on and off in turn
+battery-error for 9 unless Main.ack              recovered after 9 scans, or when it is acknowledged before
+battery-error when Main.n > 3                    begins when this holds; `when main.st:12`: when that line is reached
+battery-error + io-bus-error:rack=1 gap 3        one 3 scans after the other; without a gap in one seam
 """
 
 import re
 from dataclasses import replace
 
 from scanbench.check.typed.condition import BadCondition, compile_condition
-from scanbench.cli.inputs import usage, with_near
+from scanbench.cli.inputs import with_near
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate
 from scanbench.faults.lines import find_line
@@ -22,43 +22,48 @@ from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Refusal
 
-_AT = re.compile(r"(.*)@(\d+)\s*", re.DOTALL)
 _LINE = re.compile(r"(\S.*\.\w+):(\d+)")
 _WORDS = ("for", "every", "on", "times", "seed", "gap")
 _HOW = "write e.g. `battery-error for 5@100`, `battery-error every 100 on 10 times 3 seed 7`, `battery-error when Main.n > 3`"
 
 
-def read_raise(program: Program, author: str, text: str) -> tuple[int, Command]:
-    """The scan before which it is entered, and the command."""
-    body, scan = _at(text)
-    body, when = _cut(body, "when")
+class BadCommand(Exception):
+    """A text that is no command; the message says why, and what to write."""
+
+
+def read_raise(program: Program, author: str, text: str) -> Command:
+    """The command; `BadCommand`."""
+    body, when = _cut(text, "when")
     body, unless = _cut(body, "unless")
     references, words = _shape_words(body)
-    errors = tuple(_error(program, text, each) for each in references.split(" + "))
+    errors = tuple(read_error(program, each) for each in references.split(" + "))
     if not words and when is None and unless is None:
-        return scan, Generate(author, errors)
-    numbers, chatter = _numbers(text, words)
-    wanted = Wanted(errors, _start(when), _shape(text, numbers, chatter, unless), numbers.get("gap", 0))
-    _must_mean_something(program, text, wanted)
-    return scan, Arm(author, wanted)
+        return Generate(author, errors)
+    numbers, chatter = _numbers(words)
+    wanted = Wanted(errors, _start(when), _shape(numbers, chatter, unless), numbers.get("gap", 0))
+    _must_mean_something(program, wanted)
+    return Arm(author, wanted)
 
 
-def _must_mean_something(program: Program, text: str, wanted: Wanted) -> None:
+def read_error(program: Program, reference: str) -> ErrorRef:
+    """An error of the model, with details: `io-bus-error:rack=1`; `BadCommand`."""
+    error = parse_reference(program.layout.model, reference)
+    if isinstance(error, Refusal):
+        raise BadCommand(with_near(error.message, error.near))
+    return error
+
+
+def _must_mean_something(program: Program, wanted: Wanted) -> None:
     """Before anything runs: the program is there already, and names and lines can be looked up in it."""
     start = wanted.start
     for condition in filter(None, (start.condition, wanted.shape.acknowledge)):
         bad = compile_condition(program, condition)
         if isinstance(bad, BadCondition):
-            usage(f"--raise {text}: `{condition}`: {with_near(bad.message, bad.near)}")
+            raise BadCommand(f"`{condition}`: {with_near(bad.message, bad.near)}")
     if start.kind == "line":
         found = find_line(program, start.file, start.line)
         if isinstance(found, Refusal):
-            usage(f"--raise {text}: {found.message}")
-
-
-def _at(text: str) -> tuple[str, int]:
-    match = _AT.fullmatch(text)
-    return (match.group(1), int(match.group(2))) if match else (text, 0)
+            raise BadCommand(found.message)
 
 
 def _cut(text: str, word: str) -> tuple[str, str | None]:
@@ -73,25 +78,18 @@ def _shape_words(body: str) -> tuple[str, list[str]]:
     return (body, []) if found is None else (body[: found.start()], body[found.start() :].split())
 
 
-def _error(program: Program, text: str, reference: str) -> ErrorRef:
-    error = parse_reference(program.layout.model, reference)
-    if isinstance(error, Refusal):
-        usage(f"--raise {text}: {error.message}")
-    return error
-
-
-def _numbers(text: str, words: list[str]) -> tuple[dict[str, int], bool]:
+def _numbers(words: list[str]) -> tuple[dict[str, int], bool]:
     """The number after each word; whether it chatters."""
     left = [word for word in words if word != "chatter"]
     numbers: dict[str, int] = {}
     for word, number in zip(left[::2], [*left[1::2], ""][: len(left[::2])], strict=True):
         if word not in _WORDS or word in numbers or not number.isdecimal():
-            usage(f"--raise {text}: `{f'{word} {number}'.strip()}` is not understood; {_HOW}")
+            raise BadCommand(f"`{f'{word} {number}'.strip()}` is not understood; {_HOW}")
         numbers[word] = int(number)
     return numbers, len(left) < len(words)
 
 
-def _shape(text: str, numbers: dict[str, int], chatter: bool, unless: str | None) -> Shape:
+def _shape(numbers: dict[str, int], chatter: bool, unless: str | None) -> Shape:
     given = numbers.keys() - {"gap"}
     times, seed = numbers.get("times"), numbers.get("seed")
     if chatter and given <= {"times"}:
@@ -104,11 +102,11 @@ def _shape(text: str, numbers: dict[str, int], chatter: bool, unless: str | None
         shape = Shape()
     else:
         words = [*sorted(given), *(["chatter"] if chatter else [])]
-        usage(f"--raise {text}: {' and '.join(words)} {'do' if len(words) > 1 else 'does'} not make a shape; {_HOW}")
+        raise BadCommand(f"{' and '.join(words)} {'do' if len(words) > 1 else 'does'} not make a shape; {_HOW}")
     if unless is None:
         return shape
     if shape.kind != "for":
-        usage(f"--raise {text}: `unless` goes with `for`: say after how many scans it goes by itself")
+        raise BadCommand("`unless` goes with `for`: say after how many scans it goes by itself")
     return replace(shape, kind="unacknowledged", acknowledge=unless)
 
 

@@ -2,30 +2,25 @@
 
 import json
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
+from scanbench.cli.command_text import VERBS, read_command
+from scanbench.cli.inputs import with_near
+from scanbench.cli.raising import BadCommand
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
-from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reaction.react import Point
-from scanbench.faults.reference import parse_reference
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.recording.headless import HeadlessRun, run_headless
-from scanbench.runtime.command import Command, Refusal
-from scanbench.runtime.forces import Force, Release
-from scanbench.runtime.header import Mode
-from scanbench.runtime.modes import SetMode
-from scanbench.runtime.write import Write
-from scanbench.symbols.symbols import UnknownPath, resolve
-from scanbench.symbols.values import parse_value
+from scanbench.runtime.command import Command
 
-AUTHOR = "command line"
 _RUN_KEYS, _FILE_KEYS = ("name", "scans", "do"), ("name", "run", "scan")
 _DO = re.compile(r"\s*(\d+)\s*:\s*(.+)", re.DOTALL)
+_SPOKEN = [verb for verb in VERBS if verb != "write"]
 _HOW = 'write "SCAN: COMMAND", as in "10: Main.start=TRUE"'
 
 
@@ -125,8 +120,8 @@ def run_state(state: FromStart, program: Program, make: MakeObserved, version: i
         program, state.scans, lambda each, memory: make(each, memory)[0], commands, detect=Detection()
     )
     for refused in result.refused:
-        near = f" Near: {', '.join(refused.refusal.near)}." if refused.refusal.near else ""
-        raise BadStates(f"{where}: refused before scan {refused.scan}: {refused.refusal.message}.{near}")
+        why = with_near(refused.refusal.message, refused.refusal.near)
+        raise BadStates(f"{where}: refused before scan {refused.scan}: {why}")
     if result.resource.trap is not None:
         raise BadStates(f"{where}: the program trapped on the way: {result.resource.trap}")
     if not result.resource.runnable:
@@ -140,67 +135,10 @@ def _command(where: str, program: Program, text: str) -> tuple[int, Command]:
         raise BadStates(f"{where}: `{text}` cannot be read; {_HOW}")
     at, body = int(match.group(1)), match.group(2).strip()
     verb, _, rest = body.partition(" ")
-    known = _VERBS.get(verb.lower())
-    if known is not None and rest.strip() and not rest.lstrip().startswith("="):
-        command = known(program, rest.strip())
-    else:
-        command = _write(program, body)
-    if isinstance(command, Refusal):
-        near = f" Near: {', '.join(command.near)}." if command.near else ""
-        raise BadStates(f"{where}: `{text}`: {command.message}{near}")
-    return at, command
-
-
-def _write(program: Program, text: str) -> Command | Refusal:
-    found = _assignment(program, text)
-    return found if isinstance(found, Refusal) else Write(AUTHOR, *found)
-
-
-def _force(program: Program, text: str) -> Command | Refusal:
-    found = _assignment(program, text)
-    return found if isinstance(found, Refusal) else Force(AUTHOR, *found)
-
-
-def _assignment(program: Program, text: str) -> tuple[str, str] | Refusal:
-    path, equals, value = text.partition("=")
-    if not equals:
-        verbs = ", ".join(_VERBS)
-        return Refusal(f"write PATH=VALUE, or one of {verbs} and what for")
+    named = verb.lower() in _SPOKEN and rest.strip() and not rest.lstrip().startswith("=")
+    if not named and "=" not in body:
+        raise BadStates(f"{where}: `{text}`: write PATH=VALUE, or one of {', '.join(_SPOKEN)} and what for")
     try:
-        symbol = resolve(program, path.removesuffix(":").strip())
-    except UnknownPath as error:
-        return Refusal(error.message, error.near)
-    try:
-        parse_value(symbol.type, value.strip())
-    except ValueError as error:
-        return Refusal(str(error))
-    return symbol.path, value.strip()
-
-
-def _release(program: Program, text: str) -> Command | Refusal:
-    try:
-        return Release(AUTHOR, resolve(program, text).path)
-    except UnknownPath as error:
-        return Refusal(error.message, error.near)
-
-
-def _raise(program: Program, text: str) -> Command | Refusal:
-    found = parse_reference(program.layout.model, text)
-    return found if isinstance(found, Refusal) else Generate(AUTHOR, (found,))
-
-
-def _clear(program: Program, text: str) -> Command | Refusal:
-    if text.lower() == "all":
-        return Recover(AUTHOR, None)
-    found = parse_reference(program.layout.model, text)
-    return found if isinstance(found, Refusal) else Recover(AUTHOR, (found.id,))
-
-
-def _mode(program: Program, text: str) -> Command | Refusal:
-    modes: Collection[str] = Mode.__members__
-    return SetMode(AUTHOR, text.upper()) if text.upper() in modes else Refusal(f"there are {', '.join(modes)}")
-
-
-_VERBS: Mapping[str, Callable[[Program, str], Command | Refusal]] = {
-    "force": _force, "release": _release, "raise": _raise, "clear": _clear, "mode": _mode,
-}  # fmt: skip
+        return at, read_command(program, verb.lower(), rest.strip()) if named else read_command(program, "write", body)
+    except BadCommand as error:
+        raise BadStates(f"{where}: `{text}`: {error}") from error

@@ -9,11 +9,12 @@ import typer
 
 from scanbench import __version__
 from scanbench.cli import INTERRUPTED
+from scanbench.cli.command_text import AUTHOR
 from scanbench.cli.inputs import DAMAGED, usage, with_near
 from scanbench.cli.interrupt import Leaving
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
-from scanbench.cli.run_options import AUTHOR, Options
+from scanbench.cli.run_options import Options
 from scanbench.cli.verify_subject import Given, Subject, opened
 from scanbench.cli.verify_text import verify_text
 from scanbench.engines.available import flavours

@@ -4,11 +4,11 @@ import json
 from pathlib import Path
 
 import pytest
-import typer
 from typer.testing import CliRunner, Result
 
+from scanbench.cli.command_text import before_scan
 from scanbench.cli.commands import app
-from scanbench.cli.raising import read_raise
+from scanbench.cli.raising import BadCommand, read_raise
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
@@ -30,7 +30,8 @@ BATTERY, RACK = ErrorRef("battery-error"), ErrorRef("basic-io-error", (("rack", 
 
 
 def armed(text: str) -> tuple[int, Wanted]:
-    scan, command = read_raise(program(SOURCE), "Ada", text)
+    body, scan = before_scan(text)
+    command = read_raise(program(SOURCE), "Ada", body)
     assert isinstance(command, Arm)
     return scan, command.wanted
 
@@ -55,10 +56,9 @@ def test_what_a_text_means(text: str, scan: int, wanted: Wanted) -> None:
 
 
 def test_without_a_shape_it_is_raised_at_once() -> None:
-    assert read_raise(program(SOURCE), "Ada", "basic-io-error:rack=1@7") == (7, Generate("Ada", (RACK,)))
-    assert read_raise(program(SOURCE), "Ada", "battery-error + basic-io-error:rack=1") == (
-        0,
-        Generate("Ada", (BATTERY, RACK)),
+    assert read_raise(program(SOURCE), "Ada", "basic-io-error:rack=1") == Generate("Ada", (RACK,))
+    assert read_raise(program(SOURCE), "Ada", "battery-error + basic-io-error:rack=1") == Generate(
+        "Ada", (BATTERY, RACK)
     )
 
 
@@ -75,11 +75,9 @@ def test_without_a_shape_it_is_raised_at_once() -> None:
         ("battery-error on 5", "on does not make a shape"),
     ],
 )
-def test_what_is_not_understood(text: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(typer.Exit) as ended:
+def test_what_is_not_understood(text: str, words: str) -> None:
+    with pytest.raises(BadCommand, match=words):
         read_raise(program(SOURCE), "Ada", text)
-    assert ended.value.exit_code == 2
-    assert words in capsys.readouterr().err
 
 
 def call(*arguments: str) -> Result:

@@ -209,7 +209,7 @@ def test_restarts(program: str, kind: str, total: int, kept: int) -> None:
 def test_wrong_modes_and_restarts(program: str) -> None:
     refused = run(program, "--scans", "5", "--mode", "FAST@2")
     assert refused.exit_code == 2
-    assert "FAST is not a mode" in refused.output
+    assert "there are PROGRAM, MONITOR, RUN" in refused.output
     wrong = run(program, "--scans", "5", "--restart", "hot")
     assert wrong.exit_code == 2
     assert "cold, warm, power" in wrong.output

@@ -1,0 +1,89 @@
+"""Commands as people type them, for options of `scanbench run` and `verify`, and for the states of a sweep: text -> command."""
+
+import re
+from collections.abc import Callable, Mapping
+from typing import get_args
+
+from scanbench.cli.inputs import with_near
+from scanbench.cli.raising import BadCommand, read_error, read_raise
+from scanbench.faults.inject import Recover
+from scanbench.program.program import Program
+from scanbench.runtime.command import Command, RestartKind
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.header import Mode
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import UnknownPath, resolve
+from scanbench.symbols.values import parse_value
+
+AUTHOR = "command line"
+_AT = re.compile(r"(.*)@(\d+)\s*", re.DOTALL)
+
+
+def before_scan(text: str) -> tuple[str, int]:
+    """The command, and the scan before which it is applied: `start=TRUE@5`. Scan 0 where none is named."""
+    match = _AT.fullmatch(text)
+    return (match.group(1), int(match.group(2))) if match else (text, 0)
+
+
+def read_command(program: Program, verb: str, text: str) -> Command:
+    """The command of one of `VERBS`; `BadCommand`."""
+    return VERBS[verb](program, text)
+
+
+def _write(program: Program, text: str) -> Command:
+    return Write(AUTHOR, *_assignment(program, text))
+
+
+def _force(program: Program, text: str) -> Command:
+    return Force(AUTHOR, *_assignment(program, text))
+
+
+def _assignment(program: Program, text: str) -> tuple[str, str]:
+    path, equals, value = text.partition("=")
+    if not equals:
+        raise BadCommand("write PATH=VALUE")
+    try:
+        symbol = resolve(program, path.removesuffix(":").strip())
+    except UnknownPath as error:
+        raise BadCommand(with_near(error.message, error.near)) from error
+    try:
+        parse_value(symbol.type, value.strip())
+    except ValueError as error:
+        raise BadCommand(str(error)) from error
+    return symbol.path, value.strip()
+
+
+def _release(program: Program, text: str) -> Command:
+    try:
+        return Release(AUTHOR, resolve(program, text).path)
+    except UnknownPath as error:
+        raise BadCommand(with_near(error.message, error.near)) from error
+
+
+def _raise(program: Program, text: str) -> Command:
+    return read_raise(program, AUTHOR, text)
+
+
+def _clear(program: Program, text: str) -> Command:
+    return Recover(AUTHOR, None if text.lower() == "all" else (read_error(program, text).id,))
+
+
+def _mode(_: Program, text: str) -> Command:
+    if text.upper() not in Mode.__members__:
+        raise BadCommand(f"there are {', '.join(Mode.__members__)}")
+    return SetMode(AUTHOR, text.upper())
+
+
+def _restart(_: Program, text: str) -> Command:
+    kinds: dict[str, RestartKind] = {kind: kind for kind in get_args(RestartKind)}
+    if text.lower() not in kinds:
+        raise BadCommand(f"there are {', '.join(kinds)}")
+    return Restart(AUTHOR, kinds[text.lower()])
+
+
+VERBS: Mapping[str, Callable[[Program, str], Command]] = {
+    "write": _write, "force": _force, "release": _release, "raise": _raise, "clear": _clear, "mode": _mode,
+    "restart": _restart,
+}  # fmt: skip
