@@ -138,13 +138,17 @@ class Instance:
         """Ends the process, and waits for it."""
         await self.switch(on=False)
 
-    async def switch(self, on: bool) -> None:
-        """Starts the process, or ends it and waits for that; whoever wants it otherwise waits."""
+    async def switch(self, on: bool) -> bool:
+        """Starts the process, or ends it and waits for that; whoever wants it otherwise waits. Whether it was otherwise: that is
+        known only here, as a PLC has no process for a moment while it begins a new run."""
         async with self._turning:
+            if on == self.on:
+                return False
             if on:
                 self.start()
-            elif self.on:
+            else:
                 await self._stop()
+            return True
 
     async def _stop(self) -> None:
         self._stopping = True

@@ -117,10 +117,8 @@ class Session:
         before, self.row = self.row, row
         if row.limits != before.limits:
             self.instance.limit(row.limits)
-        if row.powered == self.instance.on:
-            return
-        self.log.add(author, "switched on" if row.powered else "switched off")
-        await self.instance.switch(row.powered)
+        if await self.instance.switch(row.powered):
+            self.log.add(author, "switched on" if row.powered else "switched off")
 
     # ---- commands -------------------------------------------------------------------------------------------------
 
