@@ -2,11 +2,12 @@
 
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from scanbench.engines.native import jit
 from scanbench.host.zygote import zygote
 from tests.amounts import amount
 
@@ -29,6 +30,26 @@ LONG = ("tests/web/", "tests/test_", "tests/engines/")
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The workers take whole files in this order, and end together."""
     items.sort(key=lambda item: not item.nodeid.startswith(LONG))
+
+
+Compile = Callable[[str, int, jit.Timings], bytes]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def compiled_once() -> Iterator[Compile]:
+    """LLVM makes the same code of the same text, and half of the texts come again: the samples, the cases, a program in a loop of
+    tests. What always compiles is given to the tests of what the product keeps itself."""
+    always, made = jit.compile_object, dict[str, bytes]()
+
+    def once(ir: str, opt_level: int, timings: jit.Timings) -> bytes:
+        key = jit.object_key(ir, opt_level)
+        if key not in made:
+            made[key] = always(ir, opt_level, timings)
+        return made[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(jit, "compile_object", once)
+        yield always
 
 
 @pytest.fixture(scope="session", autouse=True)

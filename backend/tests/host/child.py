@@ -1,14 +1,12 @@
 """The process of a PLC as its parent sees it, for tests."""
 
 import socket
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Self, TypeVar
 
 from scanbench.debug.halt import Halt
-from scanbench.host.zygote import HOST
+from scanbench.host.zygote import zygote
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import Splitter, pack
@@ -27,8 +25,7 @@ class Child:
         ours, theirs = socket.socketpair()
         self._socket, self._splitter = ours, Splitter()
         ours.settimeout(60)
-        command = [sys.executable, "-m", "scanbench.host", str(theirs.fileno()), HOST, str(cache)]
-        self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()])
+        self.process = zygote().spawn(theirs, cache)
         theirs.close()
         self.messages: list[object] = []
         self.state: protocol.PlcState | None = None
@@ -43,7 +40,7 @@ class Child:
         return self
 
     def __exit__(self, *error: object) -> None:
-        if self.process.poll() is None:
+        if self.process.wait(0) is None:
             self.send(protocol.Quit())
         self._socket.close()
         self.process.wait(30)

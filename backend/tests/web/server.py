@@ -1,13 +1,17 @@
 """A real server in a process of its own, and a browser's half of the wire."""
 
+import atexit
 import json
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
+from shutil import rmtree
 from types import TracebackType
 from typing import Any, Self
 
@@ -29,6 +33,14 @@ PATIENCE_S = 120
 _LOOK_S = 0.2
 
 
+@cache
+def _what_is_built() -> Path:
+    """Programs and code that all servers of these tests keep: each of them runs the samples."""
+    directory = Path(tempfile.mkdtemp(prefix="scanbench-built-"))
+    atexit.register(rmtree, directory, ignore_errors=True)
+    return directory
+
+
 class Server:
     """`scanbench serve` without the command line."""
 
@@ -38,6 +50,8 @@ class Server:
         """Instances that `instance` made and nobody switched off."""
         script = data / "serve_main.py"
         data.mkdir(parents=True, exist_ok=True)
+        if not (data / "cache").exists():
+            (data / "cache").symlink_to(_what_is_built())
         script.write_text(_MAIN)
         self.process = subprocess.Popen([sys.executable, str(script), str(data)], stdout=subprocess.PIPE, text=True)
         assert self.process.stdout is not None

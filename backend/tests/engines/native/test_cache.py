@@ -13,6 +13,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.parts import Part
 from scanbench.engines.native.worker import optimised
 from scanbench.program.program import Program
+from tests.conftest import Compile
 from tests.engines.native.plc import MODEL, check
 
 SOURCE = """\
@@ -38,6 +39,11 @@ END_PROGRAM
 """
 # enough for a program to be compiled in parts
 FILLER = "\n".join("  IF sum > 5 THEN d[1] := d[2]; ELSE d[3] := d[4] / 2; END_IF;" for _ in range(40))
+
+
+@pytest.fixture(autouse=True)
+def _always_compiled(compiled_once: Compile, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(jit, "compile_object", compiled_once)
 
 
 def program(more: str = "", extra: str = FILLER) -> Program:
