@@ -110,7 +110,8 @@ class Browser:
             f"ws://127.0.0.1:{server.port}/api/instances/{instance}/socket?scanbench_user={user.replace(' ', '%20')}"
         )
         headers = {"Cookie": f"scanbench_token_{server.port}={server.token}"}
-        self._connection = connect(address, additional_headers={**headers, "Origin": server.base})
+        # without a limit, as a full queue keeps a connection from closing for 10 s
+        self._connection = connect(address, additional_headers={**headers, "Origin": server.base}, max_queue=None)
         self.socket: ClientConnection = self._connection.__enter__()
         self.messages: list[Message] = []
         self.values: dict[int, bytes] = {}
