@@ -125,6 +125,7 @@ class RunHistory:
         comparison.task = self._do(
             self._compare(comparison, lambda ref: CompareRuns(ref, str(run), str(other), until, other_until))
         )
+        _tell(comparison)
         return comparison.changed
 
     async def _compare(self, comparison: _Comparison, make: Make) -> None:
@@ -161,6 +162,7 @@ class RunHistory:
         rerun.task = self._do(
             self._rerun(id, rerun, lambda ref: RerunRun(ref, run, str(rerun.file), change, until, author))
         )
+        _tell(rerun)
         return rerun.changed
 
     async def cancel_rerun(self, id: int) -> None:

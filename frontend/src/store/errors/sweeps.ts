@@ -198,7 +198,7 @@ export async function beginSweep(wanted: NewSweep): Promise<void> {
   const { instance } = useBench.getState();
   if (!instance) throw new Error(t("sweep.noplc"));
   const made = await rest.beginSweep(instance.id, wanted);
-  noteSummary(made);
+  if (!get().list?.some(({ id }) => id === made.id)) noteSummary(made); // the socket may have told more already
   set({ question: null });
   showSweep(made.id);
 }
@@ -217,8 +217,9 @@ export async function deleteState({ id }: ProgramState): Promise<void> {
   set(({ states }) => ({ states: states.filter((known) => known.id !== id) }));
 }
 
-export const cancelSweep = (id: number) => guarded(async () => noteSummary(await rest.cancelSweep(id)));
-export const resumeSweep = (id: number) => guarded(async () => noteSummary(await rest.resumeSweep(id)));
+// What becomes of it is told over the socket.
+export const cancelSweep = (id: number) => guarded(async () => void (await rest.cancelSweep(id)));
+export const resumeSweep = (id: number) => guarded(async () => void (await rest.resumeSweep(id)));
 
 export async function deleteSweep(id: number): Promise<void> {
   await rest.deleteSweep(id);

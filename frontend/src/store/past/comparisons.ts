@@ -36,8 +36,9 @@ export const showComparison = (shown: number) => set({ shown, trouble: null });
 /** Begins a comparison with the given instance, and shows it. */
 export async function compareWithOther(other: number): Promise<void> {
   await guarded(async (instance) => {
-    onComparison(await past.compare(instance, other));
-    set({ shown: get().list[0]?.id ?? null });
+    // The socket tells its state; the answer may come after its end was told.
+    const { id } = await past.compare(instance, other);
+    set({ shown: id });
   });
 }
 

@@ -37,11 +37,11 @@ export function showRerun(of: { scan: number; error: string }, wish: Partial<Rer
 
 export const closeRerun = () => set({ wish: null });
 
-/** Throws the server's refusal. */
+/** Its state is told over the socket. Throws the server's refusal. */
 export async function beginRerun(wanted: NewRerun): Promise<void> {
   const instance = useBench.getState().instance?.id;
   if (instance === undefined) return;
-  onRerun(await past.rerun(instance, wanted));
+  await past.rerun(instance, wanted);
 }
 
 export function onRerun(rerun: Rerun): void {

@@ -198,23 +198,22 @@ const PLAIN: Omit<TraceDefinition, "name" | "signals"> = {
   repeat: false,
 };
 
-/** Shows the trace that `ask` makes or changes. `add`: the signal that is tried again if it is refused. */
+/** Shows the trace that `ask` makes or changes. What it is then comes over the socket, which may have told more already than the
+ * answer says. `add`: the signal that is tried again if it is refused. */
 async function define(ask: (instance: number) => Promise<TraceInfo>, add?: string): Promise<boolean> {
   const instance = instanceId();
   if (instance === null) return false;
-  const before = shownOf(get());
+  const before = get().source;
   try {
     const made = await ask(instance);
     set(({ traces }) => ({
-      traces: traces.some((known) => known.id === made.id)
-        ? traces.map((known) => (known.id === made.id ? made : known))
-        : [...traces, made],
+      traces: traces.some(({ id }) => id === made.id) ? traces : [...traces, made],
       source: { kind: "trace", id: made.id },
       compared: null,
       trouble: null,
     }));
     const now = shownOf(get());
-    if (now && !(before?.source.id === made.id && goesOn(before, now))) rewind(now);
+    if (now && !(before?.kind === "trace" && before.id === made.id)) rewind(now);
     return true;
   } catch (error) {
     fail(error, add);
@@ -274,8 +273,7 @@ export async function drive(action: "start" | "stop"): Promise<void> {
   const trace = shownOf(get())?.trace;
   if (instance === null || !trace) return;
   try {
-    const now = await wire.drive(instance, trace.id, action);
-    onTraces(get().traces.map((known) => (known.id === now.id ? now : known)));
+    await wire.drive(instance, trace.id, action);
     set({ trouble: null });
   } catch (error) {
     fail(error);
@@ -322,11 +320,11 @@ export async function compare(record: TraceRecordInfo | null, samples: Samples |
   set({ compared: { record, samples, shift, by: byTrigger ? "trigger" : "first" } });
 }
 
-/** Makes a retrospective trace of the last scans. */
+/** Makes a retrospective trace of the last scans; how far it is comes over the socket. */
 export async function recordEarlier(signals: readonly string[], scans: number, every: number): Promise<void> {
   const instance = instanceId();
   if (instance === null) return;
-  onRetrospective(await wire.recordEarlier(instance, signals, scans, every));
+  await wire.recordEarlier(instance, signals, scans, every);
   set({ trouble: null });
 }
 

@@ -1,6 +1,7 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { showChanges } from "../../../store/past/changes";
+import { compareWithOther } from "../../../store/past/comparisons";
 import { showRerun } from "../../../store/past/reruns";
 import { showWriter } from "../../../store/past/writer";
 import { BASIC, CATALOGUE } from "../../../testing/catalogue";
@@ -9,8 +10,9 @@ import { openPage } from "../../../testing/page";
 import { refusal } from "../../../testing/routes";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { LastWriter, Rerun, RunChanges, VariableChange } from "../../../wire/types";
+import type { Comparison, LastWriter, Rerun, RunChanges, VariableChange } from "../../../wire/types";
 import { Banners } from "../banner/Banners";
+import { ComparePage } from "./ComparePage";
 import { Past } from "./Past";
 
 async function openPast(prepare: (server: FakeServer) => void) {
@@ -142,6 +144,7 @@ test("the run once more with an error one scan later: refused it stays, done it 
   await waitFor(() => expect(textOf(within(asking).getByRole("alert"))).toContain("later exists"));
   refused = false;
   await user.click(button(t("rerun.do"), asking));
+  server.say(rerun);
   await screen.findByRole("region", { name: t("rerun.started", { name: "later" }) });
   expect(screen.queryByRole("dialog")).toBeNull();
   const asked = server.askedOf("POST", `/instances/${server.instance.id}/reruns`);
@@ -158,4 +161,28 @@ test("the run once more with an error one scan later: refused it stays, done it 
   await screen.findByRole("region", { name: t("rerun.done", { name: "later" }) });
   await user.click(button(t("rerun.compare")));
   await waitFor(() => expect(places).toEqual(["page compare"]));
+});
+
+test("a comparison that is over before the request is answered does not begin again with the answer", async () => {
+  const { server } = await openPage((server) => {
+    server.on("POST", "/instances/*/comparisons", () => {
+      server.say({ ...begun, message: "run 99 was damaged" });
+      return begun;
+    });
+  });
+  const begun: Comparison = {
+    type: "comparison",
+    id: 3,
+    a: server.instance.id,
+    b: 99,
+    by: "Ann",
+    done: 0,
+    of: 0,
+    result: null,
+    message: "",
+  };
+  render(<ComparePage />);
+  await compareWithOther(99);
+  await screen.findByText("run 99 was damaged");
+  expect(screen.queryByRole("button", { name: t("compare.cancel") })).toBeNull();
 });
