@@ -1,8 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('every error from two states: unhandled ones are found, inspected, accepted, corrected, and compared', async ({
-  openAs,
-}) => {
+test('every error from two states: unhandled ones are found, inspected, accepted, corrected, and compared', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   const sweeps = ann.sweeps;

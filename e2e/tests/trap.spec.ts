@@ -32,7 +32,9 @@ const FAULTS = [
   { name: 'loops for ever', fault: 'WHILE go DO result := 0; END_WHILE;', said: /does not end/ },
 ];
 
-test('a program with a run-time error stops with file and line, and no other PLC stops', async ({ openAs }) => {
+test('a program with a run-time error stops with file and line, and no other PLC stops', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
   const jo = await openAs('Jo');
   await jo.runs();
   const mika = await openAs('Mika');

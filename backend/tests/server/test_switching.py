@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from scanbench.host import run_files
 from scanbench.plcmodel.load import model_named
 from scanbench.server.solo import Solo
 from scanbench.session import instance
@@ -15,7 +16,7 @@ from tests.host.test_zygote import PATIENCE_S, sources
 
 def test_switching_off_counts_while_a_new_run_begins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     reached, goes_on = threading.Event(), threading.Event()
-    set_aside = instance.set_aside
+    set_aside = run_files.set_aside
 
     def slowly(path: Path) -> None:
         reached.set()
