@@ -2,13 +2,21 @@
 
 const PREFIX = "scanbench.";
 
+/** What was kept, if it is of the same kind as the fallback: another version, or somebody's hand, may have kept a different one. */
 export function recall<T>(key: string, fallback: T): T {
   try {
     const text = localStorage.getItem(PREFIX + key);
-    return text === null ? fallback : (JSON.parse(text) as T);
+    const kept: unknown = text === null ? fallback : JSON.parse(text);
+    return isLike(fallback, kept) ? kept : fallback;
   } catch {
     return fallback;
   }
+}
+
+/** Null says nothing about what may be kept. */
+function isLike<T>(fallback: T, kept: unknown): kept is T {
+  if (fallback === null) return true;
+  return kept !== null && typeof kept === typeof fallback && Array.isArray(kept) === Array.isArray(fallback);
 }
 
 /** False when the browser has no room or no storage; the caller decides whether that matters. */
