@@ -176,6 +176,17 @@ def test_the_whole_catalogue_of_the_sample() -> None:
     assert result.returncode == 1
 
 
+def test_a_state_after_a_restart_and_a_fault_with_a_shape(project: Path) -> None:
+    given = states(
+        project, [{"name": "Again", "do": ["5: Main.on=TRUE", "7: raise battery-error for 3", "20: restart cold"]}]
+    )
+    result = scanbench("errors", "sweep", str(project), "--only", "battery-error", "--states", given, "--json")
+    assert not result.stderr
+    assert [each["verdict"] for each in json.loads(result.stdout)["results"]] == [
+        "not_reached"
+    ]  # it is off again, and the error is gone
+
+
 def test_a_state_from_a_recorded_run(project: Path) -> None:
     run = project.parent / "on.scanrun"
     assert (
