@@ -28,6 +28,10 @@ class Span:
         """The stretch from the start of this one to the end of `last`."""
         return Span(self.file, self.line, self.column, last.end_line, last.end_column)
 
+    def last(self, length: int) -> "Span":
+        """Its last characters, which are on one line."""
+        return Span(self.file, self.end_line, self.end_column - length, self.end_line, self.end_column)
+
     def plain(self) -> "Span":
         """The same, as plain data: no source text is kept alive by it."""
         return self

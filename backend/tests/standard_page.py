@@ -3,22 +3,18 @@
 from pathlib import Path
 
 from scanbench.check.body import conversions
-from scanbench.check.standard.functions import FUNCTIONS, Chain, Operator, Row, Same, Shift, Special, StringFunction
+from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.standard.library import library
-from scanbench.program.types import Kind
+from scanbench.language.describe import said_in_library
+from scanbench.language.standard import says, summary, text_of
 from scanbench.syntax import tree
 
 PAGE = Path(__file__).parents[2] / "docs" / "standard-library.md"
-KINDS = {
-    Kind.INT: "integer", Kind.UINT: "", Kind.REAL: "real", Kind.BITS: "bit string", Kind.BOOL: "BOOL",
-    Kind.TIME: "duration", Kind.DATE: "date or time of day", Kind.CHAR: "character", Kind.STRING: "string",
-}  # fmt: skip
 FIRST_CALLS = (
     "The first call of an `R_TRIG` sets Q when CLK is TRUE. The first call of an `F_TRIG` never sets Q, because there was no edge yet.",
     "The body that IEC 61131-3 prints for F_TRIG sets Q there when CLK is FALSE; a program that relies on it sees one pulse less",
     "here, in its first scan. Inputs with `R_EDGE` and `F_EDGE` do the same.",
 )
-LETTERS = {"s": "string", "n": "integer"}
 
 
 def page() -> str:
@@ -33,9 +29,9 @@ def page() -> str:
         "",
         "## Functions",
         "",
-        "| function | parameters and result |",
-        "|---|---|",
-        *(f"| `{name}({', '.join(row.formals)}{', ...' if row.variadic else ''})` | {says(row)} |"
+        "| function | parameters and result | what it does |",
+        "|---|---|---|",
+        *(f"| `{name}({', '.join(row.formals)}{', ...' if row.variadic else ''})` | {says(row)} | {summary(text_of(name))} |"
           for name, row in FUNCTIONS.items()),
         "",
         "## Conversions",
@@ -51,32 +47,12 @@ def page() -> str:
     for file in library():
         for pou in file.pous:
             if not pou.name.startswith("__"):
-                (functions if pou.kind == "function" else blocks).append(f"| {signature(pou)} |")
-    lines += ["## Functions in ST", "", "| function |", "|---|", *functions, ""]
-    lines += ["## Function blocks", "", "| block |", "|---|", *blocks, "", *FIRST_CALLS, ""]
+                (functions if pou.kind == "function" else blocks).append(
+                    f"| {signature(pou)} | {summary(said_in_library(pou.span))} |"
+                )
+    lines += ["## Functions in ST", "", "| function | what it does |", "|---|---|", *functions, ""]
+    lines += ["## Function blocks", "", "| block | what it does |", "|---|---|", *blocks, "", *FIRST_CALLS, ""]
     return "\n".join(lines)
-
-
-def says(row: Row) -> str:
-    """The parameters and the result of a function, in words."""
-    match row:
-        case Special(says=text):
-            return text
-        case Same(kinds=kinds):
-            return f"{', '.join(filter(None, (KINDS[kind] for kind in kinds)))} -> the same"
-        case Shift():
-            return "bit string, integer -> that bit string"
-        case StringFunction(kinds=kinds, result=result):
-            return f"{', '.join(LETTERS[kind] for kind in kinds)} -> {'INT' if result == 'INT' else 'string'}"
-        case Chain():
-            return "any elementary type or string -> BOOL"
-        case Operator(op=op, types=types):
-            if types is not None:
-                difference = types[0] == types[1] and types[0].kind is Kind.DATE
-                return f"{types[0]}, {types[1]} -> {('LTIME' if types[0].name[0] == 'L' else 'TIME') if difference else types[0]}"
-            if op in ("add", "sub", "mul", "div"):
-                return "number -> the same; times where the names below allow it"
-            return "BOOL or bit string -> the same" if op in ("and", "or", "xor") else "number -> the same"
 
 
 def signature(pou: tree.PouDeclaration) -> str:

@@ -14,12 +14,13 @@ from typing import ClassVar, Literal, get_args
 from scanbench.check.assemble import Around, assemble, place_areas, place_globals
 from scanbench.check.body.bodies import body_of
 from scanbench.check.body.coercion import as_type, constant
+from scanbench.check.body.context import Body, Effects
 from scanbench.check.body.generic import is_generic
 from scanbench.check.body.notes import Looks
 from scanbench.check.body.pou_body import pou_body
-from scanbench.check.context import Rejected, Report
+from scanbench.check.context import Mark, Rejected, Report
 from scanbench.check.declare.class_rules import check_classes, check_instances
-from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods
+from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods, key_of
 from scanbench.check.declare.collect import Collector, declare_globals, globals_of
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.declare import declarations_of
@@ -173,7 +174,7 @@ class Checker:
     system: System = field(init=False)
     plant: Plant = field(init=False)
     stimuli: Stimuli = field(default_factory=Stimuli)
-    declared: tuple[int, int, int] = (0, 0, 0)
+    declared: Mark = (0, 0, 0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
     """Members, size and alignment of the frame of each POU, before its body adds temporaries."""
@@ -276,6 +277,7 @@ class Checker:
             with self.declarations.names.within(Space(declaration.namespace, declaration.using)):
                 self._declare_pou(key, declaration)
         declare_methods(self.pous.classes, self.declarations)
+        self._class_externals()
         for key, declaration in blocks_of_library:
             if key in self.declarations.types:  # somebody declared an instance
                 with self.declarations.names.within(Space(declaration.namespace, declaration.using)):
@@ -284,6 +286,15 @@ class Checker:
         methods = [each.pou.frame for each in self.pous.classes.methods() if each.pou is not None]
         blocks = [each for each in self.declarations.types.values() if isinstance(each, Record)]
         check_instances(self.pous.classes, [self.globals, *blocks, *methods], self.report)
+
+    def _class_externals(self) -> None:
+        """VAR_EXTERNAL of classes, which have no body that would look at them."""
+        for owner in self.pous.classes.by_key.values():
+            declaration = owner.declaration
+            if declaration.kind == "class" and owner.record is not None:
+                space = Space(declaration.namespace, declaration.using)
+                with self.declarations.names.within(space):
+                    externals_of(self.declarations, self.globals, declaration, (owner.record, owner.record), space)
 
     def _declare_pou(self, key: str, declaration: tree.PouDeclaration) -> None:
         name = qualified(declaration.namespace, declaration.name)
@@ -312,14 +323,36 @@ class Checker:
     def check_body(self, declaration: tree.PouDeclaration) -> None:
         """Checks the body of a program, block or function."""
         key = qualified(declaration.namespace, declaration.name).upper()
-        pou = (self.pous.functions if declaration.kind == "function" else self.pous.blocks).get(key)
+        pou = self._pou(declaration)
         if pou is None:
             return
-        space = Space(declaration.namespace, declaration.using)
-        self._check(pou, declaration, pou.instance, space, None)
+        self._check(pou, declaration, pou.instance, Space(declaration.namespace, declaration.using), None)
         if key in self.names.tells and key in self.pous.blocks:
             eno = place_of(pou.instance.members["ENO"], Base.SELF, pou.instance, 0)
             pou.body = (Assign(eno, Const(BOOL, 1), pou.span), *pou.body)
+
+    def _pou(self, declaration: tree.PouDeclaration) -> Pou | None:
+        key = qualified(declaration.namespace, declaration.name).upper()
+        return (self.pous.functions if declaration.kind == "function" else self.pous.blocks).get(key)
+
+    def body_at(
+        self, declaration: tree.PouDeclaration, method: tree.PouDeclaration | None, effects: Effects
+    ) -> Body | None:
+        """A body of a program, block, function or one of its methods in which more can be checked; None where its
+        declarations are wrong. What is reported there, the check of the program does not see."""
+        space = Space(declaration.namespace, declaration.using)
+        owner = self.pous.classes.by_key.get(qualified(declaration.namespace, declaration.name).upper())
+        if method is None:
+            pou, instance, this = self._pou(declaration), None, None
+        else:
+            known = owner.methods.get(key_of(method)) if owner is not None else None
+            pou, instance = (None, None) if known is None or owner is None else (known.pou, owner.record)
+            this = None if pou is None else place_of(pou.frame.members["THIS"], Base.FRAME, pou.frame, 0).slot
+        if pou is None:
+            return None
+        with self.declarations.names.within(space), self.report.apart():
+            scope = self._scope(pou, method or declaration, instance or pou.instance, space, this)
+        return body_of(Report(), self.declarations, self.pous, scope, pou, effects=effects)
 
     def _check_method(self, method: Method, pou: Pou) -> None:
         around = method.owner.declaration
@@ -332,11 +365,18 @@ class Checker:
     ) -> None:
         self.frames[pou] = dict(pou.frame.members), pou.frame.size, pou.frame.align
         with self.declarations.names.within(space), self.report.apart() as self.report.parts[pou]:
-            externals = externals_of(self.declarations, self.globals, declaration, (instance, pou.frame), space)
-            visible = Record("GLOBAL", Kind.STRUCT) if pou.inline else self.globals  # the library sees none of them
-            scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
-            scope.system, scope.who = self._rights(declaration.span)
+            scope = self._scope(pou, declaration, instance, space, this)
             pou.body = pou_body(body_of(self.report, self.declarations, self.pous, scope, pou), declaration.body)
+
+    def _scope(
+        self, pou: Pou, declaration: tree.PouDeclaration, instance: Record, space: Space, this: Place | None
+    ) -> Scope:
+        """What the body sees."""
+        externals = externals_of(self.declarations, self.globals, declaration, (instance, pou.frame), space)
+        visible = Record("GLOBAL", Kind.STRUCT) if pou.inline else self.globals  # the library sees none of them
+        scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
+        scope.system, scope.who = self._rights(declaration.span)
+        return scope
 
     def _rights(self, span: Span) -> tuple[tuple[Record, ...], Who]:
         """The records that every program at this span can use, and with whose rights it writes."""

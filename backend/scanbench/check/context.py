@@ -8,6 +8,7 @@ from functools import lru_cache
 from heapq import nlargest
 from itertools import pairwise
 
+from scanbench.check.uses import Symbol, Use
 from scanbench.problems import Problem, Severity, Span, perhaps
 from scanbench.program.program import Pou
 from scanbench.program.sites import CheckSite, TrapKind, TrapSite
@@ -17,6 +18,10 @@ class Rejected(Exception):
     """A construct was reported as wrong; whoever checks the next one catches it."""
 
 
+Mark = tuple[int, int, int, int, int]
+"""Lengths of the lists of a report."""
+
+
 @dataclass(slots=True)
 class Report:
     """Collects problems and sites of one check."""
@@ -24,18 +29,23 @@ class Report:
     problems: list[Problem] = field(default_factory=list)
     traps: list[TrapSite] = field(default_factory=list)
     checks: list[CheckSite] = field(default_factory=list)
+    uses: list[Use] = field(default_factory=list)
+    """Which names mean what; some are told more than once."""
+    written: list[Span] = field(default_factory=list)
+    """Of the variables that are assigned, or that something else may write: spans end where those of their uses end."""
     parts: dict[Pou, "Report"] = field(default_factory=dict)
     """What was met in the body of each POU; its sites are numbered from 1 there."""
 
     @contextmanager
     def apart(self) -> Iterator["Report"]:
         """What is met meanwhile goes into a report of its own, for `parts`."""
-        before, inner = (self.problems, self.traps, self.checks), Report()
+        before, inner = (self.problems, self.traps, self.checks, self.uses, self.written), Report()
         self.problems, self.traps, self.checks = inner.problems, inner.traps, inner.checks
+        self.uses, self.written = inner.uses, inner.written
         try:
             yield inner
         finally:
-            self.problems, self.traps, self.checks = before
+            self.problems, self.traps, self.checks, self.uses, self.written = before
 
     def join(self, order: Iterable[Pou]) -> None:
         """Takes over the parts of these POUs, whose sites then count from the end of what is there."""
@@ -72,14 +82,19 @@ class Report:
         self.checks.append(site)
         return len(self.checks)
 
-    def mark(self) -> tuple[int, int, int]:
-        """Where the lists end now, for `undo`."""
-        return len(self.problems), len(self.traps), len(self.checks)
+    def use(self, span: Span, name: str, symbol: Symbol) -> None:
+        """Notes what a name means; `span` ends in the name, of which only the part after the last point counts."""
+        self.uses.append(Use(span, len(name) - name.rfind(".") - 1, symbol))
 
-    def undo(self, mark: tuple[int, int, int]) -> None:
+    def mark(self) -> Mark:
+        """Where the lists end now, for `undo`."""
+        return len(self.problems), len(self.traps), len(self.checks), len(self.uses), len(self.written)
+
+    def undo(self, mark: Mark) -> None:
         """Forgets what was reported since, before the same is checked once more."""
-        problems, traps, checks = mark
+        problems, traps, checks, uses, written = mark
         del self.problems[problems:], self.traps[traps:], self.checks[checks:]
+        del self.uses[uses:], self.written[written:]
 
     def needless(self, number: int, why: str) -> None:
         """What was to be checked there needs no check."""

@@ -38,7 +38,7 @@ class Checks:
 
     def __init__(self, limit: int = 1) -> None:
         self._limit = limit
-        self._known: list[_Project] = []
+        self._known: list[Project] = []
 
     def check(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> Checked:
         """What `check_sources` finds."""
@@ -46,13 +46,17 @@ class Checks:
 
     def diagnose(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> Checked:
         """The same, but the program may be missing though nothing is wrong."""
-        return with_user_errors(self._changed(sources, model, interval_ns, whole=False).checked, sources, model)
+        return with_user_errors(self.project(sources, model, interval_ns).checked, sources, model)
 
-    def _changed(self, files: Mapping[str, str], model: Model, interval_ns: int, whole: bool) -> "_Project":
+    def project(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> "Project":
+        """What is known of these sources, besides what is wrong with them; good until the next call."""
+        return self._changed(sources, model, interval_ns, whole=False)
+
+    def _changed(self, files: Mapping[str, str], model: Model, interval_ns: int, whole: bool) -> "Project":
         sources = program_files(files)
         project = next((each for each in self._known if each.is_about(sources, model, interval_ns)), None)
         if project is None:
-            project = _Project(model, interval_ns)
+            project = Project(model, interval_ns)
             project.check_all(sources)
         else:
             self._known.remove(project)
@@ -75,7 +79,9 @@ class _Edit:
 
 
 @dataclass(slots=True)
-class _Project:
+class Project:
+    """The sources of one project, read and checked."""
+
     model: Model
     interval_ns: int
     files: dict[str, Chunked] = field(init=False)

@@ -21,7 +21,7 @@ class Format(StrEnum):
 
 def check(
     paths: list[Path] = typer.Argument(
-        metavar="FILE|DIR...", help="Program files (.st, .TcPOU, ...); a folder gives all below it."
+        metavar="FILE|DIR|ZIP...", help="Program files (.st, .TcPOU, ...); a folder or zip file gives all in it."
     ),
     format: Format = typer.Option(Format.TEXT, help="text: `file:line:column: code message`, one a line."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),

@@ -7,6 +7,8 @@ from scanbench.cli.check import check
 from scanbench.cli.dap import dap
 from scanbench.cli.diff import diff
 from scanbench.cli.errors import errors
+from scanbench.cli.format import format
+from scanbench.cli.lsp import lsp
 from scanbench.cli.model import model
 from scanbench.cli.replay import replay
 from scanbench.cli.run import run
@@ -21,7 +23,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="A bench for debugging PLC programs (IEC 61131-3) on virtual PLCs of real models.",
 )
-for command in (serve, check, run, verify, replay, diff, dap):
+for command in (serve, check, format, run, verify, replay, diff, dap, lsp):
     app.command()(command)
 app.add_typer(model, name="model")
 app.add_typer(errors, name="errors")

@@ -13,9 +13,11 @@ from scanbench.problems import Problem
 from scanbench.recording.format import Damaged
 from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
+from scanbench.server.archive import unpack
 from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
 from scanbench.wire.refused import Refused
 
+ARCHIVE = ".zip"
 DAMAGED = 4
 """Exit code where a run file is damaged: what was looked at is right, but a part of the run is lost."""
 
@@ -68,16 +70,28 @@ def with_near(message: str, near: Sequence[str]) -> str:
 
 
 def read_sources(paths: list[Path]) -> Sources:
-    """A file is taken whatever its ending; a folder gives every program file in it and below, and its own errors."""
+    """A file is taken whatever its ending; a folder or zip file gives every program file in it, and its own errors."""
     texts: dict[str, str] = {}
     model = None
     try:
         for path in paths:
+            if path.suffix.lower() == ARCHIVE:
+                archive = unpack(_bytes(path))
+                texts |= {str(path / each): text for each, text in archive.files.items()}
+                model = model or archive.model or None
+                continue
             texts |= {str(each): read_text(each) for each in program_files(path)}
             model = model or project_model(path)
     except Refused as error:
         usage(str(error))
     return Sources(texts, model)
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        unreadable(path, error)
 
 
 def below(path: Path, texts: Mapping[str, str]) -> dict[str, str]:

@@ -24,7 +24,9 @@ from scanbench.runtime.command import Command, Refusal
 
 _LINE = re.compile(r"(\S.*\.\w+):(\d+)")
 _WORDS = ("for", "every", "on", "times", "seed", "gap")
-_HOW = "write e.g. `battery-error for 5@100`, `battery-error every 100 on 10 times 3 seed 7`, `battery-error when Main.n > 3`"
+_HOW = (
+    "write e.g. `battery-error for 5`, `battery-error every 100 on 10 times 3 seed 7`, `battery-error when Main.n > 3`"
+)
 
 
 class BadCommand(Exception):

@@ -58,7 +58,7 @@ OBSERVED: dict[EngineChoice, MakeObserved] = {
 
 
 def run(
-    path: Path = typer.Argument(metavar="FILE|DIR", help="A program file (.st, .TcPOU, ...), or a folder with some."),
+    path: Path = typer.Argument(metavar="FILE|DIR|ZIP", help="A program file (.st, .TcPOU, ...), or a folder or zip file with some."),
     scans: int = typer.Option(..., min=0, help="How many scans to run."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
     interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),

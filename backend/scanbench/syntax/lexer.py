@@ -48,6 +48,17 @@ KEYWORDS = frozenset(
 """Words that are never names. Others (METHOD, CLASS, BY, LD, ...) are keywords only where the grammar expects them, because
 older programs use them as names."""
 
+CONTEXTUAL = frozenset(
+    """
+    ABSTRACT ACTION AUTHOR BEGIN BY CLASS CONSTANT CONTINUE DATA_BLOCK END_REGION END_STEP END_TRANSITION EN ENO EXTENDS FAMILY
+    FINAL F_EDGE GET GOTO IMPLEMENTS INITIAL_STEP INTERFACE INTERNAL INTERVAL METHOD NAMESPACE NON_RETAIN ON ORGANIZATION_BLOCK
+    OVERLAP OVERRIDE PERSISTENT POINTER PRIORITY PRIVATE PROPERTY PROPERTY_GET PROPERTY_SET PROTECTED PUBLIC READ_ONLY READ_WRITE
+    REF REFERENCE REF_TO REGION RESOURCE RETAIN R_EDGE SET SINGLE STEP STRING SUPER TASK THIS TITLE TRANSITION TRY UNION USING
+    VERSION VOID WITH WSTRING
+    """.split()
+)
+"""Words with a meaning in some places, besides the operators of IL; elsewhere they are names."""
+
 TIME_TYPES = {
     "T": "TIME", "TIME": "TIME", "LT": "LTIME", "LTIME": "LTIME", "D": "DATE", "DATE": "DATE", "LD": "LDATE",
     "LDATE": "LDATE", "TOD": "TIME_OF_DAY", "TIME_OF_DAY": "TIME_OF_DAY", "LTOD": "LTIME_OF_DAY",
@@ -193,7 +204,7 @@ def _without_nested(source: Source, start: int, end: int, problems: list[Problem
             parts.append(text[at : found.end()])
             at = found.end()
             continue
-        last = _nested_end(text, first, end)
+        last = nested_end(text, first, end)
         simple = text[first] == "{" and text.find("{", first + 1, last) < 0 <= last
         if last < 0:
             what = "pragma" if text[first] == "{" else "comment"
@@ -204,8 +215,8 @@ def _without_nested(source: Source, start: int, end: int, problems: list[Problem
     return "".join([*parts, text[at:]])
 
 
-def _nested_end(text: str, at: int, end: int) -> int:
-    """Position after the comment or pragma that begins at `at`, or -1."""
+def nested_end(text: str, at: int, end: int) -> int:
+    """Position after the comment or pragma that begins with a bracket at `at`, or -1."""
     marks, depth = COMMENT_MARKS[text[at]], 0
     for mark in marks.finditer(text, at, end):
         depth += 1 if mark.group() in ("(*", "/*", "{") else -1

@@ -125,7 +125,7 @@ def _program(c: Cursor) -> tree.ProgramDeclaration:
     name = c.name("the name of the program instance")
     task = c.texts[c.name("the name of a task")] if c.accept_word("WITH") else None
     c.expect(":", "after the program instance, then its type")
-    type_name = c.qualified("the name of a PROGRAM")
+    type = parse_type.parent(c, "the name of a PROGRAM")
     connections: list[tree.Argument] = []
     blocks: list[tuple[str, str, Span]] = []
     if c.accept("("):
@@ -136,7 +136,7 @@ def _program(c: Cursor) -> tree.ProgramDeclaration:
         c.expect(")", "to close the connections of the program")
     c.close(";", "after the program instance")
     span = c.span_of(name)
-    return tree.ProgramDeclaration(c.texts[name], task, type_name, span, tuple(connections), tuple(blocks), retain)
+    return tree.ProgramDeclaration(c.texts[name], task, type, span, tuple(connections), tuple(blocks), retain)
 
 
 def _connection(c: Cursor, connections: list[tree.Argument], blocks: list[tuple[str, str, Span]]) -> None:

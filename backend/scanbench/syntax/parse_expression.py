@@ -208,13 +208,13 @@ def argument(c: Cursor) -> tree.Argument:
         c.at = at + 2
         output = c.texts[at + 1] == "=>"
         if output and c.texts[c.at] in (",", ")"):
-            return tree.Argument(c.texts[at], output, None, c.span_from(at))
+            return tree.Argument(c.texts[at], output, None, c.span_from(at), place=c.span_of(at))
         value = expression(c)
-        return tree.Argument(c.texts[at], output, value, c.span_from(at))
+        return tree.Argument(c.texts[at], output, value, c.span_from(at), place=c.span_of(at))
     if c.texts[at] == "NOT" and c.kinds[at + 1] is NAME and c.texts[at + 2] == "=>":
         c.at = at + 3
         value = expression(c)
-        return tree.Argument(c.texts[at + 1], True, value, c.span_from(at), negated=True)
+        return tree.Argument(c.texts[at + 1], True, value, c.span_from(at), negated=True, place=c.span_of(at + 1))
     value = expression(c)
     return tree.Argument(None, False, value, value.span)
 

@@ -111,11 +111,11 @@ def _modifiers(c: Cursor) -> tuple[str, tuple[str, ...]]:
 
 def _header(
     c: Cursor, kind: str, name: int
-) -> tuple[tree.TypeSpec | None, tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
+) -> tuple[tree.TypeSpec | None, tuple[tree.NamedType, ...], tuple[tree.NamedType, ...], tuple[str, ...]]:
     """Parses what follows the name: result, bases, interfaces, namespaces used."""
     result: tree.TypeSpec | None = None
-    extends: tuple[str, ...] = ()
-    implements: tuple[str, ...] = ()
+    extends: tuple[tree.NamedType, ...] = ()
+    implements: tuple[tree.NamedType, ...] = ()
     using: tuple[str, ...] = ()
     while True:
         if c.is_(":") and kind in ("FUNCTION", "METHOD", "PROPERTY", "PROPERTY_GET", "PROPERTY_SET"):
@@ -125,10 +125,10 @@ def _header(
                 result = None
         elif c.word() == "EXTENDS" and c.kinds[c.at + 1] is NAME:
             c.take()
-            extends += _names(c, "the name of the base")
+            extends += _parents(c, "the name of the base")
         elif c.word() == "IMPLEMENTS" and c.kinds[c.at + 1] is NAME:
             c.take()
-            implements += _names(c, "the name of an interface")
+            implements += _parents(c, "the name of an interface")
         elif c.word() == "USING" and c.kinds[c.at + 1] is NAME:
             using += using_names(c)
         elif c.is_(";") and not using:
@@ -146,19 +146,22 @@ def _says(c: Cursor, name: str, spec: tree.TypeSpec) -> bool:
     return isinstance(spec, tree.NamedType) and spec.name.upper() == name
 
 
-def _names(c: Cursor, what: str) -> tuple[str, ...]:
-    found = [c.qualified(what)]
+def _parents(c: Cursor, what: str) -> tuple[tree.NamedType, ...]:
+    found = [parse_type.parent(c, what)]
     while c.accept(","):
-        found.append(c.qualified(what))
+        found.append(parse_type.parent(c, what))
     return tuple(found)
 
 
 def using_names(c: Cursor) -> tuple[str, ...]:
     """`USING A.B, C;`"""
     c.take()
-    found = _names(c, "the name of a NAMESPACE")
+    what = "the name of a NAMESPACE"
+    found = [c.qualified(what)]
+    while c.accept(","):
+        found.append(c.qualified(what))
     c.close(";", "after USING")
-    return found
+    return tuple(found)
 
 
 def _end_follows(c: Cursor, end: str) -> bool:

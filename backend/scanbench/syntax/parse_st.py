@@ -134,7 +134,7 @@ def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
     extends = None
     if c.word() == "EXTENDS":
         c.take()
-        extends = c.qualified("the name of a structure")
+        extends = parse_type.parent(c, "the name of a structure")
     c.expect(":", "after the name of the type")
     spec = parse_type.structure(c, extends) if extends and c.is_("STRUCT") else parse_type.type_spec(c, named=True)
     initial = parse_initial.initial(c) if c.accept(":=") else None

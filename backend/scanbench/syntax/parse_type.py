@@ -232,15 +232,21 @@ def located(c: Cursor) -> tuple[str | None, Span | None]:
     return c.source.text[c.starts[start] : c.end_of(c.at - 1)], c.span_from(start)
 
 
-def structure(c: Cursor, extends: str | None = None) -> tree.StructSpec:
+def structure(c: Cursor, extends: tree.NamedType | None = None) -> tree.StructSpec:
     start = c.take()
     union = c.texts[start] != "STRUCT"
     overlap = bool(c.word() == "OVERLAP" and c.texts[c.at + 1] not in NOT_A_NAME and c.take())
     if c.word() == "EXTENDS" and c.texts[c.at + 1] not in NOT_A_NAME:
         c.take()
-        extends = c.qualified("the name of a structure")
+        extends = parent(c, "the name of a structure")
     members = variables(c)
     keyword = "END_UNION" if union else "END_STRUCT"
     if not c.accept(keyword):
         raise c.fail(f"`{keyword}` expected")
     return tree.StructSpec(members, c.span_from(start), union, overlap, extends)
+
+
+def parent(c: Cursor, what: str) -> tree.NamedType:
+    """What something extends, implements or is an instance of."""
+    first = c.at
+    return tree.NamedType(c.qualified(what), c.span_from(first))

@@ -1,5 +1,6 @@
 """A source text and its places."""
 
+import codecs
 from bisect import bisect_right
 
 from scanbench.problems import Span
@@ -58,6 +59,21 @@ class Stretch(Span):
         self._end = end
 
     @property
+    def source(self) -> Source:
+        """The text that it is a stretch of."""
+        return self._source
+
+    @property
+    def start(self) -> int:
+        """The position of its first character in the source."""
+        return self._start
+
+    @property
+    def end(self) -> int:
+        """The position after its last character in the source."""
+        return self._end
+
+    @property
     def file(self) -> str:
         return self._source.name
 
@@ -84,6 +100,9 @@ class Stretch(Span):
         if isinstance(last, Stretch) and last._source is self._source:
             return Stretch(self._source, self._start, last._end)
         return Span(self.file, self.line, self.column, last.end_line, last.end_column)
+
+    def last(self, length: int) -> Span:
+        return Stretch(self._source, self._end - length, self._end)
 
     def plain(self) -> Span:
         """The same as a span of its own, which keeps no text alive."""
@@ -113,5 +132,17 @@ def decode(data: bytes) -> str:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        text = data.removeprefix(b"\xef\xbb\xbf").decode("latin-1")
+        text = data.removeprefix(codecs.BOM_UTF8).decode("latin-1")
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def encoded(text: str, like: bytes) -> bytes:
+    """A text with LF as bytes, in the encoding and with the line ends of the file that these bytes are."""
+    end = "\r\n" if b"\r\n" in like else "\r" if b"\r" in like and b"\n" not in like else "\n"
+    text = text.replace("\n", end)
+    mark = codecs.BOM_UTF8 if like.startswith(codecs.BOM_UTF8) else b""
+    try:
+        like.decode("utf-8")
+    except UnicodeDecodeError:
+        return mark + text.encode("latin-1")
+    return mark + text.encode("utf-8")

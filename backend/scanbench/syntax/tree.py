@@ -107,14 +107,14 @@ class BinaryOp:
 
 @node
 class Argument:
-    """`value`, `name := value`, `name => value` or `NOT name => value`."""
+    """`value`, `name := value`, `name => value` or `NOT name => value` (negated); `place` is that of the name."""
 
     name: str | None
     output: bool
     value: "Expression | None"
     span: Span
     negated: bool = False
-    """`NOT name => value`."""
+    place: Span | None = None
 
 
 @node
@@ -182,7 +182,7 @@ class StructSpec:
     span: Span
     union: bool = False
     overlap: bool = False
-    extends: str | None = None
+    extends: NamedType | None = None
 
 
 @node
@@ -322,9 +322,9 @@ class PouDeclaration:
     span: Span
     """Of the name."""
     methods: tuple["PouDeclaration", ...] = ()
-    extends: tuple[str, ...] = ()
+    extends: tuple[NamedType, ...] = ()
     """One base of a class or block; any number for an interface."""
-    implements: tuple[str, ...] = ()
+    implements: tuple[NamedType, ...] = ()
     modifiers: tuple[str, ...] = ()
     """ABSTRACT, FINAL, OVERRIDE."""
     access: str = "PUBLIC"
@@ -352,7 +352,7 @@ class ProgramDeclaration:
 
     name: str
     task: str | None
-    type_name: str
+    type: NamedType
     span: Span
     connections: tuple[Argument, ...] = ()
     block_tasks: tuple[tuple[str, str, Span], ...] = ()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from scanbench.server.archive import pack
 from tests.cli.calling import SCANBENCH, process, scanbench
 
 SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))
@@ -271,3 +272,16 @@ def test_the_command_can_be_called_in_both_ways(command: tuple[str, ...]) -> Non
     said = process("check", "-h", command=command)
     assert said.returncode == 0, said.stderr
     assert "check [OPTIONS]" in said.stdout
+
+
+def test_a_packed_project_runs_like_its_folder(tmp_path: Path) -> None:
+    (tmp_path / "Main.st").write_text(COUNT, "utf-8")
+    (tmp_path / "project.json").write_text('{"name": "Line", "model": "CJ1M-CPU63"}', "utf-8")
+    packed = tmp_path / "line.zip"
+    packed.write_bytes(pack("Line", "CJ1M-CPU63", [], {"Main.st": COUNT}))
+    (folder, archive) = (scanbench("run", str(path), "--scans", "5", "--hash") for path in (tmp_path, packed))
+    assert archive.returncode == folder.returncode == 0, archive.stderr
+    assert archive.stdout == folder.stdout
+    assert scanbench("check", str(packed)).returncode == 0
+    refused = scanbench("format", str(packed))
+    assert (refused.returncode, "unpack it" in refused.stderr) == (2, True)

@@ -77,7 +77,7 @@ def test_while_a_program_is_compiled(project: Path) -> None:
     assert not (project / "a.scanrun").exists(), "of a run that did not begin no file is left"
 
 
-@pytest.mark.parametrize("command", ["run", "verify", "errors", "dap", "serve"])
+@pytest.mark.parametrize("command", ["run", "verify", "errors", "dap", "lsp", "serve"])
 def test_while_a_command_is_loaded(project: Path, command: str) -> None:
     code, said = interrupted(IN_AN_IMPORT, command, cwd=project)
     assert (code, said) == (130, "")

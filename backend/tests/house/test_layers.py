@@ -9,7 +9,7 @@ import pytest
 
 BACKEND = Path(__file__).parents[2]
 ROOMS = (
-    "cli web server session comm jobs host wire reports history verify store taps faults debug recording runtime engines check symbols"
+    "cli web server session comm jobs host wire reports history verify store taps faults debug recording runtime engines language check symbols"
     " program syntax plcmodel problems garbage public typed".split()
 )
 INNER = ["engines.interpreter", "engines.native", "runtime.clock"]

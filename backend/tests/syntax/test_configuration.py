@@ -34,10 +34,10 @@ def test_configuration() -> None:
         "TaskDeclaration(name=event, priority=0, single=start)",
     ]
     assert [show(each) for each in (*one.programs, *two.programs)] == [
-        "ProgramDeclaration(name=main, task=slow, type_name=Lib.Main, connections=[Argument(name=in1, value=a), "
+        "ProgramDeclaration(name=main, task=slow, type=Lib.Main, connections=[Argument(name=in1, value=a), "
         "Argument(name=in2, value=5), Argument(name=out, output=True, value=b)], block_tasks=[[block, event]], retain=True)",
-        "ProgramDeclaration(name=retain, type_name=Main)",
-        "ProgramDeclaration(name=x, type_name=Main)",
+        "ProgramDeclaration(name=retain, type=Main)",
+        "ProgramDeclaration(name=x, type=Main)",
     ]
     assert [show(each) for each in configuration.accesses] == [
         "AccessDeclaration(name=shown, path=one.main.v, type=INT, writable=True)",

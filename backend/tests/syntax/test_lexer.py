@@ -1,9 +1,15 @@
 """Text -> tokens: comments, pragmas, places, encodings, words that are keywords only in places."""
 
+import ast
 import pickle
+import re
+from pathlib import Path
 
 from scanbench.problems import Span
-from scanbench.syntax.lexer import Lex, tokenize
+from scanbench.program.types import ELEMENTARY
+from scanbench.syntax import parse_statement
+from scanbench.syntax.lexer import CONTEXTUAL, KEYWORDS, TIME_TYPES, Lex, tokenize
+from scanbench.syntax.parse_il import MNEMONICS
 from scanbench.syntax.source import Source, decode
 from tests.syntax.shown import complaints, show_body, well
 
@@ -127,3 +133,11 @@ def test_latch_and_bind() -> None:
         "Assignment(target=step, value=a, operator=S=) Assignment(target=goto, value=b, operator=R=) "
         "Assignment(target=f, value=g, operator=?=)"
     )
+
+
+def test_every_word_that_the_parser_expects_is_known() -> None:
+    known = KEYWORDS | CONTEXTUAL | ELEMENTARY.keys() | MNEMONICS.keys() | TIME_TYPES.keys()
+    for path in Path(parse_statement.__file__).parent.glob("parse_*.py"):
+        texts = (each.value for each in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(each, ast.Constant))
+        expected = {each for each in texts if isinstance(each, str) and re.fullmatch(r"[A-Z][A-Z_]+", each)}
+        assert expected - known <= {"END_", "XBWDL", "CN"}, path

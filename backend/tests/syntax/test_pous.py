@@ -50,9 +50,10 @@ ACTION after v := 2; END_ACTION
 
 def test_classes() -> None:
     interface, thing, motor = well(CLASSES).pous
-    assert (interface.kind, interface.extends, thing.extends, thing.implements) == (
-        "interface", ("Base", "Lib.Other"), ("Lib.Root",), ("Movable", "Lib.I"),
-    )  # fmt: skip
+    assert interface.kind == "interface"
+    assert [[each.name for each in names] for names in (interface.extends, thing.extends, thing.implements)] == [
+        ["Base", "Lib.Other"], ["Lib.Root"], ["Movable", "Lib.I"],
+    ]  # fmt: skip
     assert (thing.modifiers, motor.modifiers) == (("ABSTRACT",), ("FINAL",))
     assert [_member(each) for each in interface.methods] == [
         "method move PUBLIC  BOOL 0", "method stop PUBLIC  None 0", "get speed PUBLIC  INT 0", "set speed PUBLIC  INT 0",
@@ -98,7 +99,7 @@ FUNCTION_BLOCK b USING X; EXTENDS Y END_FUNCTION_BLOCK"""
     ]
     assert (file.types[0].namespace, file.types[0].using) == ("A.B", ("Std", "C", "D.E"))
     assert file.globals[0].namespace == "A.B"
-    assert file.pous[2].extends == ("Y",)
+    assert [each.name for each in file.pous[2].extends] == ["Y"]
 
 
 def test_what_one_vendor_writes_between() -> None:

@@ -106,7 +106,7 @@ def test_lists_types_and_interfaces() -> None:
     assert well(LIST, "GVL_Io.TcGVL").globals[0].list_name == "GVL_Io"
     assert show(well(TYPE, "E.tcdut").types[0].type) == "Enum(values=[[A, None], [B, None]], base=UINT)"
     (interface,) = well(INTERFACE, "I_Run.TcIO").pous
-    assert (interface.kind, interface.extends) == ("interface", ("I_Base",))
+    assert (interface.kind, [each.name for each in interface.extends]) == ("interface", ["I_Base"])
     assert [(each.kind, each.name) for each in interface.methods] == [("method", "run"), ("get", "p")]
 
 

@@ -14,6 +14,7 @@ from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.scopes import decode
 from scanbench.check.system.system_text import STOP
+from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.origin import in_library, is_system
 from scanbench.program.program import (
@@ -99,6 +100,8 @@ def by_formal(
             continue
         named = True
         member = _formal(body, argument, argument.name, formals, owner, callee)
+        if argument.place is not None:
+            body.report.use(argument.place, argument.name, variable_symbol(member, owner))
         if member.name.upper() in given:
             raise body.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
         given[member.name.upper()] = argument

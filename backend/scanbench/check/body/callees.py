@@ -11,6 +11,7 @@ from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.classes import Method
 from scanbench.check.declare.names import Names
 from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.check.uses import Symbol
 from scanbench.program.origin import in_library
 from scanbench.program.program import Expr, Place, Pou
 from scanbench.program.types import Record, Reference, Type
@@ -41,6 +42,8 @@ def callee_of(
     found = body.pous.functions.get(key) if key is not None else None
     if in_library(callee.span) and (found is None or not found.inline):
         return None  # the library means its own, which is no POU
+    if key is not None:
+        body.report.use(callee.span, name, Symbol("pou", "", key))
     if key in body.pous.generic:
         return instantiated(body, body.pous.generic[key], node or tree.Call(callee, (), callee.span))
     return found
@@ -82,8 +85,12 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
             "instance in VAR.",
             node.span,
         )
+    if key in FUNCTIONS:  # also when its arguments are refused
+        body.report.use(node.callee.span, name, Symbol("function", "", key))
     standard = standard_call(body, node, key, wanted, eno)
     if standard is not None:
+        if key not in FUNCTIONS:
+            body.report.use(node.callee.span, name, Symbol("function", "", key))
         return standard
     known = [*(pou.name for pou in body.pous.functions.values() if not pou.name.startswith("__")), *FUNCTIONS]
     hint = did_you_mean(name, known)

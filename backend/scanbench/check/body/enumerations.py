@@ -2,6 +2,7 @@
 
 from scanbench.check.body.context import Body
 from scanbench.check.context import did_you_mean
+from scanbench.check.uses import Symbol, prefix_of, value_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const
 from scanbench.program.shown import shown
@@ -14,12 +15,16 @@ def enumeration_value(body: Body, name: str, wanted: Type | None, span: Span) ->
     if isinstance(wanted, Enumeration):
         value = _value(wanted, name)
         if value is not None:
+            body.report.use(span, name, value_symbol(wanted, name))
             return value
     found = body.declarations.values.find(name, _owners(body))
     if len(found) > 1:
         choices = " or ".join(f"{type}#{name}" for type in found)
         raise body.report.reject("T001", f"`{name}` may be {choices}; write which.", span)
-    return _value(found[0], name) if found else None
+    if not found:
+        return None
+    body.report.use(span, name, value_symbol(found[0], name))
+    return _value(found[0], name)
 
 
 def is_value_name(body: Body, node: tree.Expression) -> bool:
@@ -36,6 +41,13 @@ def _owners(body: Body) -> set[str]:
     return owners
 
 
+def typed(body: Body, type_name: str, span: Span) -> None:
+    """Notes the type that a literal of this span names."""
+    found = body.declarations.find_type(type_name, span)
+    if found is not None:
+        body.report.use(prefix_of(span, type_name), type_name, Symbol("type", "", found))
+
+
 def value_of_type(body: Body, type_name: str, name: str, span: Span) -> Const:
     """`Color#RED`."""
     type = body.declarations.named(type_name, span)
@@ -45,6 +57,7 @@ def value_of_type(body: Body, type_name: str, name: str, span: Span) -> Const:
     if value is None:
         hint = did_you_mean(name, [each for each, _ in type.values])
         raise body.report.reject("T001", f"{type} has no value `{name}`.{hint}", span)
+    body.report.use(span, name, value_symbol(type, name))
     return value
 
 
@@ -63,6 +76,7 @@ def qualified_value(body: Body, node: tree.MemberOf) -> Const | None:
         return None
     if not isinstance(body.declarations.named(shown(node.owner), node.span), Enumeration):
         return None
+    body.report.use(node.owner.span, shown(node.owner), Symbol("type", "", key))
     return value_of_type(body, shown(node.owner), node.name, node.span)
 
 

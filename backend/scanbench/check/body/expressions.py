@@ -6,7 +6,7 @@ from scanbench.check.body import fold
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.elements import character_index, character_of, element
-from scanbench.check.body.enumerations import enumeration_value, is_value_name, value_of_type
+from scanbench.check.body.enumerations import enumeration_value, is_value_name, typed, value_of_type
 from scanbench.check.body.forms import form
 from scanbench.check.body.harmless import harmless
 from scanbench.check.body.literals import literal
@@ -57,6 +57,7 @@ def expression(body: Body, node: tree.Expression, wanted: Type | None = None) ->
         case tree.Call():
             return form(body, node) or body.call(node, wanted)
         case tree.TypedName(type_name, name, span):
+            typed(body, type_name, span)
             return value_of_type(body, type_name, name, span)
         case tree.Name(name, span) if name.upper() not in INSTANCE and _is_free(body, name):
             return _unbound(body, node, name, wanted, span)

@@ -8,6 +8,7 @@ from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.references import reference_type
 from scanbench.check.body.subrange_checks import as_written
 from scanbench.check.body.targets import writable
+from scanbench.check.uses import Symbol
 from scanbench.program.program import Base, Const, Expr, Load, RefOf, Violates
 from scanbench.program.shown import shown
 from scanbench.program.sites import CheckSite
@@ -121,6 +122,7 @@ def form(body: Body, node: tree.Call) -> Expr | None:
     name = node.callee.name.upper()
     if name not in FORMS or name in body.pous.functions or body.scope.find(name) is not None:
         return None
+    body.report.use(node.callee.span, name, Symbol("function", "", name))
     match name:
         case "REF" | "ADR":
             return _reference_to(body, node, name)

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 from scanbench.check.body.context import Body
+from scanbench.check.body.enumerations import typed
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.context import did_you_mean
 from scanbench.problems import Span
@@ -82,6 +83,7 @@ def _typed(body: Body, node: tree.Literal, name: str) -> Const:
         known = did_you_mean(name, [*ELEMENTARY, *body.declarations.type_trees])
         if body.declarations.find_type(name, node.span) is None:
             raise body.report.reject("D002", f"There is no type `{name}` for a literal.{known}", node.span)
+        typed(body, name, node.span)
         declared = body.declarations.named(name, node.span)
         if not isinstance(declared, Elementary) or isinstance(declared, Enumeration):
             raise body.report.reject("S004", f"This is not a value of {declared}.", node.span)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from scanbench.check.body.context import Body
 from scanbench.check.declare.scopes import decode
+from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Place
 from scanbench.program.types import BOOL, ELEMENTARY, Elementary, Kind, Type
@@ -25,6 +26,8 @@ def named_part(body: Body, place: Place, node: tree.MemberOf) -> Place:
     known = decode(found[0].type, found[0].initial) if found and found[0].constant and found[0].initial else None
     if known is None or not isinstance(known.value, int):
         raise body.report.reject("T010", f"{place.type} has no members; a bit of it is `.0`, `.1`, ...", node.span)
+    assert found is not None
+    body.report.use(node.span, node.name, variable_symbol(found[0], found[2]))
     return part(body, place, "X", known.value, node.span)
 
 

@@ -9,6 +9,7 @@ from scanbench.check.body.parts import PARTED, WIDTHS, named_part, part
 from scanbench.check.body.references import target_of
 from scanbench.check.body.variables import INSTANCE, no_member
 from scanbench.check.declare.addresses import offset_of
+from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Base, Load, Place
 from scanbench.program.shown import shown
@@ -94,6 +95,7 @@ def _member(body: Body, node: tree.MemberOf) -> Found:
     member = record.members.get(node.name.upper())
     if member is None or member.hidden:
         raise no_member(body, record, node)
+    body.report.use(node.span, node.name, variable_symbol(member, record))
     _may_use(body, record, member, node.span)
     inner = body.lookup.inside(body, place, record, member, node.span)
     if inner.slot is not place.slot or inner.reference is not place.reference:

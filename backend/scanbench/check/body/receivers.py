@@ -36,6 +36,7 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
         found = owner.find(f"{node.name.upper()}{half}") if owner and _free(body, node.name) else None
         if owner is None or found is None:
             return None
+        body.report.use(node.span, node.name, found.symbol)
         return Receiver(body.lookup.this(body, "THIS", node.span), owner, exact=False), found
     if not isinstance(node, tree.MemberOf) or is_qualified(body, node):
         return None
@@ -56,6 +57,7 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
             f"`{receiver.owner.name}` has no method `{node.name}`.{did_you_mean(node.name, known)}",
             node.span,
         )
+    body.report.use(node.span, node.name, method.symbol)
     return receiver, method
 
 

@@ -3,6 +3,7 @@
 from scanbench.check.body.context import Body, Found
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.scopes import place_of
+from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Base, Place
 from scanbench.program.sites import TrapKind
@@ -20,6 +21,8 @@ def declared(body: Body, name: str, span: Span) -> Found:
     if found is None:
         raise body.lookup.unknown(body, name, span)
     member, base, owner = found
+    if not member.hidden:
+        body.report.use(span, name, variable_symbol(member, owner))
     null = 0
     if member.bound:
         null = body.trap(TrapKind.NULL, span, f"the in-out {member.name} is not connected")

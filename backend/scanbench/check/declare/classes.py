@@ -7,6 +7,7 @@ from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
+from scanbench.check.uses import Symbol
 from scanbench.program.program import Pou
 from scanbench.program.types import UDINT, Kind, Member, Record, Reference, Section
 from scanbench.syntax import tree
@@ -31,6 +32,10 @@ class Method:
     @property
     def name(self) -> str:
         return f"{self.owner.name}.{self.declaration.name}"
+
+    @property
+    def symbol(self) -> Symbol:
+        return Symbol("method", self.owner.name.upper(), self.declaration.name.upper())
 
     @property
     def abstract(self) -> bool:
@@ -158,10 +163,10 @@ def collect(declarations: Declarations) -> Classes:
 
 def _link(owner: Class, classes: Classes, declarations: Declarations) -> None:
     declaration = owner.declaration
-    extends = [(name, "EXTENDS") for name in declaration.extends]
-    for name, keyword in [*extends, *((name, "IMPLEMENTS") for name in declaration.implements)]:
+    extends = [(parent, "EXTENDS") for parent in declaration.extends]
+    for named, keyword in [*extends, *((parent, "IMPLEMENTS") for parent in declaration.implements)]:
         try:
-            parent = _parent(name, keyword, owner, classes, declarations)
+            parent = _parent(named, keyword, owner, classes, declarations)
         except Rejected:
             owner.refused = True
             continue
@@ -172,8 +177,8 @@ def _link(owner: Class, classes: Classes, declarations: Declarations) -> None:
         parent.heirs.append(owner)
 
 
-def _parent(name: str, keyword: str, owner: Class, classes: Classes, declarations: Declarations) -> Class:
-    declaration, report = owner.declaration, declarations.report
+def _parent(named: tree.NamedType, keyword: str, owner: Class, classes: Classes, declarations: Declarations) -> Class:
+    declaration, report, name = owner.declaration, declarations.report, named.name
     with declarations.names.within(Space(declaration.namespace, declaration.using)):
         key = declarations.names.find(name, declaration.span, declarations.block_trees)
     if key is None:
@@ -183,6 +188,7 @@ def _parent(name: str, keyword: str, owner: Class, classes: Classes, declaration
             "D002", f"There is no {_wanted(owner, keyword)} `{name}`.{did_you_mean(name, known)}", declaration.span
         )
     parent = classes.by_key[key]
+    report.use(named.span, name, Symbol("pou", "", key))
     fits = {
         "IMPLEMENTS": ("interface",), "interface": ("interface",), "class": ("class",),
         "function_block": ("function_block", "class"),

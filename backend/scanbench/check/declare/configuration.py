@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous
+from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const, Pou
 from scanbench.program.types import TIME, Record, Type
@@ -178,19 +179,20 @@ class Planner:
                 runs.append(PlannedBlock(made, path, span))
 
     def _pou(self, program: tree.ProgramDeclaration) -> Pou | None:
-        key = self._declarations.names.find(program.type_name, program.span, self._pous.blocks)
+        key = self._declarations.names.find(program.type.name, program.span, self._pous.blocks)
         pou = self._pous.blocks.get(key or "")
         if pou is not None and pou in self._plant:
             self._report.error(
-                "D010", f"`{program.type_name}` is of the plant, which runs by itself in every scan; take it out here.",
+                "D010", f"`{program.type.name}` is of the plant, which runs by itself in every scan; take it out here.",
                 program.span,
             )  # fmt: skip
             return None
         programs = self._programs()
         if pou in programs:
+            self._report.use(program.type.span, program.type.name, Symbol("pou", "", pou.name.upper()))
             return pou
-        hint = did_you_mean(program.type_name, [each.name for each in programs])
-        self._report.error("D010", f"There is no PROGRAM `{program.type_name}`.{hint}", program.span)
+        hint = did_you_mean(program.type.name, [each.name for each in programs])
+        self._report.error("D010", f"There is no PROGRAM `{program.type.name}`.{hint}", program.span)
         return None
 
     def _task_of(self, resource: Resource, task: str | None, span: Span) -> list[PlannedInstance | PlannedBlock] | None:

@@ -6,6 +6,7 @@ from scanbench.check.body.targets import target
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
+from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Assign, CallBlock, Case, For, If, Load, Place, Repeat, Stmt, While
 from scanbench.program.shown import shown
@@ -77,6 +78,8 @@ class Wiring:
             raise self._report.reject(
                 "T004", f"`{instance.pou.name}` has no input or output `{argument.name}`.{hint}", span
             )
+        if argument.place is not None:
+            self._report.use(argument.place, argument.name, variable_symbol(member, instance.pou.instance))
         if argument.output != (member.section is Section.OUTPUT):
             arrow = "=>" if member.section is Section.OUTPUT else ":="
             raise self._report.reject(

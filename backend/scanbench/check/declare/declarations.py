@@ -8,6 +8,7 @@ from typing import TypeAlias
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified
+from scanbench.check.uses import Symbol
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
@@ -85,6 +86,7 @@ class Declarations:
         if key in TYPE_NAMES:
             return TYPE_NAMES[key]
         key = self.find_type(name, span) or key
+        self._note(name, key, span)
         if key in self.types:
             return self.types[key]
         if key in self._open:
@@ -105,6 +107,11 @@ class Declarations:
         self.types[key] = made
         self._complete()
         return made
+
+    def _note(self, name: str, key: str, span: Span) -> None:
+        origin = self.type_trees.get(key) or self.block_trees.get(key)
+        if origin is not None and origin.span is not span:  # where it is declared it is not used
+            self.report.use(span, name, Symbol("type" if key in self.type_trees else "pou", "", key))
 
     def _complete(self) -> None:
         """Makes what references referred to while it could not be made."""
@@ -127,6 +134,7 @@ class Declarations:
         if not isinstance(spec, tree.NamedType) or not self._open:
             return self.type_of(spec)
         key = self.find_type(spec.name, spec.span) or spec.name.upper()
+        self._note(spec.name, key, spec.span)
         declaration, block = self.type_trees.get(key), self.block_trees.get(key)
         if key in self.types or (block is not None and block.kind == "interface"):
             return self.named(spec.name, spec.span)

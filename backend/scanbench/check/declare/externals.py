@@ -6,6 +6,7 @@ from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.names import Space
 from scanbench.check.declare.scopes import Scope
+from scanbench.check.uses import variable_symbol
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
 
@@ -33,6 +34,7 @@ def externals_of(
                 hint = did_you_mean(variable.name, [each.name for each in variables.members.values()])
                 report.error("D007", f"There is no VAR_GLOBAL `{variable.name}`.{hint}", variable.span)
                 continue
+            report.use(variable.span, variable.name, variable_symbol(known[0], known[2]))
             with suppress(Rejected):
                 _same_type(declared, known[0], variable)
                 found[key] = known[0]

@@ -5,6 +5,7 @@ import struct
 
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.declarations import Declarations
+from scanbench.check.uses import variable_symbol
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Const
 from scanbench.program.types import ArrayType, Elementary, Kind, Record, Section, StringType, Type, initial_of
@@ -56,6 +57,7 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
                 raise Rejected
             hint = did_you_mean(name, [each.name for each in type.members.values()])
             raise declared.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
+        declared.report.use(span, name, variable_symbol(member, type))
         data = initial_image(declared, item, member.type)
         if member.bit is None:
             image[member.offset : member.offset + len(data)] = data

@@ -140,7 +140,7 @@ def structure(declared: Declarations, name: str, spec: tree.StructSpec) -> Recor
     record = declared.record(name, Kind.UNION if spec.union else Kind.STRUCT)
     record.overlaps = spec.union or spec.overlap
     if spec.extends is not None:
-        base = declared.named(spec.extends, spec.span)
+        base = declared.named(spec.extends.name, spec.extends.span)
         if not isinstance(base, Record) or base.kind is not Kind.STRUCT or spec.union:
             raise declared.report.reject("D002", f"A STRUCT can only extend a STRUCT, not {base}.", spec.span)
         record.inherit(base)

@@ -60,6 +60,6 @@ def _program_variables(parsed: list[tree.File], pous: Pous) -> dict[str, Record]
     for configuration in (each for file in parsed for each in file.configurations):
         resources = configuration.resources
         for each in (*configuration.programs, *(program for resource in resources for program in resource.programs)):
-            if each.type_name.upper() in programs:
-                programs[each.name.upper()] = programs[each.type_name.upper()]
+            if each.type.name.upper() in programs:
+                programs[each.name.upper()] = programs[each.type.name.upper()]
     return programs

@@ -15,8 +15,8 @@ from websockets.exceptions import WebSocketException
 
 from scanbench.web.auth import USER
 from scanbench.web.dap import shapes
-from scanbench.web.dap.framing import LARGEST
 from scanbench.web.dap.shapes import Body
+from scanbench.web.framing import LARGEST
 from scanbench.wire.refused import Refused
 
 DEFAULT_ADDRESS = "http://127.0.0.1:8700"

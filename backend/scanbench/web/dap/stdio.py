@@ -16,11 +16,11 @@ from scanbench.host.zygote import zygote
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal
 from scanbench.web.dap.conversation import Conversation
-from scanbench.web.dap.framing import BadFrame, Framing, framed
 from scanbench.web.dap.launching import Launcher
 from scanbench.web.dap.remote import Remote
 from scanbench.web.dap.shapes import Body
-from scanbench.web.dap.streams import own_streams
+from scanbench.web.framing import BadFrame, Framing, framed, parsed
+from scanbench.web.streams import own_streams
 from scanbench.wire.events import User
 from scanbench.wire.refused import Refused
 
@@ -55,8 +55,8 @@ async def _serve(incoming: int, outgoing: int, author: str) -> None:
                 break
             if not chunk.result():
                 break
-            for message in framing.feed(chunk.result()):
-                front.receive(message)
+            for body in framing.feed(chunk.result()):
+                front.receive(parsed(body))
     except BadFrame as error:
         print(f"scanbench dap: {error}", file=sys.stderr)  # noqa: T201  # there is nobody else to tell
     finally:

@@ -1,4 +1,4 @@
-"""DAP on a stream of bytes: `Content-Length: N`, an empty line, N bytes of JSON."""
+"""DAP and LSP on a stream of bytes: `Content-Length: N`, an empty line, N bytes of JSON."""
 
 import json
 import re
@@ -20,15 +20,12 @@ class Framing:
         self._bytes = bytearray()
         self._length: int | None = None
 
-    def feed(self, data: bytes) -> list[object]:
-        """The messages that are whole now."""
+    def feed(self, data: bytes) -> list[bytes]:
+        """The bodies of the messages that are whole now."""
         self._bytes += data
-        found: list[object] = []
+        found = []
         while (message := self._next()) is not None:
-            try:
-                found.append(json.loads(message))
-            except (ValueError, RecursionError):
-                found.append(message.decode(errors="replace"))  # whoever serves it says what is wrong with it
+            found.append(message)
         return found
 
     def _next(self) -> bytes | None:
@@ -36,7 +33,7 @@ class Framing:
             end = self._bytes.find(b"\r\n\r\n")
             if end < 0:
                 if len(self._bytes) > _LONGEST_HEADER:
-                    raise BadFrame("a header has no end: is this DAP?")
+                    raise BadFrame("a header has no end: is this a debug or language client?")
                 return None
             self._length = _length(bytes(self._bytes[:end]))
             del self._bytes[: end + 4]
@@ -57,6 +54,14 @@ def _length(header: bytes) -> int:
                 raise BadFrame(f"a message of {digits[:20].decode()} bytes is larger than {LARGEST >> 20} MiB")
             return int(digits)
     raise BadFrame(f"a header has no Content-Length: {header[:80]!r}")
+
+
+def parsed(body: bytes) -> object:
+    """What a body says; its text where it is no JSON: whoever serves it says what is wrong with it."""
+    try:
+        return json.loads(body)
+    except (ValueError, RecursionError):
+        return body.decode(errors="replace")
 
 
 def framed(message: dict[str, object]) -> bytes:

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scanbench.web.dap.framing import BadFrame, Framing, framed
+from scanbench.web.framing import BadFrame, Framing, framed, parsed
 
 MESSAGES = st.lists(st.dictionaries(st.text(), st.text() | st.integers() | st.none()), max_size=5)
 
@@ -15,7 +15,7 @@ def test_messages_come_out_however_the_bytes_are_cut(messages: list[dict[str, ob
     framing, found, at = Framing(), list[object](), 0
     for number in range(len(data)):
         length = cuts[number % len(cuts)]
-        found += framing.feed(data[at : at + length])
+        found += map(parsed, framing.feed(data[at : at + length]))
         at += length
     assert found == messages
 
@@ -29,7 +29,11 @@ def test_the_length_counts_bytes() -> None:
 
 
 def test_other_headers_and_capitals_do_not_matter() -> None:
-    assert Framing().feed(b"Content-Type: x\r\ncontent-length:2\r\n\r\n{}") == [{}]
+    assert Framing().feed(b"Content-Type: x\r\ncontent-length:2\r\n\r\n{}") == [b"{}"]
+
+
+def test_what_is_no_json_is_a_text() -> None:
+    assert parsed(b"{nonsense") == "{nonsense"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,79 @@
+"""The language server of one project, for one client: who asks what is answered by the functions of `language/`, in the shapes of LSP."""
+
+from collections.abc import Callable
+from typing import Protocol
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+
+import scanbench
+from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.server.from_disk import PROJECT_FILE
+from scanbench.syntax.parse_file import ENDINGS
+from scanbench.web.lsp import annotations, calls, completion, mending, navigation, outline, renaming
+from scanbench.web.lsp.language import Language
+from scanbench.web.lsp.project import Saved, Told
+
+FILES = "scanbench/files"
+"""A server tells the files of a project as they are saved now: `{files: [[name, text], ...]}`."""
+
+
+class _Files(Protocol):
+    @property
+    def files(self) -> list[tuple[str, str]]: ...
+
+
+def make_server(saved_of: Callable[[types.InitializeParams], Saved]) -> LanguageServer:
+    """A server for one client."""
+    server = LanguageServer("scanbench", scanbench.__version__)
+    language = Language(server, saved_of)
+
+    @server.feature(types.INITIALIZE)
+    def initialize(params: types.InitializeParams) -> None:
+        language.begin(params)
+
+    @server.feature(types.INITIALIZED)
+    async def initialized(_: types.InitializedParams) -> None:
+        await watch(server)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
+    def opened(params: types.DidOpenTextDocumentParams) -> None:
+        language.changed(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
+    def changed(params: types.DidChangeTextDocumentParams) -> None:
+        language.changed(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
+    def closed(params: types.DidCloseTextDocumentParams) -> None:
+        language.closed(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
+    def saved(_: types.DidSaveTextDocumentParams) -> None:
+        language.refreshed()
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+    def watched(_: types.DidChangeWatchedFilesParams) -> None:
+        language.refreshed()
+
+    @server.feature(FILES)
+    def told(params: _Files) -> None:
+        if language.project is not None and isinstance(language.project.saved, Told):
+            language.project.saved.files = dict(params.files)
+            language.refreshed()
+
+    for room in (navigation, completion, outline, renaming, mending, annotations, calls):
+        room.register(language)
+    return server
+
+
+async def watch(server: LanguageServer) -> None:
+    """Asks a client that can to tell when files change on the disk that are not open."""
+    workspace = server.client_capabilities.workspace
+    watched = workspace.did_change_watched_files if workspace is not None else None
+    if watched is None or not watched.dynamic_registration:
+        return
+    globs = [*(f"**/*{ending}" for ending in ENDINGS), f"**/{PROJECT_FILE}", f"**/{USER_ERRORS}"]
+    options = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(each) for each in globs])
+    wanted = types.Registration("files", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)
+    await server.client_register_capability_async(types.RegistrationParams([wanted]))
