@@ -22,6 +22,7 @@ SOCKETS = """## Sockets
 |---|---|
 | `/api/instances/{instance}/socket` | `ClientMessage` in; `Hello`, then `ServerMessage` and binary frames of values out; `Alive` after 5 s of silence |
 | `/api/instances/{instance}/dap` | the Debug Adapter Protocol, one message per text frame; each connection is a debug session ([docs](dap.md)) |
+| `/api/projects/{project}/lsp` | the Language Server Protocol, one message per text frame; each connection has a language server of its own, which knows the saved files ([docs](lsp.md)) |
 """
 
 

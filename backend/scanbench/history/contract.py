@@ -122,5 +122,5 @@ class RerunChange:
     instead: str = ""
     """Id of the error to raise in its place; empty: the same one."""
     leave_out: bool = False
-    behind: int = 0
+    scans_after: int = 0
     """The number of scans that the new run continues after the end of the original."""

@@ -50,7 +50,7 @@ def rerun(
     The reader has been followed. `programs_of` makes programs with a memory of their own.
     """
     plan = planned(reader, change)
-    end = reader.end + change.behind
+    end = reader.end + change.scans_after
     try:
         reader.copy(to, plan.cut, plan.scan, author)
         timeline = Timeline.resume(to, programs_of, codec, 0, Detection(), limit, agenda)

@@ -6,6 +6,7 @@ from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, Section, StringType, Subrange
 from scanbench.symbols.call_sites import formal_of
 from scanbench.symbols.instances import instances_of
+from scanbench.symbols.rack import terminals
 from scanbench.symbols.symbols import Symbol, UnknownPath, complete, members, resolve
 from scanbench.wire.host import Found, Lookup
 from scanbench.wire.symbols import EnumValue, SymbolInfo, SymbolKind, WatchItem
@@ -21,6 +22,8 @@ def look_up(program: Program, question: Lookup) -> Found:
             symbols = complete(program, question.text, COMPLETIONS)
         elif question.kind == "instances":
             symbols = instances_of(program, question.text)
+        elif question.kind == "terminals":
+            symbols = terminals(program)
         else:
             symbols = members(program, question.text)
     except UnknownPath as error:

@@ -22,7 +22,9 @@ import msgpack  # type: ignore[import-untyped]
 from scanbench.engines.lifeline import interrupts_held
 
 HOST, JOB, CHECK = "scanbench.host.host:serve", "scanbench.jobs.process:serve", "scanbench.jobs.process:serve_checks"
-"""Entries of the processes: of one PLC; of jobs; of what checks programs."""
+LANGUAGE = "scanbench.web.lsp.process:serve"
+"""Entries of the processes: of one PLC; of jobs; of what checks programs; of a language server."""
+ENTRIES = (HOST, JOB, CHECK, LANGUAGE)
 _PR_SET_CHILD_SUBREAPER = 36
 _LARGEST_REPLY = 4096
 _THRIFT = {
@@ -168,7 +170,7 @@ class Zygote:
             _adopt_orphans()
             ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             with theirs:
-                command = [sys.executable, "-m", "scanbench.host.forking", str(theirs.fileno()), HOST, JOB, CHECK]
+                command = [sys.executable, "-m", "scanbench.host.forking", str(theirs.fileno()), *ENTRIES]
                 try:
                     with interrupts_held():
                         self._process = subprocess.Popen(

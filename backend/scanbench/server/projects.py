@@ -6,8 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from scanbench.jobs.checker import INTERVAL_NS, Checker
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.server.archive import Archive, pack
+from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
 from scanbench.session.session import Session
-from scanbench.store.records import FileInfo, FileRow, ProjectRow
+from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
@@ -68,6 +70,8 @@ class Projects:
     async def save(self, id: int, path: str, text: str, version: int, author: str) -> FileRow:
         """Saves what was edited from `version` on; `store.records.Conflict` when somebody else was first."""
         _check_path(path)
+        if is_panel_file(path):
+            refuse_broken(path, text)
         file = await asyncio.to_thread(self._store.files.save, id, path, text, version, author)
         for session in self._sessions_of(id):
             session.tell(FileSaved(author, file.path, file.version))
@@ -80,8 +84,9 @@ class Projects:
             session.tell(FileDeleted(author, path))
 
     async def sources(self, id: int) -> dict[str, str]:
-        """Path -> text of all program files."""
-        return await asyncio.to_thread(self._store.files.sources, id)
+        """Path -> text of all program files, and of the project's own errors."""
+        files = await asyncio.to_thread(self._store.files.sources, id)
+        return {path: text for path, text in files.items() if not is_panel_file(path)}
 
     # ---- check and build ------------------------------------------------------------------------------------------
 
@@ -94,6 +99,10 @@ class Projects:
     async def declared(self, sources: Sources) -> CheckOutcome:
         """What sources declare that were built before."""
         return await self._checker.check(sources.files, self.model(sources.model))
+
+    async def versions(self, id: int) -> list[BuildInfo]:
+        """Every build that was accepted, the last one first."""
+        return await asyncio.to_thread(self._store.builds.all, id)
 
     async def built(self, id: int, version: int | None = None) -> Sources | None:
         """A build that was accepted: the last one, or that of a `version`."""
@@ -124,6 +133,23 @@ class Projects:
             await asyncio.to_thread(self._store.files.save, project.id, path, text, 0, author)
         await asyncio.to_thread(self._store.builds.accept, project.id, sources.files, author, sources.version)
         return await self.get(project.id)
+
+    async def pack(self, id: int) -> tuple[str, bytes]:
+        """A project as one file, and its name."""
+        project, files = await self.get(id), await asyncio.to_thread(self._store.files.sources, id)
+        return project.name, await asyncio.to_thread(pack, project.name, project.model, project.watch, files)
+
+    async def from_archive(self, name: str, model: str, archive: Archive, author: str) -> ProjectRow:
+        """A project with the files of an archive, which are not built yet."""
+        texts = {**archive.files, **archive.panels}
+        for path in texts:
+            _check_path(path)
+        for path, text in archive.panels.items():
+            refuse_broken(path, text)
+        project = await self.create(name, model, archive.watch)
+        for path, text in texts.items():
+            await asyncio.to_thread(self._store.files.save, project.id, path, text, 0, author)
+        return project
 
     async def _build(self, id: int, author: str, agreed: bool, instances: Sequence[int] | None) -> BuildOutcome:
         project = await self.get(id)
@@ -194,9 +220,9 @@ def _question(changes: Sequence[Change]) -> str:
 
 def _check_path(path: str) -> None:
     parts = path.split("/")
-    known = is_program_file(path) or path == USER_ERRORS
+    known = is_program_file(path) or path == USER_ERRORS or is_panel_file(path)
     if not known or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
         raise Refused(
             f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
-            f"the project's own errors are in {USER_ERRORS}"
+            f"the project's own errors are in {USER_ERRORS}, operator panels in files like belt{PANEL_ENDING}"
         )

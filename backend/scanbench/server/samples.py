@@ -7,6 +7,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.server.operator_panels import is_panel_file
 from scanbench.syntax.parse_file import is_program_file
 
 
@@ -32,9 +33,9 @@ def samples() -> Iterator[Sample]:
 
 
 def _texts(folder: Traversable, path: str) -> Iterator[tuple[str, str]]:
-    """Path and text of each program file, also of those in folders (`plant/`)."""
+    """Path and text of each program file, also of those in folders (`plant/`), and of each operator panel."""
     for each in sorted(folder.iterdir(), key=lambda each: each.name):
         if each.is_dir():
             yield from _texts(each, f"{path}{each.name}/")
-        elif is_program_file(f"{path}{each.name}") or f"{path}{each.name}" == USER_ERRORS:
+        elif is_program_file(f"{path}{each.name}") or is_panel_file(each.name) or f"{path}{each.name}" == USER_ERRORS:
             yield f"{path}{each.name}", each.read_text("utf-8")

@@ -336,7 +336,7 @@ class Instance:
         return found.sources
 
     async def look_up(self, kind: str, text: str) -> protocol.Found:
-        """`members` of a path, what `complete`s a text, or the `instances` of a POU."""
+        """`members` of a path, what `complete`s a text, the `instances` of a POU, or the `terminals` of the PLC."""
         return await self.ask(lambda ref: protocol.Lookup(ref, kind, text), protocol.Found)
 
     def tell(self, message: Telling) -> bool:

@@ -144,15 +144,16 @@ class Tracing:
 
     async def resend(self) -> None:
         """Tells a new host what there is; what cannot be any more says so in its note."""
-        self._told.clear()
-        for number, wanted in list(self._wanted.items()):
-            try:
-                await self._accepted(lambda ref, n=number, w=wanted: DefineTrace(ref, n, w.definition, w.by, w.on))  # type: ignore[misc]
-            except Refused as error:
-                note = f"it cannot be recorded: {error.message}"
-                self._told[number] = replace(self.trace(number), note=note)
-            except Unavailable:
-                return
+        async with self._one_by_one:  # else a change made meanwhile would be taken back by what was wanted before
+            self._told.clear()
+            for number, wanted in self._wanted.items():
+                try:
+                    await self._accepted(lambda ref, n=number, w=wanted: DefineTrace(ref, n, w.definition, w.by, w.on))  # type: ignore[misc]
+                except Refused as error:
+                    note = f"it cannot be recorded: {error.message}"
+                    self._told[number] = replace(self.trace(number), note=note)
+                except Unavailable:
+                    return
         self._publish(events.TracesChanged(self.traces))
 
     def on_message(self, message: object) -> bool:

@@ -11,6 +11,7 @@ from scanbench.runtime.clock import wall_time
 from scanbench.store import rows
 from scanbench.store.connected import Repository, check, the_project
 from scanbench.store.records import (
+    BuildInfo,
     BuildRow,
     Conflict,
     FileInfo,
@@ -142,6 +143,14 @@ class Builds(Repository):
                 )
             )
             return version
+
+    def all(self, project: int) -> list[BuildInfo]:
+        """Every accepted build of a project, the last one first."""
+        with self._database.reading() as session:
+            the_project(session, project)
+            columns = select(ProgramVersion.version, ProgramVersion.author, ProgramVersion.at)
+            found = columns.where(ProgramVersion.project_id == project).order_by(ProgramVersion.version.desc())
+            return [BuildInfo(version, author, at) for version, author, at in session.execute(found)]
 
     def last(self, project: int) -> dict[str, str] | None:
         """The sources of the last accepted build; None if there was none yet."""

@@ -79,6 +79,15 @@ class BuildRow:
 
 
 @dataclass(frozen=True, slots=True)
+class BuildInfo:
+    """The same without its sources."""
+
+    version: int
+    author: str
+    at: datetime
+
+
+@dataclass(frozen=True, slots=True)
 class Limits:
     """What an instance may cost at most; None is no limit of its own."""
 

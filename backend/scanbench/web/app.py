@@ -23,6 +23,7 @@ from scanbench.web.headers import NoStore
 from scanbench.web.invalid import said
 from scanbench.web.operations import Api, operation_id
 from scanbench.web.pages import frontend_directory, not_built_page
+from scanbench.web.routes import archives as routes_archives
 from scanbench.web.routes import binding as routes_binding
 from scanbench.web.routes import debug as routes_debug
 from scanbench.web.routes import errors as routes_errors
@@ -38,6 +39,7 @@ from scanbench.web.routes import values as routes_values
 from scanbench.web.routes import verify as routes_verify
 from scanbench.web.routes import watch as routes_watch
 from scanbench.web.socket import dap as routes_dap
+from scanbench.web.socket import lsp as routes_lsp
 from scanbench.wire.refused import Refused, Unavailable
 
 _STATUS: dict[type[Exception], int] = {
@@ -87,7 +89,7 @@ def bare_app() -> FastAPI:
         responses={"4XX": {"model": wire.Refusal}},
     )  # fmt: skip
     for routes in (
-        routes_instances, routes_dap, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
+        routes_instances, routes_dap, routes_lsp, routes_errors, routes_sweeps, routes_records, routes_projects, routes_archives, routes_user_errors,
         routes_models, routes_binding, routes_debug, routes_traces, routes_values, routes_watch, routes_verify,
         routes_past,
     ):  # fmt: skip

@@ -10,6 +10,9 @@ from starlette.types import Scope
 
 _BY_CONTENT = "assets/"
 """Names here contain a hash of the file's content: a file that changes gets a new name."""
+_CODINGS = {"br": "br", "gzip": "gz"}
+"""What the build makes of each file, the smallest first, with the ending of its name. Browsers take Brotli by https, and from this
+computer."""
 
 
 class BuiltFiles(StaticFiles):
@@ -28,23 +31,23 @@ class BuiltFiles(StaticFiles):
     def file_response(
         self, full_path: str | os.PathLike[str], stat_result: os.stat_result, scope: Scope, status_code: int = 200
     ) -> Response:
-        """The compressed version of the file, if there is one and the browser accepts it."""
-        packed = f"{os.fspath(full_path)}.gz"
-        if not os.path.isfile(packed):
-            return super().file_response(full_path, stat_result, scope, status_code)
-        takes = _takes_gzip(Headers(scope=scope))
-        if takes:
-            full_path, stat_result = packed, os.stat(packed)
+        """The smallest compressed version of the file that there is and that the browser accepts."""
+        packed = {coding: f"{os.fspath(full_path)}.{ending}" for coding, ending in _CODINGS.items()}
+        there = [coding for coding, path in packed.items() if os.path.isfile(path)]
+        taken = next((coding for coding in there if _takes(Headers(scope=scope), coding)), None)
+        if taken is not None:
+            full_path, stat_result = packed[taken], os.stat(packed[taken])
         response = super().file_response(full_path, stat_result, scope, status_code)
-        response.headers["Vary"] = "Accept-Encoding"
-        if takes:
-            response.headers["Content-Encoding"] = "gzip"
+        if there:
+            response.headers["Vary"] = "Accept-Encoding"
+        if taken is not None:
+            response.headers["Content-Encoding"] = taken
         return response
 
 
-def _takes_gzip(headers: Mapping[str, str]) -> bool:
+def _takes(headers: Mapping[str, str], coding: str) -> bool:
     for offer in headers.get("accept-encoding", "").lower().split(","):
         name, _, weight = offer.partition(";")
-        if name.strip() == "gzip":
+        if name.strip() == coding:
             return weight.replace(" ", "") not in ("q=0", "q=0.0", "q=0.00", "q=0.000")
     return False

@@ -56,6 +56,13 @@ class NewProject(Wire):
     watch: list[str] = Field(default_factory=list, max_length=1000, description="what a fresh watch list begins with")
 
 
+class ProjectArchive(Wire):
+    name: str = Field(description="as its project file says; empty without one")
+    model: str = Field(description="the same")
+    files: list[str]
+    left_out: list[str] = Field(description="no programs, or not compiled by their TwinCAT project")
+
+
 class FileInfo(Wire):
     path: str
     version: int
@@ -112,6 +119,19 @@ class ProgramText(Wire):
     version: int
     files: dict[str, str] = Field(description="path -> text")
     pous: tuple[PouInfo, ...]
+
+
+class ProjectVersion(Wire):
+    """A build of a project that was accepted."""
+
+    version: int
+    author: str
+    at: str = Field(description="ISO 8601")
+
+
+class VersionText(Wire):
+    version: int
+    files: dict[str, str] = Field(description="path -> text")
 
 
 class OnlineChange(Wire):

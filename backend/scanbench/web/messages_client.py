@@ -51,6 +51,16 @@ class Travel(Wire):
     )
 
 
+class Press(Wire):
+    """A push button: writes TRUE when it is pressed, FALSE when it is let go, and FALSE as well when this connection
+    ends before, if the PLC takes it then."""
+
+    type: Literal["press"] = "press"
+    ref: int
+    path: str
+    down: bool
+
+
 class RollBack(Wire):
     """Swaps the program back in that ran before the last change."""
 
@@ -59,6 +69,6 @@ class RollBack(Wire):
 
 
 ClientMessage = Annotated[
-    Watch | Unwatch | Command | Run | NewRun | Travel | RollBack | SetCoverage | DapOut,
+    Watch | Unwatch | Command | Press | Run | NewRun | Travel | RollBack | SetCoverage | DapOut,
     Field(discriminator="type"),
 ]

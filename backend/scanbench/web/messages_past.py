@@ -18,4 +18,6 @@ class NewRerun(Wire):
     by: int = Field(default=0, ge=-1_000_000, le=1_000_000)
     instead: str = Field(default="", max_length=200)
     leave_out: bool = False
-    behind: int = Field(default=0, ge=0, le=1_000_000)
+    scans_after: int = Field(
+        default=0, ge=0, le=1_000_000, description="so many scans the new run goes on after the end of the original"
+    )

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from scanbench.web.messages import Mode, RestartKind
 from scanbench.web.messages_base import Wire
+from scanbench.wire.symbols import SymbolInfo
 
 
 class Value(Wire):
@@ -18,6 +19,14 @@ class Value(Wire):
     type: str
     address: str = Field(description="vendor notation where it is located; else empty")
     alias: str = Field(description="of an in-out or reference: what it leads to, `-> Main.tank[3].level (D120)`")
+
+
+class Channel(Wire):
+    """A word of inputs or outputs of a PLC, and what lies in it."""
+
+    address: str = Field(description="in the vendor's notation; of areas that count bits that of its first bit")
+    side: Literal["input", "output"]
+    terminals: list[SymbolInfo] = Field(description="its bits, or the variables in it that are larger than a bit")
 
 
 class ReleaseForces(Wire):

@@ -109,7 +109,7 @@ def test_a_different_error_instead(tmp_path: Path) -> None:
 
 
 def test_it_is_left_out(tmp_path: Path) -> None:
-    made, again = _again(_with_an_error(tmp_path), RerunChange(10, BATTERY, leave_out=True, behind=12))
+    made, again = _again(_with_an_error(tmp_path), RerunChange(10, BATTERY, leave_out=True, scans_after=12))
     assert made == Rerun(42, ()), "nobody tries to recover it"
     assert (again.live_scan, value(again.resource, "Main.n"), value(again.resource, "Main.low")) == (42, 42, 0)
     assert [name for _, name, _ in _when(again)] == ["Write", "Write", "Write"]

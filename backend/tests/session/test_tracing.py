@@ -68,3 +68,25 @@ def test_of_changes_at_the_same_time_each_one_counts() -> None:
     assert [(each.definition.scans, each.definition.signals) for each in asked] == [
         (30_000, ("Main.n",)), (400, ("Main.n",)), (400, ("Main.n", "Main.m")),
     ]  # fmt: skip
+
+
+def test_a_change_made_while_a_new_host_is_told_is_not_taken_back() -> None:
+    there: dict[int, TraceDefinition] = {}
+
+    async def host(make: Callable[[int], object], answer: type[A]) -> A:
+        message = make(7)
+        assert isinstance(message, DefineTrace)
+        await asyncio.sleep(0)
+        there[message.id] = message.definition
+        return await accept(make, answer)
+
+    async def both() -> None:
+        tracing = Tracing(host, lambda _: None, lambda _: None, {1: OLD, 2: OLD})
+        told = asyncio.create_task(tracing.resend())
+        await asyncio.sleep(0)
+        await tracing.change(2, lambda now: replace(now, scans=400), "Ann", True)
+        await told
+        assert there[2] == tracing.trace(2).definition
+        assert there[2].scans == 400
+
+    asyncio.run(both())

@@ -23,6 +23,9 @@ def get(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Get:
     assets.mkdir()
     (assets / "index-1a2b.js").write_text(_SCRIPT)
     (assets / "index-1a2b.js.gz").write_bytes(gzip.compress(_SCRIPT.encode()))
+    (assets / "page-3c4d.js").write_text(_SCRIPT)
+    (assets / "page-3c4d.js.gz").write_bytes(gzip.compress(_SCRIPT.encode()))
+    (assets / "page-3c4d.js.br").write_bytes(b"brotli")
     (tmp_path / "index.html").write_text("<!doctype html>")
     (tmp_path / "icon.svg").write_text("<svg/>")
     monkeypatch.setenv("SCANBENCH_FRONTEND", str(tmp_path))
@@ -48,6 +51,13 @@ def test_a_file_goes_compressed_and_is_kept_for_good(get: Get) -> None:
     assert reply.headers["vary"] == "Accept-Encoding"
     again = get("/assets/index-1a2b.js", accept_encoding="gzip", if_none_match=reply.headers["etag"])
     assert again.status_code == 304
+
+
+def test_a_browser_that_takes_brotli_gets_it(get: Get) -> None:
+    reply = get("/assets/page-3c4d.js", accept_encoding="gzip, deflate, br, zstd")
+    assert (reply.headers["content-encoding"], reply.content) == ("br", b"brotli")
+    assert reply.headers["content-type"].startswith("text/javascript")
+    assert get("/assets/page-3c4d.js", accept_encoding="gzip, br;q=0").headers["content-encoding"] == "gzip"
 
 
 @pytest.mark.parametrize("takes", ["identity", "br", "gzip;q=0", ""])

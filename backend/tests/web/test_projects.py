@@ -68,6 +68,19 @@ def test_build_swaps_and_keeps_values_and_errors_refuse_it(server: Server) -> No
         assert server.state(instance)["program_version"] == 2
 
 
+def test_versions_keep_who_built_what(server: Server) -> None:
+    project = server.project("versions", "GENERIC-IEC", main=ONE)
+    address = f"/api/projects/{project}"
+    assert server.http.get(f"{address}/versions").json() == []
+    assert server.http.post(f"{address}/build", json={}).json()["ok"]
+    server.http.put(f"{address}/files/main.st", json={"text": TWO, "version": 1})
+    assert server.http.post(f"{address}/build", json={}).json()["ok"]
+    found = server.http.get(f"{address}/versions").json()
+    assert [(each["version"], each["author"]) for each in found] == [(2, "Guest"), (1, "Guest")]
+    assert server.http.get(f"{address}/versions/1").json() == {"version": 1, "files": {"main.st": ONE}}
+    assert server.http.get(f"{address}/versions/3").status_code == 404
+
+
 def test_a_deletion_is_told_with_its_author(server: Server) -> None:
     project = server.project("deleted", "GENERIC-IEC", main=ONE, other=TWO.replace("Main", "Other"))
     instance = server.http.post("/api/instances", json={"project": project, "name": "deleted"}).json()["id"]
@@ -171,3 +184,33 @@ def test_a_new_project_says_what_a_watch_list_begins_with(server: Server) -> Non
     assert made.json()["watch"] == ["Main.n"]
     found = server.http.get("/api/projects").json()
     assert [each["watch"] for each in found if each["name"] == "watched"] == [["Main.n"]]
+
+
+def test_an_operator_panel_is_a_file_of_the_project_and_no_part_of_its_program(server: Server) -> None:
+    project = server.project("panels", "CJ1M-CPU63", main=ONE)
+    address = f"/api/projects/{project}"
+    assert server.http.post(f"{address}/build", json={}).json()["ok"]
+    panel = f"{address}/files/Belt.panel.json"
+    assert server.http.put(panel, json={"text": '{"version": 1, "elements": []}', "version": 0}).status_code == 200
+    again = server.http.post(f"{address}/build", json={}).json()
+    assert (again["ok"], again["project"]["version"]) == (True, 1)
+    assert server.http.post(f"{address}/check", json={"files": {}}).json()["problems"] == []
+    for text, why in (("{", "no JSON text: Expecting property name"), ("[]", "has to be a JSON object")):
+        refused = server.http.put(panel, json={"text": text, "version": 1})
+        assert refused.status_code == 422
+        assert why in refused.json()["message"]
+
+
+def test_the_terminals_of_a_plc(server: Server) -> None:
+    instance = server.instance(
+        "rack", "CJ1M-CPU63", main="PROGRAM Main\nVAR start AT CIO 0.03 : BOOL; END_VAR\nEND_PROGRAM\n"
+    )
+    channels = server.http.get(f"/api/instances/{instance}/rack").json()
+    assert [(each["address"], each["side"], len(each["terminals"])) for each in channels] == [
+        ("CIO0", "input", 16),
+        ("CIO100", "output", 16),
+    ]
+    assert [(each["path"], each["address"]) for each in channels[0]["terminals"]][2:4] == [
+        ("CIO0.02", "CIO0.02"),
+        ("Main.start", "CIO0.03"),
+    ]

@@ -10,8 +10,9 @@ from scanbench import __version__
 from scanbench.server.workbench import Workbench
 from scanbench.session.session import Session
 from scanbench.store.records import Limits, NotFound
+from scanbench.symbols.rack import INPUT, OUTPUT
 from scanbench.web import messages as wire
-from scanbench.web import translate
+from scanbench.web import messages_values, translate
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
@@ -137,6 +138,23 @@ async def on_instances_of(bench: Bench, instance: Id, pou: str) -> tuple[SymbolI
     """The instances of a POU in the running program, at most 1,000."""
     found = await bench.session(instance).instance.look_up("instances", pou)
     return found.symbols
+
+
+@router.get("/instances/{instance}/rack")
+async def on_rack(bench: Bench, instance: Id) -> list[messages_values.Channel]:
+    """The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit."""
+    found = await bench.session(instance).instance.look_up("terminals", "")
+    channels: list[messages_values.Channel] = []
+    for symbol in found.symbols:
+        if symbol.section in (INPUT, OUTPUT):
+            channels.append(
+                messages_values.Channel(
+                    address=symbol.path, side="input" if symbol.section == INPUT else "output", terminals=[]
+                )
+            )
+        else:
+            channels[-1].terminals.append(symbol)
+    return channels
 
 
 @router.get("/instances/{instance}/program")

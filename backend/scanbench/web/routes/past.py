@@ -51,7 +51,7 @@ async def on_delete_comparison(bench: Bench, comparison: Id) -> None:
 @router.post("/instances/{instance}/reruns", status_code=201)
 async def on_rerun(bench: Bench, request: Request, instance: Id, new: wire.NewRerun) -> Rerun:
     """Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket."""
-    change = RerunChange(new.scan, new.error, new.by, new.instead, new.leave_out, new.behind)
+    change = RerunChange(new.scan, new.error, new.by, new.instead, new.leave_out, new.scans_after)
     return await bench.history.rerun(bench.session(instance), change, new.name.strip(), user_of(request).name)
 
 

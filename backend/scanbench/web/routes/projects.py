@@ -2,6 +2,8 @@
 
 from fastapi import APIRouter, Request
 
+from scanbench.public import iso
+from scanbench.store.records import NotFound
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
@@ -65,3 +67,19 @@ async def on_check(bench: Bench, project: Id, edited: wire.CheckRequest) -> wire
 async def on_build(bench: Bench, request: Request, project: Id, how: wire.Build = _PLAIN_BUILD) -> wire.BuildResult:
     """Builds what is saved, and swaps it into the project's instances; asks first where variables would be reset."""
     return translate.build_result(await bench.projects.build(project, user_of(request).name, how.agreed, how.instances))
+
+
+@router.get("/{project}/versions")
+async def on_versions(bench: Bench, project: Id) -> list[wire.ProjectVersion]:
+    """Every build of a project that was accepted, the last one first."""
+    found = await bench.projects.versions(project)
+    return [wire.ProjectVersion(version=each.version, author=each.author, at=iso(each.at)) for each in found]
+
+
+@router.get("/{project}/versions/{version}")
+async def on_version(bench: Bench, project: Id, version: int) -> wire.VersionText:
+    """The files of a version."""
+    sources = await bench.projects.built(project, version)
+    if sources is None:
+        raise NotFound(f"this project has no version {version}")
+    return wire.VersionText(version=version, files=sources.files)

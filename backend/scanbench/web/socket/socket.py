@@ -27,13 +27,21 @@ from scanbench.wire import events
 from scanbench.wire.commands import read_command
 from scanbench.wire.events import Event, User
 from scanbench.wire.host import Ack
-from scanbench.wire.refused import Refused
+from scanbench.wire.refused import Refused, Unavailable
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
 ALIVE_AFTER_S = 5.0
 """So long without anything to tell: an `Alive` is sent. Browsers give up after 12 s of silence."""
-_Wanted = commands.Command | client.Run | client.Travel | client.NewRun | client.RollBack | debugger.SetCoverage
+_Wanted = (
+    commands.Command
+    | client.Press
+    | client.Run
+    | client.Travel
+    | client.NewRun
+    | client.RollBack
+    | debugger.SetCoverage
+)
 
 _INCOMING: TypeAdapter[client.ClientMessage] = TypeAdapter(client.ClientMessage)
 _OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
@@ -55,6 +63,8 @@ class Client:
         self._wake = asyncio.Event()
         self._slow: set[asyncio.Task[None]] = set()
         self._dap: Conversation | None = None
+        self._pressed: set[str] = set()
+        """Variables that a push button of this browser holds at TRUE."""
 
     # ---- from the session -----------------------------------------------------------------------------------------
 
@@ -131,6 +141,7 @@ class Client:
             if not self._texts.over:
                 raise
         finally:
+            await self._let_go()
             self._session.leave(self._id)
             tasks = (writer, *self._slow)
             for task in tasks:
@@ -212,9 +223,24 @@ class Client:
             return
         self._answer(message.ref, ack.ok, ack.message, ack.scan, ack.near)
 
+    async def _press(self, path: str, down: bool) -> Ack:
+        wanted = {"path": path, "value": "TRUE" if down else "FALSE", "site": ""}
+        ack = await self._session.submit(read_command("write", wanted, self.user.name))
+        if ack.ok:
+            (self._pressed.add if down else self._pressed.discard)(path)
+        return ack
+
+    async def _let_go(self) -> None:
+        """Nobody is there any more to let go of what is pressed."""
+        for path in tuple(self._pressed):
+            with suppress(Refused, Unavailable):
+                await asyncio.shield(self._press(path, False))
+
     async def _done(self, message: _Wanted) -> Ack:
         session, author = self._session, self.user.name
         match message:
+            case client.Press():
+                return await self._press(message.path, message.down)
             case client.Run():
                 return await session.drive(message.action, message.speed, author, message.scans, message.until)
             case client.Travel():

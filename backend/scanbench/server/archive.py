@@ -1,0 +1,165 @@
+"""A project as one zip file: `project.json`, the program files in their folders, operator panels, and the project's own errors.
+
+What other tools have packed is read, too: a folder of program files, also within folders, and a TwinCAT project, of which the
+`.plcproj` says which files are compiled.
+"""
+
+import io
+import json
+import posixpath
+import re
+import zipfile
+import zlib
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from html import unescape
+
+from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.server.from_disk import PROJECT_FILE
+from scanbench.server.operator_panels import is_panel_file
+from scanbench.syntax.parse_file import ENDINGS, is_program_file
+from scanbench.syntax.source import decode
+from scanbench.wire.refused import Refused
+
+LARGEST = 64 << 20
+"""Bytes, packed or not."""
+MOST_FILES = 5000
+TWINCAT_PROJECT = ".plcproj"
+_COMPILED = re.compile(r"<Compile\s[^>]*Include\s*=\s*[\"']([^\"']*)[\"']")
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_WHEN = (1980, 1, 1, 0, 0, 0)
+"""The same project makes the same bytes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Archive:
+    """What an archive has of a project."""
+
+    name: str
+    """As its project file says; empty without one."""
+    model: str
+    """The same."""
+    watch: tuple[str, ...]
+    """What a fresh watch list begins with."""
+    files: dict[str, str]
+    """Path and text of each program file."""
+    panels: dict[str, str]
+    """The same of each operator panel."""
+    left_out: tuple[str, ...]
+    """Files that are no programs, or not compiled by their TwinCAT project."""
+
+
+def pack(name: str, model: str, watch: Sequence[str], files: Mapping[str, str]) -> bytes:
+    """The archive of a project."""
+    about = {"name": name, "model": model, "watch": list(watch)}
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path, text in {PROJECT_FILE: json.dumps(about, ensure_ascii=False, indent=2) + "\n", **files}.items():
+            archive.writestr(zipfile.ZipInfo(path, _WHEN), text.encode(), zipfile.ZIP_DEFLATED)
+    return made.getvalue()
+
+
+def unpack(data: bytes) -> Archive:
+    """What an archive has; `Refused` where it is none, too large, or without a program."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return _unpacked(archive)
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        EOFError,
+        OSError,
+        RuntimeError,
+        NotImplementedError,
+        UnicodeError,
+    ) as error:
+        raise Refused(f"this is no zip file that can be read: {error}") from error
+
+
+def _unpacked(archive: zipfile.ZipFile) -> Archive:
+    entries = [each for each in archive.infolist() if not each.is_dir()]
+    if len(entries) > MOST_FILES or sum(each.file_size for each in entries) > LARGEST:
+        raise Refused(f"this archive has more than {MOST_FILES:,} files, or {LARGEST >> 20} MiB of text")
+    named = {path: each for each in entries if (path := _path(each.filename)) is not None}
+    left_out = [each.filename for each in entries if _path(each.filename) is None]
+    if len(named) + len(left_out) < len(entries):
+        raise Refused("this archive has two files of the same name")
+    root = _root(named)
+    inside = {path.removeprefix(root): each for path, each in named.items() if path.startswith(root)}
+    left_out += [path for path in named if not path.startswith(root)]
+    compiled, missing = _compiled(archive, inside)
+    files, panels = {}, {}
+    for path, each in sorted(inside.items()):
+        if path == USER_ERRORS or (is_program_file(path) and (compiled is None or path in compiled)):
+            files[path] = decode(_read(archive, each))
+        elif is_panel_file(path):
+            panels[path] = decode(_read(archive, each))
+        elif path != PROJECT_FILE and not _is_twincat(path):
+            left_out.append(path)
+    if missing:
+        raise Refused(f"the TwinCAT project compiles files that are not in this archive: {', '.join(missing)}")
+    if not any(map(is_program_file, files)):
+        raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in this archive")
+    about = _about(_read(archive, inside[PROJECT_FILE]) if PROJECT_FILE in inside else None)
+    name, model, watch = about.get("name"), about.get("model"), about.get("watch")
+    return Archive(
+        name if isinstance(name, str) else "",
+        model if isinstance(model, str) else "",
+        tuple(each for each in watch if isinstance(each, str)) if isinstance(watch, list) else (),
+        files,
+        panels,
+        tuple(left_out),
+    )
+
+
+def _path(name: str) -> str | None:
+    """The path in the archive, with `/`; None of one that leads out of it, and of what a Mac adds to each file."""
+    path = posixpath.normpath(name.replace("\\", "/"))
+    outside = path.startswith(("/", "../")) or ":" in path or path == ".."
+    return None if outside or path.startswith("__MACOSX/") or posixpath.basename(path).startswith("._") else path
+
+
+def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> bytes:
+    if entry.flag_bits & 1:
+        raise Refused(f"{entry.filename} in this archive is encrypted: pack it without a password")
+    return archive.read(entry)
+
+
+def _is_twincat(path: str) -> bool:
+    return path.lower().endswith(TWINCAT_PROJECT)
+
+
+def _root(texts: Collection[str]) -> str:
+    """The folder that the project is in, with `/`: that of its project file, else what all programs have in common."""
+    marks = [path for path in texts if posixpath.basename(path) == PROJECT_FILE or _is_twincat(path)]
+    if len(marks) > 1 and not any(path == PROJECT_FILE for path in marks):
+        raise Refused(f"this archive has several projects: {', '.join(sorted(marks))}. Pack one of their folders")
+    if marks:
+        folder = posixpath.dirname(min(marks, key=len))
+    else:
+        folders = [posixpath.dirname(path) for path in texts if is_program_file(path)]
+        folder = posixpath.commonpath(folders) if folders and all(folders) else ""
+        folder = posixpath.dirname(folder) if posixpath.basename(folder) == "plant" else folder
+    return f"{folder}/" if folder else ""
+
+
+def _compiled(archive: zipfile.ZipFile, files: Mapping[str, zipfile.ZipInfo]) -> tuple[set[str] | None, list[str]]:
+    """The files that a TwinCAT project compiles, whose names Windows does not tell apart by capitals, and those that are missing;
+    None where there is none."""
+    projects = [_COMMENT.sub("", decode(_read(archive, each))) for path, each in files.items() if _is_twincat(path)]
+    if not projects:
+        return None, []
+    wanted = [unescape(path).replace("\\", "/") for text in projects for path in _COMPILED.findall(text)]
+    known = {path.lower(): path for path in files}
+    found = {known[each.lower()] for each in wanted if each.lower() in known}
+    return found, [each for each in wanted if each.lower() not in known and is_program_file(each)]
+
+
+def _about(text: bytes | None) -> dict[str, object]:
+    if text is None:
+        return {}
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise Refused(f"{PROJECT_FILE} cannot be read: {error}") from error
+    return found if isinstance(found, dict) else {}

@@ -1,0 +1,53 @@
+"""REST: projects as one file."""
+
+import asyncio
+import re
+from urllib.parse import quote
+
+from fastapi import APIRouter, Request, Response
+
+from scanbench.server.archive import LARGEST, unpack
+from scanbench.web import messages as wire
+from scanbench.web import translate
+from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id
+from scanbench.web.reach import Bench
+from scanbench.wire.refused import Refused
+
+router = APIRouter(prefix="/api", tags=["projects"])
+
+
+@router.get("/projects/{project}/archive", response_class=Response)
+async def on_pack(bench: Bench, project: Id) -> Response:
+    """The project as a zip file: `project.json`, the files as they are saved, the project's own errors."""
+    name, data = await bench.projects.pack(project)
+    plain = re.sub(r"[^A-Za-z0-9._ -]", "_", name)
+    headers = {"Content-Disposition": f"attachment; filename=\"{plain}.zip\"; filename*=UTF-8''{quote(name)}.zip"}
+    return Response(data, media_type="application/zip", headers=headers)
+
+
+@router.post("/archives")
+async def on_look(request: Request) -> wire.ProjectArchive:
+    """What a zip file has of a project, of Scanbench, TwinCAT or plain files; keeps nothing. The body is the file."""
+    found = await asyncio.to_thread(unpack, await _body(request))
+    return wire.ProjectArchive(
+        name=found.name, model=found.model, files=[*found.files, *found.panels], left_out=list(found.left_out)
+    )
+
+
+@router.post("/archives/projects", status_code=201)
+async def on_unpack(bench: Bench, request: Request, name: str, model: str) -> wire.Project:
+    """A new project with the files of a zip file, which is the body. They are not built yet."""
+    if not 0 < len(name.strip()) <= 100:
+        raise Refused("the name of the project must have 1 to 100 characters")
+    archive = await asyncio.to_thread(unpack, await _body(request))
+    return translate.project(await bench.projects.from_archive(name.strip(), model, archive, user_of(request).name))
+
+
+async def _body(request: Request) -> bytes:
+    data = bytearray()
+    async for chunk in request.stream():
+        data += chunk
+        if len(data) > LARGEST:
+            raise Refused(f"the file is larger than {LARGEST >> 20} MiB")
+    return bytes(data)

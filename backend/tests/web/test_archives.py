@@ -1,0 +1,44 @@
+"""A project goes out as one file, and comes in again as a project."""
+
+import httpx
+import pytest
+
+from tests.web.server import Server
+
+MAIN = "PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
+
+
+def test_a_project_goes_out_and_comes_in_again(server: Server) -> None:
+    project = server.project("Füllen", "CJ1M-CPU63", Main=MAIN)
+    panel = {"text": '{"version": 1, "elements": []}', "version": 0}
+    assert server.http.put(f"/api/projects/{project}/files/Belt.panel.json", json=panel).status_code == 200
+    reply = server.http.get(f"/api/projects/{project}/archive")
+    assert reply.status_code == 200, reply.text
+    assert "F%C3%BCllen.zip" in reply.headers["content-disposition"]
+    found = server.http.post("/api/archives", content=reply.content).json()
+    assert found == {"name": "Füllen", "model": "CJ1M-CPU63", "files": ["Main.st", "Belt.panel.json"], "left_out": []}
+    made = server.http.post(
+        "/api/archives/projects", params={"name": "again", "model": found["model"]}, content=reply.content
+    )
+    assert made.status_code == 201, made.text
+    again = made.json()["id"]
+    assert server.http.get(f"/api/projects/{again}/files/Main.st").json()["text"] == MAIN
+    assert server.http.get(f"/api/projects/{again}/files/Belt.panel.json").json()["text"] == panel["text"]
+    assert server.http.post(f"/api/projects/{again}/build", json={}).json()["ok"]
+
+
+@pytest.mark.parametrize(
+    ("params", "content", "why"),
+    [
+        ({"name": "x", "model": "CJ1M-CPU63"}, b"nonsense", "no zip file"),
+        ({"name": " ", "model": "CJ1M-CPU63"}, b"", "1 to 100 characters"),
+    ],
+)
+def test_what_cannot_be_taken_makes_no_project(
+    server: Server, params: dict[str, str], content: bytes, why: str
+) -> None:
+    before = server.http.get("/api/projects").json()
+    reply: httpx.Response = server.http.post("/api/archives/projects", params=params, content=content)
+    assert reply.status_code == 422
+    assert why in reply.json()["message"]
+    assert server.http.get("/api/projects").json() == before
