@@ -79,6 +79,7 @@ const FEATURES: Record<string, readonly string[]> = {
   trace: COMMON,
   verify: COMMON,
   watch: COMMON,
+  operator: COMMON,
   past: [...COMMON, "verify"], // the timeline marks the differences that verifications found
   debug: [...COMMON, "verify"], // a step may belong to a verification, which waits for it
 };

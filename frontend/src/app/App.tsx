@@ -1,4 +1,5 @@
 import { useEffect, useRef, useState } from "react";
+import { operatedPanel } from "../logic/plc/links";
 import { showState } from "../logic/plc/plcstate";
 import { DebugSide } from "../panels/debug/stack/DebugSide";
 import { Sweeping } from "../panels/errors/sweep/Sweeping";
@@ -9,9 +10,11 @@ import { Past } from "../panels/run/past/Past";
 import { Timeline } from "../panels/run/timeline/Timeline";
 import { TopBar } from "../panels/run/topbar/TopBar";
 import { Instances } from "../panels/shell/instances/Instances";
+import { Palette } from "../panels/shell/palette/Palette";
 import { StatusBar } from "../panels/shell/status/StatusBar";
 import { TraceImport } from "../panels/verify/import/TraceImport";
 import { VerifyRecords } from "../panels/verify/records/VerifyRecords";
+import { offerCommands } from "../store/page/palette";
 import { usePrefs } from "../store/page/prefs";
 import { start, useBench } from "../store/plc/bench";
 import { useOnline, usePlc } from "../store/plc/plc";
@@ -19,8 +22,11 @@ import { useDocuments } from "../store/project/documents";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
+import { windowCommands } from "./commands";
 import { Dock, type DockHandle } from "./Dock";
+import { Keys } from "./Keys";
 import { installKeys } from "./keys";
+import { PanelWindow } from "./PanelWindow";
 import { Splitter } from "./Splitter";
 
 /** The window: rail, bars, explorer and the dock. */
@@ -29,6 +35,8 @@ export function App() {
   // A different language: every text is drawn again.
   const language = usePrefs((prefs) => prefs.language);
   if (phase === "locked" || phase === "failed") return <Shut key={language} locked={phase === "locked"} />;
+  const alone = operatedPanel(location);
+  if (alone !== null) return <PanelWindow key={language} path={alone} />;
   return <Window key={language} />;
 }
 
@@ -44,6 +52,10 @@ function Window() {
   const active = useDocuments((documents) => documents.active);
 
   useEffect(() => installKeys(), []);
+  useEffect(() => {
+    const arrangement = { resetLayout: () => dock.current?.reset(), enlarge: () => dock.current?.enlarge() };
+    return offerCommands(() => windowCommands(arrangement));
+  }, []);
   // In a narrow window the left side covers the editor, so it closes once a file is open.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the change of the file is the reason
   useEffect(() => setLeft(null), [active]);
@@ -88,6 +100,8 @@ function Window() {
       <TraceImport />
       <VerifyRecords />
       <Past />
+      <Palette />
+      <Keys />
     </div>
   );
 }

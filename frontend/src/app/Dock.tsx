@@ -1,6 +1,14 @@
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
-import { type KeyboardEvent, type Ref, useCallback, useEffect, useImperativeHandle, useRef } from "react";
+import {
+  type KeyboardEvent,
+  type MouseEvent,
+  type Ref,
+  useCallback,
+  useEffect,
+  useImperativeHandle,
+  useRef,
+} from "react";
 import { keep, recall } from "../store/page/localStorage";
 import { onNavigate } from "../store/page/navigate";
 import { useBench } from "../store/plc/bench";
@@ -11,21 +19,24 @@ import { components, HeaderEnd, PanelTab } from "./dockParts";
 import {
   closeFiles,
   closeTab,
+  enlarge,
   fileOf,
   openFilePanel,
   openPagePanel,
   restoreLayout,
   showFixedPanel,
   standardLayout,
-  widePages,
+  widePanels,
 } from "./layout";
 
 export interface DockHandle {
   reset: () => void;
+  /** Gives the active panel the whole dock, or brings the others back. */
+  enlarge: () => void;
 }
 
 /** Increase this when the default layout changes: a layout kept from an older version would hide the change. */
-const LAYOUT = "layout.4";
+const LAYOUT = "layout.5";
 const THEME = { name: "scanbench", className: "dockview-theme-scanbench" };
 
 /** The dockable part of the window. The layout is kept in this browser. */
@@ -39,19 +50,21 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
     standardLayout(api.current);
     for (const file of files) openFilePanel(api.current, file);
   }, []);
-  useImperativeHandle(ref, () => ({ reset }), [reset]);
+  const enlargeActive = useCallback(() => api.current && enlarge(api.current), []);
+  useImperativeHandle(ref, () => ({ reset, enlarge: enlargeActive }), [reset, enlargeActive]);
 
   const onReady = useCallback((event: DockviewReadyEvent) => {
     const dock = event.api;
     api.current = dock;
     restoreLayout(dock, recall<unknown>(LAYOUT, null));
-    dock.onDidLayoutChange(() => keep(LAYOUT, dock.toJSON()));
+    const keepLayout = () => keep(LAYOUT, dock.toJSON());
+    dock.onDidLayoutChange(keepLayout);
     dock.onDidActivePanelChange(({ panel }) => {
+      keepLayout(); // which tab is in front is no change of the layout to the dock
       const path = panel && fileOf(panel.id);
-      if (path)
-        useDocuments.setState(({ active, cursor }) => ({ active: path, cursor: active === path ? cursor : null }));
+      if (path) inFrontIs(path);
     });
-    widePages(dock);
+    widePanels(dock);
     dock.onDidRemovePanel((panel) => {
       const path = fileOf(panel.id);
       // Moving a panel removes it and adds it again, so a file is closed only if its panel is still missing afterwards.
@@ -79,8 +92,13 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
     strip?.querySelector<HTMLElement>(".dv-active-tab")?.focus();
   }
 
+  /** The first click has made the tab the active one. */
+  function onDoubleClick({ target }: MouseEvent): void {
+    if (target instanceof HTMLElement && target.closest(".dv-tab") && !target.closest(".x")) enlargeActive();
+  }
+
   return (
-    <div className="dock" onKeyDownCapture={onKeyDown}>
+    <div className="dock" onKeyDownCapture={onKeyDown} onDoubleClick={onDoubleClick}>
       <DockviewReact
         theme={THEME}
         components={components}
@@ -94,6 +112,9 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
   );
 }
 
+const inFrontIs = (path: string) =>
+  useDocuments.setState(({ active, cursor }) => ({ active: path, cursor: active === path ? cursor : null }));
+
 /** On a change of project: closes the files of the old project and opens those of the new one. Deleted files are closed, too. */
 function useFilesOfProject(api: { current: DockviewApi | null }, project: number | null): void {
   useEffect(() => {
@@ -102,7 +123,17 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
     const kept = recall<{ project: number; files: string[] }>("files", { project, files: [] });
     const wanted = kept.project === project ? kept.files : recall<string[]>(`files.${project}`, []);
     closeFiles(dock, (path) => kept.project !== project || !wanted.includes(path));
-    for (const path of wanted) openFilePanel(dock, path);
+    // Files of the restored layout are there, each part of a split with its own tab in front.
+    const shown = new Set(dock.panels.map((panel) => fileOf(panel.id)));
+    for (const path of wanted) if (!shown.has(path)) openFilePanel(dock, path);
+    const front = recall<string>(`front.${project}`, "");
+    if (wanted.includes(front)) {
+      openFilePanel(dock, front);
+      inFrontIs(front); // the dock tells nothing where it was in front already
+    }
+    const inFront = useDocuments.subscribe(({ active }, before) => {
+      if (active !== null && active !== before.active) keep(`front.${project}`, active);
+    });
     const remember = dock.onDidLayoutChange(() => {
       const files = dock.panels.flatMap((panel) => fileOf(panel.id) ?? []);
       keep("files", { project, files });
@@ -119,6 +150,7 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
         openFirst(dock);
     });
     return () => {
+      inFront();
       remember.dispose();
       stop();
       pous();

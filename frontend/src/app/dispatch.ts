@@ -5,6 +5,7 @@ import { joinDebugger, onBreakpoints } from "../store/debug/debug";
 import { forgetRefusals } from "../store/debug/run";
 import { onSweep, onSweepHello } from "../store/errors/sweeps";
 import { onFileSaved } from "../store/errors/userErrors";
+import { catchUpPanels, onPanelSaved } from "../store/operator/panels";
 import { onComparison, refreshComparisons } from "../store/past/comparisons";
 import { onRerun } from "../store/past/reruns";
 import { onProject, useBench } from "../store/plc/bench";
@@ -36,7 +37,7 @@ export function connectStores(): void {
       usePlc.setState({ link: status });
       if (status.state === "open") return;
       dap.abandon();
-      if (status.state === "lost") abandon("");
+      abandon(""); // also when the page goes to a different PLC: nobody answers any more
     },
     onMessage: dispatch,
     onFrame: (frame) => {
@@ -64,6 +65,7 @@ function dispatch(message: ServerMessage): void {
       void refreshVerifications();
       void refreshComparisons();
       void catchUp();
+      void catchUpPanels();
       followLink();
       return;
     case "state":
@@ -95,6 +97,7 @@ function dispatch(message: ServerMessage): void {
     case "saved":
       void onSaved(message.file);
       onFileSaved(message.file);
+      void onPanelSaved(message.file);
       return;
     case "deleted":
       void onDeleted(message.path, message.author);

@@ -1,12 +1,15 @@
 import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewPanelProps } from "dockview-react";
 import { type MouseEvent, type ReactNode, useEffect } from "react";
 import { baseName } from "../logic/format/paths";
+import { isPanelFile, panelName } from "../logic/project/panelFiles";
 import { ConsolePanel } from "../panels/debug/console/ConsolePanel";
 import { HistoryPanel } from "../panels/errors/history/HistoryPanel";
 import { ErrorsPanel } from "../panels/errors/tree/ErrorsPanel";
 import { PanelEnd } from "../panels/errors/tree/PanelEnd";
+import { OperatorPanel } from "../panels/operator/OperatorPanel";
 import { EditorPanel } from "../panels/project/editor/EditorPanel";
 import { ProblemsPanel } from "../panels/project/problems/ProblemsPanel";
+import { SearchPanel } from "../panels/project/search/SearchPanel";
 import { DiagnosticsPanel } from "../panels/shell/diagnostics/DiagnosticsPanel";
 import { LogPanel } from "../panels/shell/log/LogPanel";
 import { TracePanel } from "../panels/trace/TracePanel";
@@ -14,6 +17,7 @@ import { DisturbPanel } from "../panels/verify/disturb/DisturbPanel";
 import { VerifyPanel } from "../panels/verify/table/VerifyPanel";
 import { ForcesPanel } from "../panels/watch/forces/ForcesPanel";
 import { WatchPanel } from "../panels/watch/table/WatchPanel";
+import { useOperatorPanels } from "../store/operator/panels";
 import { type PageName, pageOf } from "../store/page/navigate";
 import { usePlc } from "../store/plc/plc";
 import { isDirty, useDocuments } from "../store/project/documents";
@@ -28,12 +32,14 @@ import { Start } from "./Start";
 
 export const components = {
   start: Start,
-  editor: ({ params }: IDockviewPanelProps<{ path: string }>) => <EditorPanel path={params.path} />,
+  editor: ({ params: { path } }: IDockviewPanelProps<{ path: string }>) =>
+    isPanelFile(path) ? <PanelFile path={path} /> : <EditorPanel path={path} />,
   watch: WatchPanel,
   trace: TracePanel,
   verify: VerifyPanel,
   forces: ForcesPanel,
   problems: ProblemsPanel,
+  search: SearchPanel,
   diagnostics: DiagnosticsPanel,
   log: LogPanel,
   console: ConsolePanel,
@@ -42,6 +48,17 @@ export const components = {
   history: HistoryPanel,
   ...pageComponents,
 };
+
+/** An operator panel; where its text cannot be drawn, that text, to be repaired. */
+function PanelFile({ path }: { path: string }) {
+  const wrong = useOperatorPanels(({ open }) => open[path]?.wrong != null);
+  return (
+    <div className="panelfile">
+      <OperatorPanel path={path} />
+      {wrong && <EditorPanel path={path} />}
+    </div>
+  );
+}
 
 /** The tab of a panel: icon and name, a mark for unsaved text, the number of problems. */
 export function PanelTab({ api, containerApi }: IDockviewPanelHeaderProps) {
@@ -90,11 +107,13 @@ const ICONS: Record<Pou["kind"], IconName> = {
 function FileTab({ path, api, onClose }: { path: string; api: PanelApi; onClose: () => void }) {
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
   const kind = useDocuments((documents) => documents.pous.find((pou) => pou.file === path)?.kind);
-  useTitle(api, dirty ? `${baseName(path)}, ${t("unsaved")}` : baseName(path));
+  const panel = isPanelFile(path);
+  const name = panel ? panelName(path) : baseName(path);
+  useTitle(api, dirty ? `${name}, ${t("unsaved")}` : name);
   return (
     <ClosableTab panel={api.id} name={path} onClose={onClose}>
-      <Icon name={kind ? ICONS[kind] : "init"} small />
-      {baseName(path)}
+      <Icon name={panel ? "layout" : kind ? ICONS[kind] : "init"} small />
+      {name}
       {dirty && <span className="dirty" title={t("unsaved")} />}
     </ClosableTab>
   );

@@ -26,7 +26,7 @@ export function standardLayout(dock: DockviewApi): void {
     position: { referencePanel: "start", direction: "below" },
     initialHeight: innerHeight < 800 ? 248 : 340,
   });
-  for (const id of ["trace", "verify", "forces", "problems", "diagnostics", "log", "history", "console"]) {
+  for (const id of ["trace", "verify", "forces", "problems", "search", "diagnostics", "log", "history", "console"]) {
     dock.addPanel({ id, component: id, position: { referencePanel: "watch" }, inactive: true });
   }
   dock.getPanel("start")?.api.setActive();
@@ -40,6 +40,7 @@ const FIXED = [
   "verify",
   "forces",
   "problems",
+  "search",
   "diagnostics",
   "log",
   "history",
@@ -80,14 +81,20 @@ export function openPagePanel(dock: DockviewApi, name: PageName): void {
   if (!panel.api.isMaximized()) panel.api.maximize();
 }
 
-/** A page has the whole dock only while it is the active panel; when somebody returns to it, it is as wide as before. */
-export function widePages(dock: DockviewApi): void {
+/** Gives the active panel the whole dock, or brings the others back. */
+export function enlarge(dock: DockviewApi): void {
+  if (dock.hasMaximizedGroup()) dock.exitMaximizedGroup();
+  else dock.activePanel?.api.maximize();
+}
+
+/** A panel has the whole dock only while it is the active one; when somebody returns to it, it is as wide as before. */
+export function widePanels(dock: DockviewApi): void {
   const wide = new Set<string>();
   dock.onDidMaximizedGroupChange(() => {
-    const page = dock.activePanel;
-    if (!page || !pageOf(page.id)) return;
-    if (page.api.isMaximized()) wide.add(page.id);
-    else wide.delete(page.id);
+    const panel = dock.activePanel;
+    if (!panel) return;
+    if (panel.api.isMaximized()) wide.add(panel.id);
+    else wide.delete(panel.id);
   });
   dock.onDidActivePanelChange(({ panel }) => {
     if (!panel || panel.api.isMaximized() === wide.has(panel.id)) return;

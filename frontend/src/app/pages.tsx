@@ -3,6 +3,8 @@ import type { ReactNode } from "react";
 import { RecordPage } from "../panels/errors/history/RecordPage";
 import { SweepPage } from "../panels/errors/sweep/SweepPage";
 import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
+import { RackPage } from "../panels/operator/RackPage";
+import { VersionsPage } from "../panels/project/editor/VersionsPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
 import { useRecordTitle } from "../store/errors/records";
 import { useSweepTitle } from "../store/errors/sweeps";
@@ -22,6 +24,8 @@ export const PAGES: Record<PageName, Page> = {
   sweep: { component: SweepPage, icon: "generated", useTitle: useSweepTitle },
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
+  versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
+  rack: { component: RackPage, icon: "plc", useTitle: () => t("rack.title") },
   usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },
 };
 

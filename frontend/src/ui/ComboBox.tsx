@@ -55,15 +55,16 @@ export function ComboBox<T extends Offer>(props: Props<T>) {
 
   const options = offers.map((offer, index) => (
     <div
-      key={offer.path}
+      key={`${offer.path} ${offer.type}`}
       id={`${id}-${index}`}
       role="option"
       aria-selected={index === chosen}
+      ref={index === chosen ? intoView : null}
       className={`mi${index === chosen ? " on" : ""}`}
       onPointerDown={(event) => event.preventDefault()}
       onClick={() => onTake(offer, "click")}
     >
-      {offer.type && <Icon name="var" small />}
+      {(offer.type || offer.icon) && <Icon name={offer.icon ?? "var"} small />}
       <span className="mono cut">{offer.path}</span>
       <span className="k">{offer.type}</span>
     </div>
@@ -110,6 +111,8 @@ export function ComboBox<T extends Offer>(props: Props<T>) {
     </>
   );
 }
+
+const intoView = (option: HTMLElement | null) => option?.scrollIntoView?.({ block: "nearest" });
 
 interface FloatingProps {
   id: string;

@@ -1,31 +1,40 @@
 import { type KeyboardEvent, useEffect, useId, useState } from "react";
+import type { IconName } from "./drawings";
 
 /** A path, and the text beside it. */
 export interface Offer {
   path: string;
   type: string;
+  /** That of a variable if it has none of its own. */
+  icon?: IconName;
 }
 
 const DELAY = 80;
 
-/** Suggestions for the typed text: requested a moment after the last key, chosen by arrows. */
+/** Suggestions for the typed text: requested a moment after the last key, chosen by arrows. `complete` must stay the same function. */
 export function useOffers<T extends Offer>(complete: (text: string) => Promise<readonly T[]>, most?: number) {
   const id = useId();
   const [query, ask] = useState("");
   const [offers, setOffers] = useState<readonly T[]>([]);
   const [chosen, setChosen] = useState(-1);
+  const [nothing, setNothing] = useState(false);
+  const [of, setOf] = useState("");
 
   useEffect(() => {
     setChosen(-1);
+    setNothing(false);
     const text = query.trim();
     if (text === "") return setOffers([]);
     let gone = false;
     const timer = setTimeout(() => {
-      void complete(text).then((found) => {
+      const show = (found: readonly T[]) => {
         if (gone) return;
         setOffers(found.slice(0, most));
+        setOf(text);
+        setNothing(found.length === 0);
         setChosen(-1);
-      });
+      };
+      complete(text).then(show, () => show([]));
     }, DELAY);
     return () => {
       gone = true;
@@ -51,7 +60,7 @@ export function useOffers<T extends Offer>(complete: (text: string) => Promise<r
     return true;
   }
 
-  return { id, offers, chosen, ask, show: setOffers, close, onKey };
+  return { id, offers, of, chosen, nothing, ask, show: setOffers, close, onKey };
 }
 
 export type Offering<T extends Offer> = ReturnType<typeof useOffers<T>>;

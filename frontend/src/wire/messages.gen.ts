@@ -20,6 +20,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/archives": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * What a zip file has of a project, of Scanbench, TwinCAT or plain files; keeps nothing
+         * @description What a zip file has of a project, of Scanbench, TwinCAT or plain files; keeps nothing. The body is the file.
+         */
+        post: operations["create_archive"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/archives/projects": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A new project with the files of a zip file, which is the body
+         * @description A new project with the files of a zip file, which is the body. They are not built yet.
+         */
+        post: operations["create_archives_project"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/comparisons/{comparison}": {
         parameters: {
             query?: never;
@@ -705,6 +745,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/rack": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit
+         * @description The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit.
+         */
+        get: operations["list_instance_rack"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/record": {
         parameters: {
             query?: never;
@@ -1244,6 +1304,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/archive": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The project as a zip file: `project.json`, the files as they are saved, the project's own errors
+         * @description The project as a zip file: `project.json`, the files as they are saved, the project's own errors.
+         */
+        get: operations["get_project_archive"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/build": {
         parameters: {
             query?: never;
@@ -1580,6 +1660,46 @@ export interface paths {
          * @description The kept verifications of a project, the newest first.
          */
         get: operations["list_project_verification_records"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Every build of a project that was accepted, the last one first
+         * @description Every build of a project that was accepted, the last one first.
+         */
+        get: operations["list_project_versions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/versions/{version}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The files of a version
+         * @description The files of a version.
+         */
+        get: operations["get_project_version"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2660,6 +2780,27 @@ export interface components {
             trigger?: components["schemas"]["TraceTrigger"] | null;
         };
         /**
+         * Channel
+         * @description A word of inputs or outputs of a PLC, and what lies in it.
+         */
+        Channel: {
+            /**
+             * Address
+             * @description in the vendor's notation; of areas that count bits that of its first bit
+             */
+            address: string;
+            /**
+             * Side
+             * @enum {string}
+             */
+            side: "input" | "output";
+            /**
+             * Terminals
+             * @description its bits, or the variables in it that are larger than a bit
+             */
+            terminals: components["schemas"]["Symbol"][];
+        };
+        /**
          * CheckRequest
          * @description Texts being edited, not yet saved; the other files of the project are taken as stored.
          */
@@ -2756,7 +2897,7 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"];
         /**
          * CommandResult
          * @description What became of a command that came by REST.
@@ -4206,11 +4347,6 @@ export interface components {
          */
         NewRerun: {
             /**
-             * Behind
-             * @default 0
-             */
-            behind: number;
-            /**
              * By
              * @default 0
              */
@@ -4237,6 +4373,12 @@ export interface components {
              * @description before which the error was raised
              */
             scan: number;
+            /**
+             * Scans After
+             * @description so many scans the new run goes on after the end of the original
+             * @default 0
+             */
+            scans_after: number;
         };
         /**
          * NewRetrospective
@@ -4440,6 +4582,24 @@ export interface components {
             name: string;
         };
         /**
+         * Press
+         * @description A push button: writes TRUE when it is pressed, FALSE when it is let go, and FALSE as well when this connection
+         *     ends before, if the PLC takes it then.
+         */
+        Press: {
+            /** Down */
+            down: boolean;
+            /** Path */
+            path: string;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "press";
+        };
+        /**
          * PreviewedErrors
          * @description What raising errors would do: what the plan says, or why it would be refused.
          */
@@ -4584,6 +4744,41 @@ export interface components {
              * @description what a fresh watch list begins with
              */
             watch: string[];
+        };
+        /** ProjectArchive */
+        ProjectArchive: {
+            /** Files */
+            files: string[];
+            /**
+             * Left Out
+             * @description no programs, or not compiled by their TwinCAT project
+             */
+            left_out: string[];
+            /**
+             * Model
+             * @description the same
+             */
+            model: string;
+            /**
+             * Name
+             * @description as its project file says; empty without one
+             */
+            name: string;
+        };
+        /**
+         * ProjectVersion
+         * @description A build of a project that was accepted.
+         */
+        ProjectVersion: {
+            /**
+             * At
+             * @description ISO 8601
+             */
+            at: string;
+            /** Author */
+            author: string;
+            /** Version */
+            version: number;
         };
         /**
          * Reaction
@@ -6765,6 +6960,18 @@ export interface components {
             /** Written */
             written: boolean;
         };
+        /** VersionText */
+        VersionText: {
+            /**
+             * Files
+             * @description path -> text
+             */
+            files: {
+                [key: string]: string;
+            };
+            /** Version */
+            version: number;
+        };
         /**
          * Violation
          * @description A place and instance at which a value left its subrange.
@@ -7052,6 +7259,67 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["AppInfo"];
+                };
+            };
+        };
+    };
+    create_archive: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectArchive"];
+                };
+            };
+        };
+    };
+    create_archives_project: {
+        parameters: {
+            query: {
+                model: string;
+                name: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Project"];
                 };
             };
         };
@@ -8332,6 +8600,37 @@ export interface operations {
             };
         };
     };
+    list_instance_rack: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Channel"][];
+                };
+            };
+        };
+    };
     get_instance_record: {
         parameters: {
             query?: {
@@ -9331,6 +9630,35 @@ export interface operations {
             };
         };
     };
+    get_project_archive: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
     build_project: {
         parameters: {
             query?: never;
@@ -10067,6 +10395,69 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["VerificationRecord"][];
+                };
+            };
+        };
+    };
+    list_project_versions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectVersion"][];
+                };
+            };
+        };
+    };
+    get_project_version: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+                version: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VersionText"];
                 };
             };
         };

@@ -6,6 +6,7 @@ import type {
   BuildResult,
   CellRef,
   ChangeInstance,
+  Channel,
   CheckResult,
   FileInfo,
   FileText,
@@ -22,6 +23,8 @@ import type {
   ProgramState,
   ProgramText,
   Project,
+  ProjectArchive,
+  ProjectVersion,
   Reaction,
   RecordInfo,
   Refusal,
@@ -32,6 +35,7 @@ import type {
   UserErrors,
   UserErrorsDraft,
   UserProblem,
+  VersionText,
   WatchEntry,
   WatchList,
   WatchListInfo,
@@ -142,6 +146,13 @@ export const rest = {
   app: (signal?: AbortSignal) => json<AppInfo>("GET", "", undefined, signal),
 
   createProject: (name: string, model: string) => json<Project>("POST", "/projects", { name, model }),
+  /** What a zip file has of a project. */
+  lookAtArchive: (file: Blob) => json<ProjectArchive>("POST", "/archives", file),
+  unpackProject: (name: string, model: string, file: Blob) =>
+    json<Project>("POST", `/archives/projects?${new URLSearchParams({ name, model })}`, file),
+  versions: (project: number) => json<ProjectVersion[]>("GET", `/projects/${project}/versions`),
+  version: (project: number, version: number) => json<VersionText>("GET", `/projects/${project}/versions/${version}`),
+  packProject: (project: number) => blob(`/projects/${project}/archive`),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),
   file: (project: number, path: string) => json<FileText>("GET", filePath(project, path)),
   save: async (project: number, path: string, text: string, version: number): Promise<SaveResult> => {
@@ -251,11 +262,9 @@ export const rest = {
   binding: (instance: number, path: string) =>
     json<Binding>("GET", `/instances/${instance}/binding?path=${encodeURIComponent(path)}`),
 
+  rack: (instance: number) => json<Channel[]>("GET", `/instances/${instance}/rack`),
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
-  /** The same for a path that is being typed: a path that is not a variable (yet) has no members. */
-  offeredSymbols: (instance: number, path: string) =>
-    json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?offer=true&path=${encodeURIComponent(path)}`),
   /** A program version as it ran in the instance. */
   programText: (instance: number, version: number) =>
     json<ProgramText>("GET", `/instances/${instance}/program?version=${version}`),

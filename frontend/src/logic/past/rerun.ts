@@ -12,7 +12,7 @@ export interface RerunForm {
   /** How many scans, as typed. */
   by: string;
   /** How many scans the replay continues after the end, as typed. */
-  behind: string;
+  scansAfter: string;
 }
 
 type Read = { wanted: NewRerun } | { trouble: TextKey };
@@ -21,9 +21,9 @@ type Read = { wanted: NewRerun } | { trouble: TextKey };
 export function readRerun(form: RerunForm, of: { scan: number; error: string }, first: number): Read {
   const name = form.name.trim();
   if (name === "") return { trouble: "name.missing" };
-  const behind = count(form.behind);
+  const scansAfter = count(form.scansAfter);
   const by = form.way === "same" || form.how === "out" ? 0 : count(form.by);
-  if (by === null || behind === null) return { trouble: "rerun.number" };
+  if (by === null || scansAfter === null) return { trouble: "rerun.number" };
   const shift = form.way === "earlier" ? -by : by;
   if (form.how === "instead" && form.instead === "") return { trouble: "rerun.noerror" };
   if (form.how === "same" && shift === 0) return { trouble: "rerun.nochange" };
@@ -36,7 +36,7 @@ export function readRerun(form: RerunForm, of: { scan: number; error: string }, 
       by: shift === 0 ? 0 : shift,
       instead: form.how === "instead" ? form.instead : "",
       leave_out: form.how === "out",
-      behind,
+      scans_after: scansAfter,
     },
   };
 }

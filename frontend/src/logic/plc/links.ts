@@ -26,6 +26,10 @@ export function readLink({ pathname, search }: Address): Link | null {
   };
 }
 
+/** The file of the operator panel that has the whole window: `/i/3?operate=Belt.panel.json`. */
+export const operatedPanel = ({ search }: Pick<Location, "search">) =>
+  new URLSearchParams(search).get("operate") || null;
+
 /** True for `/i/...` that this page does not understand. */
 export function isBrokenLink(address: Address): boolean {
   return address.pathname.startsWith("/i/") && readLink(address) === null;

@@ -1,6 +1,7 @@
 /** The rows of the explorer: files grouped by the kind of what they declare. */
 import type { FileInfo, Pou } from "../../wire/types";
 import { pouAt } from "../plc/sourceLines";
+import { isPanelFile, panelName } from "./panelFiles";
 
 export interface PouNode {
   kind: "pou";
@@ -18,7 +19,7 @@ export interface FileNode {
 }
 
 export interface PouGroup {
-  kind: (typeof ORDER)[number] | "plant" | "file";
+  kind: (typeof ORDER)[number] | "panel" | "plant" | "file";
   nodes: (PouNode | FileNode)[];
 }
 
@@ -29,7 +30,7 @@ const ORDER = ["program", "function_block", "class", "interface", "function", "t
 const inPlant = (path: string) => /(^|\/)plant\//.test(path);
 
 /**
- * Groups in the order of the standard, then the plant by its files; files without a declaration (new, or with errors) come last,
+ * Groups in the order of the standard, then operator panels and the plant by their files; files without a declaration (new, or with errors) come last,
  * by their names.
  */
 export function pouGroups(declarations: readonly Pou[], files: readonly FileInfo[]): PouGroup[] {
@@ -40,9 +41,11 @@ export function pouGroups(declarations: readonly Pou[], files: readonly FileInfo
     const declared = pous.filter((pou) => pou.kind === kind);
     return { kind, nodes: kind === "global" ? globalFiles(declared) : declared.map((pou) => pouNode(pou, perFile)) };
   });
-  const plant = files.filter(({ path }) => inPlant(path));
+  const panels = files.filter(({ path }) => isPanelFile(path));
+  groups.push({ kind: "panel", nodes: panels.map(({ path }) => fileNode(path, panelName(path))) });
+  const plant = files.filter(({ path }) => inPlant(path) && !isPanelFile(path));
   groups.push({ kind: "plant", nodes: plant.map(({ path }) => fileNode(path, path.replace(/^plant\//, ""))) });
-  const loose = files.filter(({ path }) => !perFile.has(path) && !inPlant(path));
+  const loose = files.filter(({ path }) => !perFile.has(path) && !inPlant(path) && !isPanelFile(path));
   groups.push({ kind: "file", nodes: loose.map(({ path }) => fileNode(path, path)) });
   return groups.filter((group) => group.nodes.length > 0);
 }
@@ -74,8 +77,8 @@ const XML_FILE = /\.tc(pou|dut|gvl|io)$/i;
 const TEXT_FILE = /\.(st|iecst|exp)$/i;
 const TABLE = /\.csv$/i;
 
-/** What the file picker offers: files that the compiler reads. */
-export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.csv";
+/** What the file picker offers: files that the compiler reads, and operator panels. */
+export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.csv,.panel.json";
 
 /** A table of inputs, not a program. */
 export const isTable = (path: string) => TABLE.test(path);

@@ -2,7 +2,7 @@
 import { create } from "zustand";
 
 /** Panels at the bottom and at the right, which cannot be closed. */
-const PANELS = [
+export const PANELS = [
   "console",
   "diagnostics",
   "disturb",
@@ -11,6 +11,7 @@ const PANELS = [
   "history",
   "log",
   "problems",
+  "search",
   "trace",
   "verify",
   "watch",
@@ -18,7 +19,7 @@ const PANELS = [
 type PanelName = (typeof PANELS)[number];
 export const isPanel = (name: string): name is PanelName => PANELS.some((known) => known === name);
 /** Pages in the centre, among the files: opened on request, closed like a file. */
-const PAGES = ["sweep", "usererrors", "record", "compare"] as const;
+const PAGES = ["sweep", "usererrors", "record", "compare", "versions", "rack"] as const;
 export type PageName = (typeof PAGES)[number];
 
 export const pageOf = (panel: string): PageName | undefined => PAGES.find((name) => name === panel);

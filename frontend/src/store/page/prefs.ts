@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { type Language, languages, setLanguage } from "../../text";
 import { keep, recall } from "./localStorage";
 
-const themes = ["dark", "light", "contrast"] as const;
+export const themes = ["dark", "light", "contrast"] as const;
 type Theme = (typeof themes)[number];
 
 interface Prefs {
@@ -50,8 +50,8 @@ usePrefs.subscribe((prefs) => {
   keep("prefs", prefs);
 });
 
-export function nextTheme(): void {
-  usePrefs.setState(({ theme }) => ({ theme: themes[(themes.indexOf(theme) + 1) % themes.length] ?? "dark" }));
+export function chooseTheme(theme: Theme): void {
+  usePrefs.setState({ theme });
 }
 
 export function toggleChecks(): void {

@@ -59,7 +59,8 @@ async function checkKey(): Promise<void> {
   }
 }
 
-const KEY_PATIENCE = 2000;
+/** A busy server may take long for it, in ms; meanwhile further attempts go on. */
+const KEY_PATIENCE = 10_000;
 
 usePlc.subscribe(({ link: now }, { link: before }) => {
   if (now.state === "lost" && now.attempt !== before.attempt) void checkKey();

@@ -2,25 +2,13 @@
 import { rest } from "../../wire/rest";
 import type { PlcSymbol } from "../../wire/types";
 import { useBench } from "./bench";
-import { isAway, loadMembers, useMembers } from "./members";
+import { loadMembers, useMembers } from "./members";
 
 export async function complete(text: string): Promise<readonly PlcSymbol[]> {
   const instance = useBench.getState().instance;
   if (!instance) return [];
   try {
     return await rest.complete(instance.id, text);
-  } catch {
-    return [];
-  }
-}
-
-/** The members of the typed text before a point; none when it is not a variable of the running program. */
-export async function offeredMembers(path: string): Promise<readonly PlcSymbol[]> {
-  const { instance, of } = useMembers.getState();
-  const known = of.get(path);
-  if (known || instance === null || isAway()) return known ?? [];
-  try {
-    return await rest.offeredSymbols(instance, path);
   } catch {
     return [];
   }

@@ -1,7 +1,15 @@
 /** The address of the shown scan, and the request of an address that was opened. */
 import { create } from "zustand";
 import { grouped } from "../../logic/format/numbers";
-import { isBrokenLink, isOwnComputer, type Link, linkPath, readLink, wayTo } from "../../logic/plc/links";
+import {
+  isBrokenLink,
+  isOwnComputer,
+  type Link,
+  linkPath,
+  operatedPanel,
+  readLink,
+  wayTo,
+} from "../../logic/plc/links";
 import { t } from "../../text";
 import { isPanel, showPanel } from "../page/navigate";
 import { useBench } from "./bench";
@@ -67,6 +75,12 @@ export function scanLink(scan: number | null, panel: string | null = null): stri
   return instance === undefined ? "" : linkOrigin() + linkPath({ instance, scan, panel });
 }
 
+/** The address of an operator panel alone; empty without an instance. */
+export function panelLink(file: string): string {
+  const link = scanLink(null);
+  return link === "" ? "" : `${link}?operate=${encodeURIComponent(file)}`;
+}
+
 /** The beginning of shared links: the public address of the server, else that of this page. */
 const linkOrigin = () => useBench.getState().app?.public_url || location.origin;
 
@@ -86,7 +100,7 @@ function writeAddress(): void {
   clearTimeout(later);
   later = setTimeout(() => {
     const { opened, question } = get();
-    if (opened !== null || question !== null) return;
+    if (opened !== null || question !== null || operatedPanel(location) !== null) return;
     const instance = useBench.getState().instance?.id;
     const { state } = usePlc.getState();
     if (instance === undefined) return;

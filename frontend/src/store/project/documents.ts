@@ -4,6 +4,7 @@ import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { forbidden } from "../../logic/plc/permits";
 import { skeleton } from "../../logic/project/explorer";
+import { isPanelFile } from "../../logic/project/panelFiles";
 import { t } from "../../text";
 import { rest } from "../../wire/rest";
 import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../../wire/types";
@@ -81,6 +82,13 @@ export function holdsUnsaved(path: string): boolean {
   const { project, open } = get();
   if (open[path]) return isDirty(open[path]);
   return project !== null && recall<Draft | null>(draftKey(project, path), null) !== null;
+}
+
+/** The text of a file as this browser has it; null where it has none but the saved one. */
+export function textHere(path: string): string | null {
+  const { project, open } = get();
+  if (project === null) return null;
+  return open[path]?.text ?? recall<Draft | null>(draftKey(project, path), null)?.text ?? null;
 }
 
 const draftKey = (project: number, path: string) => `draft.${project}.${path}`;
@@ -300,8 +308,9 @@ export async function onSaved(file: FileInfo): Promise<void> {
   const document = open[file.path];
   if (document?.deletedBy != null) patch(file.path, { deletedBy: null });
   if (!files.some((known) => known.path === file.path)) await refreshFiles();
+  else set({ files: files.map((known) => (known.path === file.path && known.version < file.version ? file : known)) });
   if (project === null || !document || isDirty(document) || file.version <= document.version) {
-    scheduleCheck();
+    if (!isPanelFile(file.path)) scheduleCheck(); // no program has a panel
     return;
   }
   const fresh = await rest.file(project, file.path);

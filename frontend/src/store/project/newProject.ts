@@ -1,16 +1,38 @@
-/** A new project that runs at once. */
+/** A new project that runs at once, and projects as files. */
+import { messageOf } from "../../logic/format/messageOf";
 import { skeleton } from "../../logic/project/explorer";
 import { rest } from "../../wire/rest";
+import type { Project, ProjectArchive } from "../../wire/types";
+import { saveFile } from "../page/download";
+import { showPanel } from "../page/navigate";
 import { chooseProject, createInstance, refreshApp } from "../plc/bench";
+import { useDocuments } from "./documents";
 
-/** Makes a project with a first program and an instance that runs it. Throws the server's refusal. */
-export async function createProject(name: string, model: string, instanceName: string): Promise<void> {
-  const project = await rest.createProject(name, model);
+/** Makes a project, with the files of an archive or with a first program, and an instance that runs it. Throws the server's refusal. */
+export async function createProject(
+  name: string,
+  model: string,
+  instanceName: string,
+  archive: File | null,
+): Promise<void> {
+  const project = await (archive ? rest.unpackProject(name, model, archive) : rest.createProject(name, model));
   if ((await rest.files(project.id)).length === 0) await rest.save(project.id, "Main.st", skeleton("Main.st"), 0);
   const built = await rest.build(project.id, true);
   if (built.ok) await createInstance(built.project, instanceName);
   else {
     await refreshApp();
     await chooseProject(project);
+  }
+}
+
+export const lookAtArchive = (file: File): Promise<ProjectArchive> => rest.lookAtArchive(file);
+
+/** Saves a project as a zip file, as it is on the server. */
+export async function exportProject({ id, name }: Project): Promise<void> {
+  try {
+    saveFile(await rest.packProject(id), `${name}.zip`);
+  } catch (error) {
+    useDocuments.setState({ trouble: messageOf(error) });
+    showPanel("problems");
   }
 }

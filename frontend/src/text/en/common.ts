@@ -8,6 +8,7 @@ export const common = {
   "failed.start": "Start again",
   "failed.title": "The PLC failed.",
   language: "Language",
+  "layout.enlarge": "Enlarge the panel, or bring the others back",
   "layout.reset": "Reset layout",
   "log.at": "Time",
   "log.by": "Author",

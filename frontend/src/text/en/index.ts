@@ -1,8 +1,10 @@
 /** English, all of it. */
+import { commands } from "./commands";
 import { common } from "./common";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
+import { operator } from "./operator";
 import { past } from "./past";
 import { plc } from "./plc";
 import { project } from "./project";
@@ -13,6 +15,7 @@ import { verify } from "./verify";
 import { watch } from "./watch";
 
 export const english = {
+  ...commands,
   ...common,
   ...plc,
   ...project,
@@ -25,6 +28,7 @@ export const english = {
   ...verify,
   ...disturb,
   ...past,
+  ...operator,
 };
 
 export type TextKey = keyof typeof english;

@@ -104,7 +104,7 @@ export const past = {
   "link.outside": "Scan {scan} cannot be shown: this run has scans {first} to {live}.",
   "link.read": "Dismiss",
   "rerun.about": "Runs everything once more as a new PLC, with the same commands except for this change.",
-  "rerun.behind": "Additional scans after the end",
+  "rerun.scansAfter": "Additional scans after the end",
   "rerun.by": "Scans",
   "rerun.cancel": "Cancel the replay",
   "rerun.compare": "Compare with the original",

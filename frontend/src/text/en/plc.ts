@@ -243,4 +243,10 @@ export const plc = {
   "state.past": "In the past",
   "state.readonly": "scan {scan}, read-only",
   "state.switchedoff": "switched off",
+  "newproject.archive": "Program files (optional): a zip file of a project of Scanbench or TwinCAT, or of plain files",
+  "newproject.archive.has": "{count} files",
+  "newproject.archive.left": "{count} files; {left} other files are left out: {names}",
+  "picker.export": "Export the project",
+  "picker.export.hint": "as it is saved",
+  "newproject.archive.model": "The project in the file is written for {model}.",
 } as const;

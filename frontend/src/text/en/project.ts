@@ -142,4 +142,7 @@ export const project = {
   "explorer.vendor": "Vendor: {vendor}",
   "explorer.verified": "{verified} of {count} errors verified ({share})",
   "explorer.words": "{words} words",
+  "goto.label": "Go to",
+  "goto.none": "Nothing in this project has these letters in its name: {text}.",
+  "goto.placeholder": "File, POU, method, type, variable, value; > for commands",
 } as const;

@@ -10,6 +10,7 @@ export const common: Record<keyof typeof english, string> = {
   "failed.start": "もう一度起動",
   "failed.title": "PLC の起動に失敗しました。",
   language: "言語",
+  "layout.enlarge": "パネルを広げる、またはほかのパネルを戻す",
   "layout.reset": "配置を初期化",
   "log.at": "時刻",
   "log.by": "操作者",

@@ -1,9 +1,11 @@
 /** 日本語 */
 import type { TextKey } from "../en";
+import { commands } from "./commands";
 import { common } from "./common";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
+import { operator } from "./operator";
 import { past } from "./past";
 import { plc } from "./plc";
 import { project } from "./project";
@@ -14,6 +16,7 @@ import { verify } from "./verify";
 import { watch } from "./watch";
 
 export const japanese: Record<TextKey, string> = {
+  ...commands,
   ...common,
   ...plc,
   ...project,
@@ -26,4 +29,5 @@ export const japanese: Record<TextKey, string> = {
   ...verify,
   ...disturb,
   ...past,
+  ...operator,
 };

@@ -104,7 +104,7 @@ export const past: Record<keyof typeof english, string> = {
   "link.outside": "スキャン {scan} は表示できません。この実行にはスキャン {first} から {live} まであります。",
   "link.read": "閉じる",
   "rerun.about": "この実行を別の PLC としてもう一度行います。ほかの操作はすべて同じように入力されます。",
-  "rerun.behind": "終わりの後に続けるスキャン数",
+  "rerun.scansAfter": "終わりの後に続けるスキャン数",
   "rerun.by": "スキャン数",
   "rerun.cancel": "再実行を中止",
   "rerun.compare": "元の実行と比較",

@@ -243,4 +243,10 @@ export const plc: Record<keyof typeof english, string> = {
   "state.past": "過去",
   "state.readonly": "スキャン {scan}、読み出し専用",
   "state.switchedoff": "電源オフ",
+  "newproject.archive": "プログラムファイル（任意）: Scanbench または TwinCAT のプロジェクト、またはファイルの zip",
+  "newproject.archive.has": "ファイル {count} 件",
+  "newproject.archive.left": "ファイル {count} 件。ほかの {left} 件は取り込みません: {names}",
+  "picker.export": "プロジェクトをエクスポート",
+  "picker.export.hint": "保存済みの内容",
+  "newproject.archive.model": "ファイルのプロジェクトは {model} 用です。",
 };

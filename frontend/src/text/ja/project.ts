@@ -142,4 +142,7 @@ export const project: Record<keyof typeof english, string> = {
   "explorer.vendor": "メーカー: {vendor}",
   "explorer.verified": "異常 {count} 件中 {verified} 件が確認済み（{share}）",
   "explorer.words": "{words} ワード",
+  "goto.label": "移動",
+  "goto.none": "この文字を含む名前はプロジェクトにありません: {text}",
+  "goto.placeholder": "ファイル、POU、メソッド、型、変数、値。> でコマンド",
 };

@@ -14,14 +14,22 @@ import { markCoverage } from "./coverage";
 import "./debug.css";
 import { addDebugActions } from "./debugActions";
 import { addDisturbAction } from "./disturbAction";
+import { offerEditorCommands } from "./editorCommands";
+import "./fixes";
 import { type Gutter, showBreakpoints } from "./gutter";
 import { lineMenu } from "./gutterMenu";
 import { markHalt } from "./halt";
+import "./hints";
 import "./hover";
 import { showInlineValues } from "./inlineValues";
+import "./layout";
 import { modelOf, pastModel } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
+import "./navigation";
 import { markReaction } from "./reaction";
+import "./rename";
+import "./semanticTokens";
+import "./signatures";
 import { addTabActions } from "./tab";
 import { markTrap } from "./trap";
 import { addVerifyAction } from "./verifyAction";
@@ -57,6 +65,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     addTabActions(code);
     addWatchAction(code, path);
     addWriterAction(code, path);
+    const noCommands = offerEditorCommands(code, path);
     const noDrag = dragToWatch(code, host.current, path);
     let gutter: Gutter | null = null;
     const openMenu = (line: number, at: { x: number; y: number }) => {
@@ -92,6 +101,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
       unmarkCoverage();
       hideValues();
       noDrag();
+      noCommands();
       breakpoints.dispose();
       if (ran === null) left.set(path, code.saveViewState());
       code.dispose();

@@ -1,7 +1,7 @@
 import { useEffect, useRef } from "react";
 import { useDocuments } from "../../../store/project/documents";
 import { modelOf } from "./models";
-import { editor, monospaceFont, options } from "./monaco";
+import { editor, endComparison, monospaceFont, options } from "./monaco";
 import { LANGUAGE } from "./st";
 
 /** The other text on the left, one's own on the right, still editable. */
@@ -21,7 +21,7 @@ export default function DiffView({ path, theirs }: { path: string; theirs: strin
     const diff = view.createViewModel({ original, modified: modelOf(path, mine.text) });
     view.setModel(diff);
     return () => {
-      view.dispose();
+      endComparison(view);
       // Cancels a running comparison, which would access the text that is disposed of now.
       diff.dispose();
       original.dispose();

@@ -1,26 +1,36 @@
-/** The meaning and the value of a name: in the frame while the program is halted, else in the instance that the text is seen as. */
+/** The value of a name, in the frame while the program is halted, else in the instance that the text is seen as; and its declaration. */
 
+import type { Hover } from "vscode-languageserver-types";
 import { worthOf } from "../../../store/debug/console";
 import { loadNames, seenAsNow } from "../../../store/debug/seenAs";
 import { frameNow } from "../../../store/debug/stack";
-import { useDocuments } from "../../../store/project/documents";
+import { askAt } from "../../../store/project/language";
 import { t } from "../../../text";
 import type { Pou } from "../../../wire/types";
 import { languages } from "./monaco";
 import { hasValues, nameAt, pouOf } from "./names";
+import { at, isPast, pathOfModel, signalOf, textOf } from "./serverShapes";
 import { LANGUAGE } from "./st";
 
 languages.registerHoverProvider(LANGUAGE, {
-  provideHover: async (model, position) => {
+  provideHover: async (model, position, token) => {
     const name = nameAt(model, position);
     if (!name) return null;
-    const said = (await variable(name.text, pouOf(model, position.lineNumber))) ?? declaration(name.text);
-    if (!said) return null;
+    const path = pathOfModel(model);
+    const asked = isPast(model) ? null : askAt<Hover>("textDocument/hover", path, at(position), {}, signalOf(token));
+    const told = textOf((await asked)?.contents);
+    // A type or POU may have the name of a variable, and has no value.
+    const value = HEAD.test(told) ? null : await variable(name.text, pouOf(model, position.lineNumber));
+    const said = [...(value ?? []), told].filter(Boolean);
+    if (said.length === 0) return null;
     const line = position.lineNumber;
     const range = { startLineNumber: line, endLineNumber: line, startColumn: name.from, endColumn: name.to };
-    return { range, contents: said.map((value) => ({ value })) };
+    return { range, contents: said.map((text) => ({ value: text })) };
   },
 });
+
+/** The declaration of something that has no value. */
+const HEAD = /^```st\n(?:PROGRAM|FUNCTION|FUNCTION_BLOCK|CLASS|INTERFACE|METHOD|TYPE)\b/;
 
 const code = (text: string) => `\`\`\`${LANGUAGE}\n${text}\n\`\`\``;
 
@@ -36,11 +46,4 @@ async function variable(name: string, around: Pou | undefined): Promise<string[]
   if (!found) return null;
   const where = inFrame || !own ? [] : [t("debug.seenas.hover", { instance })];
   return [code(`${name} : ${found.type ?? ""} := ${found.result}`), ...where];
-}
-
-/** A POU, or a type of the project. */
-function declaration(name: string): string[] | null {
-  const found = useDocuments.getState().pous.find((pou) => pou.name.toUpperCase() === name.toUpperCase());
-  if (!found) return null;
-  return [code(found.name), `${t(`kind.${found.kind}`)} · ${found.file}:${found.line}`];
 }

@@ -3,6 +3,7 @@
 import { isTable } from "../../../logic/project/explorer";
 import { usePlc } from "../../../store/plc/plc";
 import { edit, useDocuments } from "../../../store/project/documents";
+import { savedText } from "../../../store/project/sourceText";
 import type { Problem, Violation } from "../../../wire/types";
 import { editor, MarkerSeverity, Uri } from "./monaco";
 import { LANGUAGE } from "./st";
@@ -26,14 +27,27 @@ export const PAST = "scanbench-past";
 export const pastModel = (path: string, text: string): editor.ITextModel =>
   editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, Uri.from({ scheme: PAST, path: `/${path}` }));
 
+export const uriOfPath = (path: string) => Uri.from({ scheme: "scanbench", path: `/${path}` });
+
+/** Texts of files that are not open, which Monaco shows beside a place in them. */
+const shown = new Map<string, editor.ITextModel>();
+
+/** Gives Monaco the text of a file, open or not. */
+export async function presentModel(path: string): Promise<void> {
+  if (models.has(path)) return;
+  const text = (await savedText(path)) ?? "";
+  if (models.has(path)) return;
+  const known = shown.get(path);
+  if (known) known.setValue(text);
+  else shown.set(path, editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, uriOfPath(path)));
+}
+
 export function modelOf(path: string, text: string): editor.ITextModel {
   const known = models.get(path);
   if (known && !known.isDisposed()) return known;
-  const model = editor.createModel(
-    text,
-    isTable(path) ? TEXT : LANGUAGE,
-    Uri.from({ scheme: "scanbench", path: `/${path}` }),
-  );
+  shown.get(path)?.dispose();
+  shown.delete(path);
+  const model = editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, uriOfPath(path));
   model.setEOL(editor.EndOfLineSequence.LF);
   model.onDidChangeContent(() => edit(path, model.getValue()));
   models.set(path, model);
@@ -82,6 +96,8 @@ usePlc.subscribe((now, before) => {
 
 // A text that changed in the store but not by typing (theirs was taken, or a colleague saved) goes into the model.
 useDocuments.subscribe((now, before) => {
+  // From its first moment on, so that every change of it can be taken back, also one that nobody typed.
+  for (const { path, text } of Object.values(now.open)) if (!before.open[path]) modelOf(path, text);
   for (const [path, model] of models) {
     const document = now.open[path];
     if (!document) {

@@ -29,6 +29,12 @@ function paint(): void {
       rule("string", "code-literal"),
       rule("string.escape", "code-literal"),
       rule("variable.predefined", "code-literal"),
+      // By what a name means (`semanticTokens.ts`).
+      ...["variable", "parameter", "property"].map((kind) => rule(kind, "code-text")),
+      ...["variable.readonly", "parameter.readonly", "property.readonly", "enumMember"].map((kind) =>
+        rule(kind, "code-literal"),
+      ),
+      ...["class", "function", "method"].map((kind) => rule(kind, "code-type")),
       rule("comment", "code-comment"),
       rule("annotation", "code-comment"),
       rule("delimiter", "code-text"),
@@ -57,6 +63,8 @@ function paint(): void {
       "editorSuggestWidget.focusHighlightForeground": token("accent"),
       "editorSuggestWidget.selectedBackground": token("accent-soft"),
       "editorSuggestWidget.selectedForeground": token("text"),
+      "editorInlayHint.foreground": token("code-comment"),
+      "editorInlayHint.background": "#00000000",
       "editorError.foreground": token("severity-error"),
       "editorWarning.foreground": token("severity-warning"),
       "editorInfo.foreground": token("severity-info"),
@@ -64,6 +72,7 @@ function paint(): void {
       "editorOverviewRuler.border": "#00000000",
       "scrollbar.shadow": "#00000000",
       focusBorder: token("focus"),
+      ...floats(token),
     },
   });
   editor.setTheme(THEME);
@@ -72,6 +81,45 @@ function paint(): void {
 // The build shortens #ffffff to #fff, which Monaco does not accept.
 function sixDigits(colour: string): string {
   return colour.length === 4 ? colour.replace(/[^#]/g, "$&$&") : colour;
+}
+
+/** The editor's own lists, fields and peeks, in the colours of the page. */
+function floats(token: (name: string) => string): Record<string, string> {
+  return {
+    "badge.background": token("bg-control"),
+    "badge.foreground": token("text-muted"),
+    "input.background": token("bg-inset"),
+    "input.foreground": token("text"),
+    "input.border": token("line-control"),
+    "list.activeSelectionBackground": token("accent-soft"),
+    "list.activeSelectionForeground": token("text"),
+    "list.focusBackground": token("accent-soft"),
+    "list.highlightForeground": token("accent"),
+    "list.hoverBackground": token("bg-hover"),
+    "list.inactiveSelectionBackground": token("bg-pressed"),
+    "menu.background": token("bg-float"),
+    "menu.border": token("line-seam"),
+    "menu.foreground": token("text"),
+    "menu.selectionBackground": token("accent-soft"),
+    "menu.selectionForeground": token("text"),
+    "peekView.border": token("accent"),
+    "peekViewEditor.background": token("bg-inset"),
+    "peekViewEditor.matchHighlightBackground": token("accent-soft"),
+    "peekViewEditorGutter.background": token("bg-inset"),
+    "peekViewResult.background": token("bg-panel"),
+    "peekViewResult.fileForeground": token("text"),
+    "peekViewResult.lineForeground": token("text-muted"),
+    "peekViewResult.matchHighlightBackground": token("accent-soft"),
+    "peekViewResult.selectionBackground": token("bg-pressed"),
+    "peekViewResult.selectionForeground": token("text"),
+    "peekViewTitle.background": token("bg-raised"),
+    "peekViewTitleDescription.foreground": token("text-muted"),
+    "peekViewTitleLabel.foreground": token("text"),
+    "quickInput.background": token("bg-float"),
+    "quickInput.foreground": token("text"),
+    "quickInputList.focusBackground": token("accent-soft"),
+    "quickInputList.focusForeground": token("text"),
+  };
 }
 
 // Colours by nesting depth would be more prominent than the syntax and the states.
@@ -90,6 +138,8 @@ document.body.append(popups);
 export const options: editor.IStandaloneEditorConstructionOptions = {
   language: LANGUAGE,
   theme: THEME,
+  // A theme of the standalone editor cannot say this.
+  "semanticHighlighting.enabled": true,
   automaticLayout: true,
   fixedOverflowWidgets: true,
   overflowWidgetsDomNode: popups,
@@ -131,3 +181,9 @@ export function monospaceFont(): string {
 
 export type { IPosition, IRange } from "monaco-editor/editor";
 export { Emitter, editor, KeyCode, KeyMod, languages, MarkerSeverity, Uri } from "monaco-editor/editor";
+
+/** Ends a comparison of two texts. Its editors made all hovers depend on them; one that is made after it frees them again. */
+export function endComparison(view: editor.IStandaloneDiffEditor): void {
+  view.dispose();
+  editor.create(document.createElement("div"), { model: null }).dispose();
+}

@@ -1,4 +1,5 @@
 import { type DragEvent, useState } from "react";
+import { askNewPanel, useOperatorPanels } from "../../../store/operator/panels";
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { IconButton } from "../../../ui/IconButton";
@@ -8,6 +9,7 @@ import { PastNote } from "../PastNote";
 import { AddFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
 import { NewFile } from "./NewFile";
+import { NewPanel } from "./NewPanel";
 import { useExplorerRows } from "./rows";
 import { useAddFiles } from "./useAddFiles";
 
@@ -19,6 +21,7 @@ export function Explorer() {
   const project = useDocuments((documents) => documents.project);
   const rows = useExplorerRows(open, setDeleting);
   const adding = useAddFiles();
+  const newPanel = useOperatorPanels(({ asking }) => asking);
 
   function onDrag(event: DragEvent): void {
     if (project !== null && event.dataTransfer.types.includes("Files")) event.preventDefault();
@@ -43,6 +46,13 @@ export function Explorer() {
         <h2 className="grow">{t("explorer.label")}</h2>
         <AddFiles adding={adding} />
         <IconButton
+          icon="layout"
+          label={t("operator.new")}
+          small
+          disabled={project === null}
+          onClick={() => askNewPanel(true)}
+        />
+        <IconButton
           icon="plus"
           label={t("file.new")}
           small
@@ -54,6 +64,7 @@ export function Explorer() {
       <Tree label={t("explorer.label")} rows={rows} />
       {menu}
       {creating && <NewFile onClose={() => setCreating(false)} />}
+      {newPanel && <NewPanel onClose={() => askNewPanel(false)} />}
       {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
     </nav>
   );

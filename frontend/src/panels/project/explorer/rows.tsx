@@ -12,6 +12,7 @@ import {
 } from "../../../logic/project/explorer";
 import { useDebug } from "../../../store/debug/debug";
 import { openUserErrors } from "../../../store/errors/userErrors";
+import { openRack } from "../../../store/operator/rack";
 import { openFile } from "../../../store/page/navigate";
 import { useBench } from "../../../store/plc/bench";
 import { isAway, loadMembers, useMembers } from "../../../store/plc/members";
@@ -37,6 +38,7 @@ const POU_ICONS: Record<Exclude<PouGroup["kind"], "plant">, IconName> = {
   interface: "struct",
   type: "struct",
   global: "globe",
+  panel: "layout",
   file: "init",
 };
 
@@ -61,6 +63,7 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
     "interface",
     "function",
     "global",
+    "panel",
     "plant",
     "file",
     "instances",
@@ -118,12 +121,19 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
       });
     }
   }
+  if (instance) rows.push(rackRow());
   if (instance) {
     rows.push({ ...folder(folding, "instances", t("explorer.instances")), icon: "folder" });
     if (isOpen("instances")) rows.push(...symbolRows("", 1, members, folding, openMenu));
   }
   if (model) rows.push(...modelRows(model, folding, openMenu));
   return rows;
+}
+
+/** Opens the page of all inputs and outputs. */
+function rackRow(): TreeRow {
+  const name = t("rack.title");
+  return { key: "rack", level: 0, icon: "plc", label: name, name, onActivate: openRack };
 }
 
 const plantIcon = (file: string): IconName => (isTable(file) ? "list" : "program");

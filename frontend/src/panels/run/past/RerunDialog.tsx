@@ -64,7 +64,12 @@ function Ask({ wish }: { wish: RerunWish }) {
         </label>
       )}
       {form.how !== "out" && <When form={form} scan={wish.scan} onChange={change} />}
-      <Field label={t("rerun.behind")} value={form.behind} onChange={(behind) => change({ behind })} mono />
+      <Field
+        label={t("rerun.scansAfter")}
+        value={form.scansAfter}
+        onChange={(scansAfter) => change({ scansAfter })}
+        mono
+      />
       <Field label={t("rerun.name")} value={form.name} onChange={(name) => change({ name })} />
     </FormDialog>
   );
@@ -112,6 +117,6 @@ function formOf(wish: RerunWish): RerunForm {
     instead: "",
     way: wish.by === 0 ? "same" : wish.by < 0 ? "earlier" : "later",
     by: String(Math.abs(wish.by) || 1),
-    behind: "0",
+    scansAfter: "0",
   };
 }

@@ -127,6 +127,8 @@ function MarkButton({ cluster, label, you, later, onChoose, onMenu }: MarkProps)
       tabIndex={-1}
       aria-label={label}
       title={label}
+      // While the run is short its marks move quickly: a press and its release belong to the same mark.
+      onPointerDown={(event) => event.currentTarget.setPointerCapture?.(event.pointerId)}
       onClick={(event) => onChoose(event.currentTarget)}
       onContextMenu={(event) => {
         event.preventDefault();

@@ -2,12 +2,19 @@ import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { begins, box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
+import { refusal } from "../../../testing/routes";
 import { MODEL, someInstance, someProject } from "../../../testing/samples";
 import { t } from "../../../text";
 import type { ModelSummary } from "../../../wire/types";
 import { NewProject } from "./NewProject";
 
-const MODELS: ModelSummary[] = [{ name: "CJ1M", vendor: "Omron", description: "", error_count: 3, verified_count: 3 }];
+const MODELS: ModelSummary[] = ["CJ1M", "NJ501"].map((name) => ({
+  name,
+  vendor: "Omron",
+  description: "",
+  error_count: 3,
+  verified_count: 3,
+}));
 
 test("a project needs its model: it is not made before the models are here, and they are asked for again", async () => {
   let arrive: (models: ModelSummary[]) => void = () => undefined;
@@ -47,4 +54,42 @@ test("a project needs its model: it is not made before the models are here, and 
   await waitFor(() => expect(closed).toBe(true));
   expect(server.askedOf("POST", "/projects")).toEqual([{ name: "late", model: "CJ1M" }]);
   expect(server.askedOf("POST", "/instances")).toMatchObject([{ project: 800 }]);
+});
+
+test("a zip file gives name, model and files; what it is not is told, and makes no project", async () => {
+  const { server, user } = await openPage((server) => {
+    server.on("GET", "/models", () => MODELS);
+    server.on("GET", "/models/*", () => MODEL);
+    const has = { name: "Press", model: "NJ501", files: ["Main.st", "lib/F.st"], left_out: ["notes.txt"] };
+    server.on("POST", "/archives", () => has);
+    server.on("POST", "/archives/projects", () => someProject(801));
+    server.on("GET", "/projects/*/files", () => [{ path: "Main.st", version: 1, author: "Mika" }]);
+    const result = { ok: true, needs_agreement: false, message: "", changes: [], pous: [], problems: [] };
+    server.on("POST", "/projects/*/build", () => ({ ...result, project: someProject(801) }));
+    server.on("POST", "/instances", () => {
+      server.instance = someInstance(801, someProject(801));
+      return server.instance;
+    });
+  });
+  let closed = false;
+  render(<NewProject onClose={() => (closed = true)} />);
+  const dialog = screen.getByRole("dialog", { name: t("newproject.title") });
+  const file = () =>
+    within(dialog).getByLabelText(new RegExp(t("newproject.archive").slice(0, 20).replace(/[()]/g, ".")));
+  await waitFor(() => expect(button(t("create"), dialog)).toHaveProperty("disabled", false));
+  await user.upload(file(), new File(["zip"], "press.zip"));
+  await waitFor(() => expect(box(begins(t("newproject.name")), dialog)).toHaveProperty("value", "Press"));
+  expect(within(dialog).getByRole("combobox")).toHaveProperty("value", "NJ501");
+  expect(textOf(dialog)).toContain(t("newproject.archive.left", { count: 2, left: 1, names: "notes.txt" }));
+
+  server.on("POST", "/archives", () => refusal("no zip file"));
+  await user.upload(file(), new File(["nonsense"], "other.zip"));
+  await waitFor(() => expect(textOf(within(dialog).queryByRole("alert"))).toContain("no zip file"));
+  server.on("POST", "/archives", () => ({ name: "", model: "", files: ["Main.st"], left_out: [] }));
+  await user.upload(file(), new File(["zip"], "press.zip"));
+  await waitFor(() => expect(textOf(dialog)).toContain(t("newproject.archive.has", { count: 1 })));
+  await user.click(button(t("create"), dialog));
+  await waitFor(() => expect(closed).toBe(true));
+  expect(server.askedOf("POST", "/projects")).toEqual([]);
+  expect(server.askedOf("PUT", "/projects/801/files/Main.st")).toEqual([]);
 });

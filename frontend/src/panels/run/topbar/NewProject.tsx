@@ -7,6 +7,7 @@ import { t } from "../../../text";
 import { Field } from "../../../ui/Field";
 import { FormDialog } from "../../../ui/FormDialog";
 import type { ModelSummary } from "../../../wire/types";
+import { ArchiveField, type Chosen } from "./ArchiveField";
 import { ModelFacts } from "./ModelFacts";
 
 /** Asks for the name, the PLC model and the first instance of a new project. */
@@ -18,6 +19,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   const [instance, setInstance] = useState(() => freeName((taken ?? []).map((known) => known.name)));
   const [unreachable, setUnreachable] = useState<string | null>(null);
   const [wrongInstance, setWrongInstance] = useState(false);
+  const [archive, setArchive] = useState<Chosen>("none");
 
   const isTaken = (wanted: string) => taken?.some((known) => known.name === wanted) === true;
 
@@ -43,7 +45,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
     if (project === "" || first === "") throw new Error(t("name.missing"));
     // Checked before anything is created: otherwise a project without an instance would remain after a failure.
     if (isTaken(first)) throw new Error(t("newproject.taken", { name: first }));
-    await createProject(project, model, first);
+    await createProject(project, model, first, typeof archive === "object" ? archive.file : null);
     return true;
   }
 
@@ -53,7 +55,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
       about={t("newproject.about")}
       width={520}
       submit={model === "" && unreachable !== null ? t("lost.now") : t("create")}
-      disabled={model === "" && unreachable === null}
+      disabled={(model === "" && unreachable === null) || archive === "not yet"}
       onSubmit={create}
       onClose={onClose}
     >
@@ -82,6 +84,18 @@ export function NewProject({ onClose }: { onClose: () => void }) {
             </select>
           </label>
           <ModelFacts model={models.find((known) => known.name === model)} />
+          <ArchiveField
+            onChoose={(chosen) => {
+              setArchive(chosen);
+              if (typeof chosen !== "object") return;
+              const { file, found } = chosen;
+              setName((typed) => typed || found.name || file.name.replace(/\.zip$/i, ""));
+              if (models.some((known) => known.name === found.model)) setModel(found.model);
+            }}
+          />
+          {typeof archive === "object" && archive.found.model !== "" && archive.found.model !== model && (
+            <p className="hint">{t("newproject.archive.model", { model: archive.found.model })}</p>
+          )}
           <Field
             label={t("newproject.instance")}
             value={instance}

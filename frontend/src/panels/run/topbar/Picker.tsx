@@ -2,13 +2,15 @@ import { useState } from "react";
 import { showCompare } from "../../../store/past/comparisons";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../../store/plc/bench";
 import { showInstances } from "../../../store/plc/instances";
+import { exportProject } from "../../../store/project/newProject";
 import { useShownProgram } from "../../../store/project/shownProgram";
+import { openVersions } from "../../../store/project/versions";
 import { openTraceImport } from "../../../store/verify/traceImport";
 import { openVerifyRecords } from "../../../store/verify/verifyRecords";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
-import type { AppInfo } from "../../../wire/types";
+import type { AppInfo, Project } from "../../../wire/types";
 import { NewInstance } from "./NewInstance";
 import { NewProject } from "./NewProject";
 
@@ -27,7 +29,7 @@ export function Picker() {
         className="picker"
         items={() => {
           void refreshApp();
-          return app ? itemsOf(app, project?.id, instance?.id, setAsking) : [];
+          return app ? itemsOf(app, project, instance?.id, setAsking) : [];
         }}
       >
         <span className="two">
@@ -46,7 +48,7 @@ export function Picker() {
 
 function itemsOf(
   app: AppInfo,
-  project: number | undefined,
+  project: Project | null,
   instance: number | undefined,
   ask: (what: Asking) => void,
 ): MenuItem[] {
@@ -63,7 +65,7 @@ function itemsOf(
     (known): MenuItem => ({
       label: known.name,
       hint: t("picker.noinstance"),
-      checked: known.id === project && instance === undefined,
+      checked: known.id === project?.id && instance === undefined,
       onSelect: () => void chooseProject(known),
     }),
   );
@@ -81,10 +83,23 @@ function itemsOf(
     {
       label: t("picker.newinstance"),
       icon: "plc",
-      disabled: project === undefined,
+      disabled: project === null,
       onSelect: () => ask("instance"),
     },
     { label: t("picker.newproject"), icon: "plus", onSelect: () => ask("project") },
+    {
+      label: t("versions.open"),
+      icon: "branch",
+      disabled: project === null,
+      onSelect: () => void openVersions(),
+    },
+    {
+      label: t("picker.export"),
+      icon: "export",
+      hint: t("picker.export.hint"),
+      disabled: project === null,
+      onSelect: () => project && void exportProject(project),
+    },
     {
       label: t("import.trace"),
       icon: "import",
@@ -92,6 +107,6 @@ function itemsOf(
       disabled: instance === undefined,
       onSelect: () => openTraceImport(),
     },
-    { label: t("verify.records"), icon: "list", disabled: project === undefined, onSelect: openVerifyRecords },
+    { label: t("verify.records"), icon: "list", disabled: project === null, onSelect: openVerifyRecords },
   ];
 }

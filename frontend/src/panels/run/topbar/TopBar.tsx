@@ -1,8 +1,9 @@
-import { nextTheme, usePrefs } from "../../../store/page/prefs";
+import { chooseTheme, themes, usePrefs } from "../../../store/page/prefs";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
+import { MenuButton } from "../../../ui/Menu";
 import { ModeSwitch } from "./ModeSwitch";
 import { Picker } from "./Picker";
 import { PlcState } from "./PlcState";
@@ -28,7 +29,19 @@ export function TopBar({ onResetLayout }: { onResetLayout: () => void }) {
       <People />
       <div className="row tight">
         <IconButton icon="layout" label={t("layout.reset")} onClick={onResetLayout} />
-        <IconButton icon="theme" label={t("theme.switch", { theme: t(`theme.${theme}`) })} onClick={nextTheme} />
+        <MenuButton
+          label={t("theme.switch", { theme: t(`theme.${theme}`) })}
+          className="ib"
+          items={() =>
+            themes.map((name) => ({
+              label: t(`theme.${name}`),
+              checked: name === theme,
+              onSelect: () => chooseTheme(name),
+            }))
+          }
+        >
+          <Icon name="theme" />
+        </MenuButton>
       </div>
     </header>
   );

@@ -1,0 +1,66 @@
+import { useRef, useState } from "react";
+import { messageOf } from "../../../logic/format/messageOf";
+import { lookAtArchive } from "../../../store/project/newProject";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import type { ProjectArchive } from "../../../wire/types";
+
+interface Props {
+  onChoose: (chosen: Chosen) => void;
+}
+
+/** Nothing; a file that is being looked at, or that has no project; a file and what it has. */
+export type Chosen = "none" | "not yet" | { file: File; found: ProjectArchive };
+
+/** Asks for a zip file with the files of a new project, and tells what it has. */
+export function ArchiveField({ onChoose }: Props) {
+  const [found, setFound] = useState<ProjectArchive | null>(null);
+  const [refused, setRefused] = useState<string | null>(null);
+
+  const turn = useRef(0);
+
+  async function choose(file: File | null): Promise<void> {
+    turn.current += 1;
+    const mine = turn.current;
+    setFound(null);
+    setRefused(null);
+    onChoose(file ? "not yet" : "none");
+    if (!file) return;
+    try {
+      const has = await lookAtArchive(file);
+      if (mine !== turn.current) return;
+      setFound(has);
+      onChoose({ file, found: has });
+    } catch (error) {
+      if (mine === turn.current) setRefused(messageOf(error));
+    }
+  }
+
+  return (
+    <label className="field">
+      <span>{t("newproject.archive")}</span>
+      <input
+        type="file"
+        accept=".zip"
+        className="inp file"
+        aria-invalid={refused !== null}
+        onChange={({ target }) => void choose(target.files?.[0] ?? null)}
+      />
+      {found && <span className="hint">{says(found)}</span>}
+      {refused && (
+        <span className="hint bad" role="alert">
+          <Icon name="error" small />
+          {refused}
+        </span>
+      )}
+    </label>
+  );
+}
+
+const SHOWN = 3;
+
+function says({ files, left_out }: ProjectArchive): string {
+  if (left_out.length === 0) return t("newproject.archive.has", { count: files.length });
+  const names = left_out.slice(0, SHOWN).join(", ") + (left_out.length > SHOWN ? ", …" : "");
+  return t("newproject.archive.left", { count: files.length, left: left_out.length, names });
+}

@@ -1,0 +1,137 @@
+/** Search in all files of the project: in the texts as they are edited here, else as they are saved. */
+import { create } from "zustand";
+import { isPanelFile } from "../../logic/project/panelFiles";
+import { type Match, matches, pattern, replaced, replacement, type Wanted } from "../../logic/project/search";
+import { openFile, showPanel } from "../page/navigate";
+import { edit, openDocument, textHere, useDocuments } from "./documents";
+import { savedText } from "./sourceText";
+
+export interface FileMatches {
+  path: string;
+  matches: readonly Match[];
+}
+
+interface Search extends Wanted {
+  /** What replaces it, as typed. */
+  by: string;
+  found: readonly FileMatches[];
+  /** Files whose text the server did not give. */
+  unread: readonly string[];
+  /** The expression is none. */
+  bad: boolean;
+  /** How often somebody asked for the field by a key. */
+  asked: number;
+}
+
+export const useSearch = create<Search>(() => ({
+  text: "",
+  cased: false,
+  whole: false,
+  regex: false,
+  by: "",
+  found: [],
+  unread: [],
+  bad: false,
+  asked: 0,
+}));
+
+const get = useSearch.getState;
+const set = useSearch.setState;
+
+/** Saved texts by project and path, with the version that they are of. */
+const saved = new Map<string, { version: number; text: string }>();
+let turn = 0;
+/** While somebody types, the list follows a moment later. */
+const QUIET_MS = 150;
+let soon: ReturnType<typeof setTimeout> | undefined;
+let replacing = false;
+
+/** Ctrl+Shift+F. */
+export function askSearch(): void {
+  showPanel("search");
+  set(({ asked }) => ({ asked: asked + 1 }));
+}
+
+export function look(change: Partial<Wanted>): void {
+  set(change);
+  searchSoon();
+}
+
+export const replaceBy = (by: string) => set({ by });
+
+function searchSoon(): void {
+  clearTimeout(soon);
+  soon = setTimeout(() => void search(), QUIET_MS);
+}
+
+/** Looks through all files; a later call makes an earlier one void. */
+async function search(): Promise<void> {
+  turn += 1;
+  const mine = turn;
+  const wanted = get().text === "" ? null : pattern(get());
+  if (!wanted) return set({ found: [], unread: [], bad: get().text !== "" });
+  const { project, files, open } = useDocuments.getState();
+  const programs = files.filter(({ path }) => !isPanelFile(path));
+  const versions = new Map(programs.map(({ path, version }) => [path, version]));
+  const found: FileMatches[] = [];
+  const unread: string[] = [];
+  // A file that somebody deleted is still here while it is open.
+  for (const path of new Set([...versions.keys(), ...Object.keys(open)])) {
+    const text = textHere(path) ?? (await savedOf(`${project} ${path}`, path, versions.get(path) ?? 0));
+    if (mine !== turn) return;
+    if (text === null) {
+      unread.push(path);
+      continue;
+    }
+    const inFile = matches(text, wanted);
+    if (inFile.length > 0) found.push({ path, matches: inFile });
+  }
+  set({ found, unread, bad: false });
+}
+
+async function savedOf(key: string, path: string, version: number): Promise<string | null> {
+  const known = saved.get(key);
+  if (known?.version === version) return known.text;
+  const mine = turn;
+  const text = await savedText(path);
+  if (text !== null && mine === turn) saved.set(key, { version, text });
+  return text;
+}
+
+/** What a match becomes. */
+export const becomes = (match: Match) => replacement(match, get().by, get().regex);
+
+/** Replaces one match, or all of a file, or all. The files are opened and not saved: the editor takes it back by Ctrl+Z. */
+export async function replace(which: readonly FileMatches[]): Promise<void> {
+  const { by, regex } = get();
+  const wanted = pattern(get());
+  if (replacing || !wanted) return;
+  replacing = true;
+  try {
+    for (const { path, matches: some } of which) {
+      await openDocument(path).catch(() => undefined); // it is gone, or nobody answers: the search afterwards tells it
+      const document = useDocuments.getState().open[path];
+      if (!document) continue;
+      openFile(path);
+      // The text may have changed since the search: only what is still there is replaced.
+      const known = new Set(some.map(({ at, length }) => `${at} ${length}`));
+      const still = matches(document.text, wanted).filter(({ at, length }) => known.has(`${at} ${length}`));
+      edit(
+        path,
+        replaced(document.text, still, (match) => replacement(match, by, regex)),
+      );
+    }
+    await search();
+  } finally {
+    replacing = false;
+  }
+}
+
+useDocuments.subscribe((now, before) => {
+  if (now.project !== before.project) {
+    turn += 1; // what still comes is of the other project
+    saved.clear();
+    set({ found: [], unread: [] });
+  }
+  if (get().text !== "" && (now.open !== before.open || now.files !== before.files)) searchSoon();
+});
