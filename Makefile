@@ -26,7 +26,7 @@ ARGS ?=
 SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json vscode/package-lock.json))
 
-.PHONY: help setup setup-test run test check coverage bench shots lock clean
+.PHONY: help setup setup-test run test check coverage bench bench-ui shots lock clean
 .PHONY: fuzz features nightly nightly-unit nightly-e2e
 .PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
 .PHONY: tools-python tools-node system-chromium system-postgresql
@@ -38,6 +38,7 @@ help:
 	@echo "make nightly what \`make test\` leaves out to stay quick: the other browser stories, far more random programs"
 	@echo "make coverage  how much of the backend its tests run, and which files less than 80 %"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
+	@echo "make bench-ui  what opening the page costs: bytes, time to the first live value, frames"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
 	@echo "make features  write the pages of docs/ that are generated: features, standard library, REST API"
 	@echo "make shots   take the README's screenshots again"
@@ -72,6 +73,9 @@ bench: $(VENV)/.stamp-runtime
 	@cd backend && $(BIN)/python -m bench pace
 	@cd backend && $(BIN)/python -m bench goto
 	@cd backend && $(BIN)/python -m bench instances
+
+bench-ui: setup-test frontend/dist/.stamp
+	@cd e2e && node bench/load.mjs
 
 N ?= 10000
 SEED ?=

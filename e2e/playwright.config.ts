@@ -36,7 +36,7 @@ export default defineConfig({
   fullyParallel: true,
   retries: 0,
   forbidOnly: true,
-  reporter: [['list']],
+  reporter: [['list'], ['./failures.ts']],
   use: {
     browserName: 'chromium',
     headless: true,

@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('the list of instances: load, clone, power off and on, export and import', async ({ openAs }) => {
+test('the list of instances: load, clone, power off and on, export and import', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await ann.watch.set('start', 'TRUE');

@@ -41,8 +41,9 @@ test('a colleague who follows a link is asked for the token, and then reaches th
   });
 
   await test.step('after the browser lost the token, the page itself asks for it', async () => {
-    await page.context().clearCookies();
+    // Without a server no answer that is still under way can bring the token back.
     await server.kill();
+    await page.context().clearCookies();
     await server.startAgain();
     await expect(page.getByRole('heading', { name: 'This server requires its token' })).toBeVisible();
     await token.fill(server.address);
