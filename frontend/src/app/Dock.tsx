@@ -21,6 +21,7 @@ import {
   closeTab,
   enlarge,
   fileOf,
+  offerFilePanel,
   openFilePanel,
   openPagePanel,
   restoreLayout,
@@ -128,7 +129,8 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
     for (const path of wanted) if (!shown.has(path)) openFilePanel(dock, path);
     const front = recall<string>(`front.${project}`, "");
     if (wanted.includes(front)) {
-      openFilePanel(dock, front);
+      if (kept.project === project) offerFilePanel(dock, front);
+      else openFilePanel(dock, front);
       inFrontIs(front); // the dock tells nothing where it was in front already
     }
     const inFront = useDocuments.subscribe(({ active }, before) => {
@@ -162,5 +164,5 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
 function openFirst(dock: DockviewApi): void {
   const { pous, files } = useDocuments.getState();
   const first = pous.find((pou) => pou.kind === "program")?.file ?? (pous.length > 0 ? files[0]?.path : undefined);
-  if (first) openFilePanel(dock, first);
+  if (first) offerFilePanel(dock, first);
 }

@@ -67,7 +67,22 @@ export function openFilePanel(dock: DockviewApi, path: string): void {
     known.api.setActive();
     return;
   }
-  dock.addPanel({ id: FILE + path, component: "editor", params: { path }, position: editorPlace(dock) });
+  addFile(dock, path, false);
+}
+
+/** Opens a file that nobody asked for: a page that somebody opened meanwhile stays the one that is shown. */
+export function offerFilePanel(dock: DockviewApi, path: string): void {
+  if (pageShown(dock)) addFile(dock, path, true);
+  else openFilePanel(dock, path);
+}
+
+/** Whether somebody looks at a page among the files. */
+const pageShown = (dock: DockviewApi) => dock.panels.some((panel) => pageOf(panel.id) && panel.api.isVisible);
+
+function addFile(dock: DockviewApi, path: string, inactive: boolean): void {
+  if (dock.getPanel(FILE + path)) return;
+  const position = editorPlace(dock);
+  dock.addPanel({ id: FILE + path, component: "editor", params: { path }, position, inactive });
   const start = dock.getPanel("start");
   if (start) dock.removePanel(start);
 }

@@ -38,7 +38,7 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "", () => someApp(instance()));
   on("GET", "/instances", () => [instance()]);
   on("GET", "/instances/*/model", () => MODEL);
-  for (const what of ["symbols", "complete", "traces", "verifications", "comparisons"] as const)
+  for (const what of ["symbols", "complete", "instances-of", "traces", "verifications", "comparisons"] as const)
     on("GET", `/instances/*/${what}`, none);
   for (const what of ["files", "sweeps", "states", "records", "trace-records", "watch-lists"] as const)
     on("GET", `/projects/*/${what}`, none);
