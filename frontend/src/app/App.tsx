@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useRef } from "react";
 import { operatedPanel } from "../logic/plc/links";
 import { showState } from "../logic/plc/plcstate";
 import { DebugSide } from "../panels/debug/stack/DebugSide";
@@ -18,7 +18,6 @@ import { offerCommands } from "../store/page/palette";
 import { usePrefs } from "../store/page/prefs";
 import { start, useBench } from "../store/plc/bench";
 import { useOnline, usePlc } from "../store/plc/plc";
-import { useDocuments } from "../store/project/documents";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
@@ -28,6 +27,7 @@ import { Keys } from "./Keys";
 import { installKeys } from "./keys";
 import { PanelWindow } from "./PanelWindow";
 import { Splitter } from "./Splitter";
+import { useFlyout } from "./useFlyout";
 
 /** The window: rail, bars, explorer and the dock. */
 export function App() {
@@ -42,23 +42,18 @@ export function App() {
 
 function Window() {
   const dock = useRef<DockHandle>(null);
-  const [left, setLeft] = useState<"explorer" | "debug" | null>(null);
+  const { side, toggle } = useFlyout();
   const online = useOnline();
   const connecting = usePlc((plc) => plc.link.state === "none" || plc.link.state === "connecting");
   const state = usePlc((plc) => plc.state);
   const tone = showState(state, online).tone;
   const name = useBench((bench) => bench.instance?.name ?? bench.project?.name);
 
-  const active = useDocuments((documents) => documents.active);
-
   useEffect(() => installKeys(), []);
   useEffect(() => {
     const arrangement = { resetLayout: () => dock.current?.reset(), enlarge: () => dock.current?.enlarge() };
     return offerCommands(() => windowCommands(arrangement));
   }, []);
-  // In a narrow window the left side covers the editor, so it closes once a file is open.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: the change of the file is the reason
-  useEffect(() => setLeft(null), [active]);
   useEffect(() => {
     document.title = name ? `${name} – Scanbench` : "Scanbench";
   }, [name]);
@@ -70,19 +65,19 @@ function Window() {
       <div className="bannerslot">
         <Banners />
       </div>
-      <main className={`work${left ? ` showleft show-${left}` : ""}`}>
+      <main className={`work${side ? ` showleft show-${side}` : ""}`}>
         <div className="strip" role="toolbar" aria-label={t("strip.label")}>
           <IconButton
             icon="folder"
             label={t("explorer.label")}
-            className={left === "explorer" ? "is-on" : ""}
-            onClick={() => setLeft(left === "explorer" ? null : "explorer")}
+            className={side === "explorer" ? "is-on" : ""}
+            onClick={() => toggle("explorer")}
           />
           <IconButton
             icon="stack"
             label={t("strip.debug")}
-            className={left === "debug" ? "is-on" : ""}
-            onClick={() => setLeft(left === "debug" ? null : "debug")}
+            className={side === "debug" ? "is-on" : ""}
+            onClick={() => toggle("debug")}
           />
         </div>
         <div className="left leftside">

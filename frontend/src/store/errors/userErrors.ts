@@ -6,6 +6,7 @@ import { messageOf } from "../../logic/format/messageOf";
 import { rest } from "../../wire/rest";
 import type { FileInfo, FileText, UserError, UserErrors, UserErrorsDraft, UserProblem } from "../../wire/types";
 import { saveFile } from "../page/download";
+import { inTurn } from "../page/inTurn";
 import { forget, keep, recall } from "../page/localStorage";
 import { openPage } from "../page/navigate";
 import { useBench } from "../plc/bench";
@@ -195,13 +196,17 @@ async function check(): Promise<void> {
 // ---- storing ----
 
 /** Writes errors.xml. A refusal, or the version of somebody who saved first, is shown; the edits stay. */
-export async function saveUserErrors(): Promise<void> {
-  const { project, errors, groups, version } = get();
-  if (project === null) return;
-  clearTimeout(timer);
-  set({ untouched: [] });
-  await storing(project, () => rest.saveUserErrors(project, { errors, groups, version }));
+export function saveUserErrors(): Promise<void> {
+  return saving("", async () => {
+    const { project, errors, groups, version } = get();
+    if (project === null || !isEdited(get())) return;
+    clearTimeout(timer);
+    set({ untouched: [] });
+    await storing(project, () => rest.saveUserErrors(project, { errors, groups, version }));
+  });
 }
+
+const saving = inTurn();
 
 /** Imports the errors of a file, replacing the existing ones or in addition. True when they are stored. */
 export async function importUserErrors(file: Blob, how: "replace" | "add"): Promise<string | null> {

@@ -28,16 +28,18 @@ interface Place {
   path: string;
   line: number;
   column: number;
-  /** Counts the requests, so that going to the same place twice works twice. */
+  /** Counts, so that going to the same place twice works twice. */
   turn: number;
 }
 
 interface Navigation {
   /** The place for the caret in the editor of a file. */
   place: Place | null;
+  /** Counts what somebody went to: places in files, and pages. */
+  went: number;
 }
 
-export const useNavigation = create<Navigation>(() => ({ place: null }));
+export const useNavigation = create<Navigation>(() => ({ place: null, went: 0 }));
 
 type Opener = {
   file: (path: string) => void;
@@ -53,7 +55,7 @@ export function onNavigate(next: Opener): void {
 export function openFile(path: string, line?: number, column = 1): void {
   opener.file(path);
   if (line === undefined) return;
-  useNavigation.setState(({ place }) => ({ place: { path, line, column, turn: (place?.turn ?? 0) + 1 } }));
+  useNavigation.setState(({ went }) => ({ place: { path, line, column, turn: went + 1 }, went: went + 1 }));
 }
 
 export function showPanel(name: PanelName): void {
@@ -62,4 +64,5 @@ export function showPanel(name: PanelName): void {
 
 export function openPage(name: PageName): void {
   opener.page(name);
+  useNavigation.setState(({ went }) => ({ went: went + 1 }));
 }

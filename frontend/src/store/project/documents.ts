@@ -8,6 +8,7 @@ import { isPanelFile } from "../../logic/project/panelFiles";
 import { t } from "../../text";
 import { rest } from "../../wire/rest";
 import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../../wire/types";
+import { inTurn } from "../page/inTurn";
 import { forget, keep, recall } from "../page/localStorage";
 import { openFile, showPanel } from "../page/navigate";
 import { usePlc } from "../plc/plc";
@@ -181,11 +182,20 @@ export function edit(path: string, text: string): void {
   scheduleCheck();
 }
 
-/** Saves one file. False when it was not saved, because somebody else saved first or the server refused. */
-export async function save(path: string): Promise<boolean> {
-  const { project, open } = get();
-  const document = open[path];
-  if (project === null || !document) return false;
+const saving = inTurn();
+
+/**
+ * Saves one file, after a save of it that is under way: its version is the one to begin from. False when it was not saved,
+ * because somebody else saved first or the server refused.
+ */
+export function save(path: string): Promise<boolean> {
+  const { project } = get();
+  return saving(`${project} ${path}`, () => saveNow(project, path));
+}
+
+async function saveNow(project: number | null, path: string): Promise<boolean> {
+  const document = get().open[path];
+  if (project === null || project !== get().project || !document) return false;
   if (!isDirty(document)) return true;
   if (isCutOff()) return false;
   const { text } = document;

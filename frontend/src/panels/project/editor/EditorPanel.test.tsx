@@ -38,6 +38,34 @@ test("what is typed is saved with the version that it began from", async () => {
   ]);
 });
 
+test("who saves and builds before the first answer is there is no conflict to oneself", async () => {
+  let answer: () => void = () => undefined;
+  let version = 1;
+  const { server, user } = await openEditor((server) => {
+    server.on("PUT", "/projects/*/files/**", async (question) => {
+      if (version === 1) await new Promise<void>((come) => (answer = come));
+      const { version: from } = question.body as { version: number };
+      if (from < version)
+        return new Status(409, { message: "", theirs: { ...FILE, version, text: "", author: "Mika" } });
+      version += 1;
+      return { ...FILE, version };
+    });
+    server.on("POST", "/projects/*/build", () => new Status(422, { message: "enough", near: [] }));
+  });
+  await user.type(text(), " one");
+  await user.click(saveButton());
+  await user.type(text(), " two");
+  await user.click(buildButton());
+  const sent = () => server.askedOf("PUT", `/projects/${server.instance.project.id}/files/${PATH}`);
+  expect(sent()).toHaveLength(1);
+  answer();
+  await screen.findByText(t("build.refused"));
+  expect(sent()).toEqual([
+    { text: "stored one", version: 1 },
+    { text: "stored one two", version: 2 },
+  ]);
+});
+
 test.each(["mine", "theirs"] as const)(
   "of two who save the second one is shown both texts, and takes %s",
   async (choice) => {

@@ -57,8 +57,9 @@ test("a project needs its model: it is not made before the models are here, and 
 });
 
 test("a zip file gives name, model and files; what it is not is told, and makes no project", async () => {
+  let arrive: () => void = () => undefined;
   const { server, user } = await openPage((server) => {
-    server.on("GET", "/models", () => MODELS);
+    server.on("GET", "/models", () => new Promise((resolve) => (arrive = () => resolve(MODELS))));
     server.on("GET", "/models/*", () => MODEL);
     const has = { name: "Press", model: "NJ501", files: ["Main.st", "lib/F.st"], left_out: ["notes.txt"] };
     server.on("POST", "/archives", () => has);
@@ -76,10 +77,10 @@ test("a zip file gives name, model and files; what it is not is told, and makes 
   const dialog = screen.getByRole("dialog", { name: t("newproject.title") });
   const file = () =>
     within(dialog).getByLabelText(new RegExp(t("newproject.archive").slice(0, 20).replace(/[()]/g, ".")));
-  await waitFor(() => expect(button(t("create"), dialog)).toHaveProperty("disabled", false));
   await user.upload(file(), new File(["zip"], "press.zip"));
   await waitFor(() => expect(box(begins(t("newproject.name")), dialog)).toHaveProperty("value", "Press"));
-  expect(within(dialog).getByRole("combobox")).toHaveProperty("value", "NJ501");
+  arrive(); // the models come after the file was read
+  await waitFor(() => expect(within(dialog).getByRole("combobox")).toHaveProperty("value", "NJ501"));
   expect(textOf(dialog)).toContain(t("newproject.archive.left", { count: 2, left: 1, names: "notes.txt" }));
 
   server.on("POST", "/archives", () => refusal("no zip file"));

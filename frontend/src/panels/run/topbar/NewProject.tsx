@@ -14,22 +14,24 @@ import { ModelFacts } from "./ModelFacts";
 export function NewProject({ onClose }: { onClose: () => void }) {
   const [models, setModels] = useState<readonly ModelSummary[]>([]);
   const [name, setName] = useState("");
-  const [model, setModel] = useState("");
+  /** Empty until somebody chooses: then it is the model of the archive, or a usual one. */
+  const [picked, setPicked] = useState("");
   const taken = useBench(({ app }) => app?.instances);
   const [instance, setInstance] = useState(() => freeName((taken ?? []).map((known) => known.name)));
   const [unreachable, setUnreachable] = useState<string | null>(null);
   const [wrongInstance, setWrongInstance] = useState(false);
   const [archive, setArchive] = useState<Chosen>("none");
 
+  const isKnown = (wanted: string) => models.some((known) => known.name === wanted);
+  const offered = typeof archive === "object" && isKnown(archive.found.model) ? archive.found.model : usual(models);
+  const model = picked || offered;
+
   const isTaken = (wanted: string) => taken?.some((known) => known.name === wanted) === true;
 
   const loadModels = useCallback(() => {
     setUnreachable(null);
     listModels()
-      .then((all) => {
-        setModels(all);
-        setModel((chosen) => chosen || (all.find((known) => known.name === "GENERIC-IEC") ?? all[0])?.name || "");
-      })
+      .then(setModels)
       .catch((error: unknown) => setUnreachable(messageOf(error)));
   }, []);
   useEffect(loadModels, [loadModels]);
@@ -73,7 +75,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
               className="inp"
               value={model}
               disabled={models.length === 0}
-              onChange={(event) => setModel(event.target.value)}
+              onChange={(event) => setPicked(event.target.value)}
             >
               {models.length === 0 && <option value="">{t("newproject.loading")}</option>}
               {models.map((known) => (
@@ -90,7 +92,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
               if (typeof chosen !== "object") return;
               const { file, found } = chosen;
               setName((typed) => typed || found.name || file.name.replace(/\.zip$/i, ""));
-              if (models.some((known) => known.name === found.model)) setModel(found.model);
+              if (isKnown(found.model)) setPicked("");
             }}
           />
           {typeof archive === "object" && archive.found.model !== "" && archive.found.model !== model && (
@@ -107,6 +109,9 @@ export function NewProject({ onClose }: { onClose: () => void }) {
     </FormDialog>
   );
 }
+
+const usual = (models: readonly ModelSummary[]) =>
+  (models.find((known) => known.name === "GENERIC-IEC") ?? models[0])?.name ?? "";
 
 /** The first of plc-1, plc-2, ... that is free. */
 function freeName(taken: readonly string[]): string {
