@@ -73,6 +73,12 @@ export class Watch {
     await this.page.getByRole('menuitem', { name: item, exact: true }).click();
   }
 
+  /** Makes an empty list, and waits until it is shown: what is not saved of the one before is saved first. */
+  async newList(): Promise<void> {
+    await this.list('New list');
+    await expect.poll(() => this.paths()).toEqual([]);
+  }
+
   /** Shows a different list, such as `Belt 3`, which everybody shares, and waits until it has arrived. */
   async chooseShared(list: string): Promise<void> {
     await this.picker.click();

@@ -33,8 +33,8 @@ test(
     });
 
     await test.step('a click on the problem goes to its place', async () => {
-      await main.caretAfter('PROGRAM Main');
-      await expect(mika.statusBar).toContainText('Ln 1,');
+      await main.caretAfter('errors  : ErrorHandler;');
+      await expect(mika.statusBar).toContainText('Ln 3,');
       await mika.problems.entries.first().click();
       await expect(mika.statusBar).toContainText('Ln 17,');
     });

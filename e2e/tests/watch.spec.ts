@@ -59,7 +59,7 @@ test('addresses, ranges, parts, formats and refusals', { tag: '@nightly' }, asyn
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch } = mika;
-  await watch.list('New list');
+  await watch.newList();
   await expect(mika.page.getByText('Nothing watched yet')).toBeVisible();
 
   await test.step('a range shows its words, each of which can be written', async () => {
@@ -111,7 +111,7 @@ test('groups, order, filter, CSV and dragging', { tag: '@nightly' }, async ({ op
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch, page } = mika;
-  await watch.list('New list');
+  await watch.newList();
 
   await test.step('many lines are pasted as many entries', async () => {
     await watch.paste('Main.parts.total\nbufferLevel\nMain.heartbeat\nmotor');
@@ -171,7 +171,7 @@ test('groups, order, filter, CSV and dragging', { tag: '@nightly' }, async ({ op
     const text = await readFile(file, 'utf8');
     expect(text).toContain('Main.parts.total;default;Belt');
     await writeFile(file, `${text}D7;octal;\nD8;hex;New\n`);
-    await watch.list('New list');
+    await watch.newList();
     await watch.importCsv(file);
     await expect(page.getByRole('dialog')).toContainText('there is no format octal');
     await page.getByRole('dialog').getByRole('button', { name: 'Close', exact: true }).last().click();

@@ -15,10 +15,11 @@ from scanbench.host.build import Builder, BuildFailed
 from scanbench.host.builds import Builds
 from scanbench.host.limits import MemoryLimit, limit_files
 from scanbench.host.link import Link
-from scanbench.host.lookup import look_up
+from scanbench.host.lookup import look_up, place_is, words_are
 from scanbench.host.loop import Loop
 from scanbench.host.opening import NoSpace, open_loop
 from scanbench.wire import host as protocol
+from scanbench.wire.memory import WantPlace, WantWords
 from scanbench.wire.traces import ReadTrace
 
 log = logging.getLogger("scanbench")
@@ -132,6 +133,10 @@ class Host:
                 self._loop.traces.read(message)
             case protocol.Lookup():
                 self._link.post(look_up(self._loop.resource.program, message))
+            case WantWords():
+                self._link.post(words_are(self._loop.resource.program, message))
+            case WantPlace():
+                self._link.post(place_is(self._loop.resource.program, message))
             case protocol.WantSources():
                 self._link.post(self._loop.programs.told(message))
             case protocol.Submit(command=Arm(wanted=Wanted(start=Start(kind="line")))):

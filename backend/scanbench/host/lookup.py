@@ -4,11 +4,14 @@ from typing import get_args
 
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, Section, StringType, Subrange
+from scanbench.runtime.resource import Resource
 from scanbench.symbols.call_sites import formal_of
 from scanbench.symbols.instances import instances_of
+from scanbench.symbols.memory import NoSuchArea, find, place, words
 from scanbench.symbols.rack import terminals
 from scanbench.symbols.symbols import Symbol, UnknownPath, complete, members, resolve
 from scanbench.wire.host import Found, Lookup
+from scanbench.wire.memory import FindWords, PlaceIs, WantPlace, WantWords, WordInfo, WordsAre, WordsFound
 from scanbench.wire.symbols import EnumValue, SymbolInfo, SymbolKind, WatchItem
 
 COMPLETIONS = 50
@@ -29,6 +32,36 @@ def look_up(program: Program, question: Lookup) -> Found:
     except UnknownPath as error:
         return Found(question.ref, (), error.message, tuple(error.near))
     return Found(question.ref, tuple(map(symbol_info, symbols)))
+
+
+def words_are(program: Program, question: WantWords) -> WordsAre:
+    """Answers a `WantWords`."""
+    try:
+        found = words(program, question.area, question.first, question.count)
+    except NoSuchArea as error:
+        return WordsAre(question.ref, (), str(error))
+    return WordsAre(
+        question.ref, tuple(WordInfo(each.address, tuple(map(symbol_info, each.symbols))) for each in found)
+    )
+
+
+def place_is(program: Program, question: WantPlace) -> PlaceIs:
+    """Answers a `WantPlace`."""
+    try:
+        area, word = place(program, question.path)
+    except UnknownPath as error:
+        return PlaceIs(question.ref, "", 0, error.message, tuple(error.near))
+    return PlaceIs(question.ref, area, word)
+
+
+def words_found(resource: Resource, question: FindWords) -> WordsFound:
+    """Answers a `FindWords`, between two scans."""
+    scan = resource.header.scan
+    try:
+        found = find(resource.program, resource.memory, question.area, question.pattern, question.first, question.most)
+    except NoSuchArea as error:
+        return WordsFound(question.ref, scan, (), str(error))
+    return WordsFound(question.ref, scan, tuple(found))
 
 
 def watch_item(program: Program, id: int, path: str) -> tuple[WatchItem, Symbol | None]:

@@ -18,6 +18,7 @@ from scanbench.host.debugcode import Debuggable, Probed
 from scanbench.host.debugging import Debugging
 from scanbench.host.driving import Driving, driven_of
 from scanbench.host.link import Link
+from scanbench.host.lookup import words_found
 from scanbench.host.observed import Observable
 from scanbench.host.pacer import Pacer
 from scanbench.host.programs import HostPrograms
@@ -36,6 +37,7 @@ from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import pack_body
 from scanbench.wire.debugging import DebugRequest
+from scanbench.wire.memory import FindWords
 from scanbench.wire.traces import DefineTrace, DriveTrace
 
 
@@ -173,6 +175,8 @@ class Loop:
                 self._driving.drive(message)
             case _ if isinstance(message, DebugRequest | Debuggable | Probed):
                 self._debug(message)
+            case FindWords():
+                self._link.post(words_found(self.resource, message))
             case protocol.Travel():
                 self._driving.travel(message)
                 self.programs.drop_idle(self.timeline.resource.version, self.timeline.live.version)

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from scanbench.web.messages import Mode, RestartKind
-from scanbench.web.messages_base import Wire
+from scanbench.web.messages_base import Scan, Wire
 from scanbench.wire.symbols import SymbolInfo
 
 
@@ -27,6 +27,28 @@ class Channel(Wire):
     address: str = Field(description="in the vendor's notation; of areas that count bits that of its first bit")
     side: Literal["input", "output"]
     terminals: list[SymbolInfo] = Field(description="its bits, or the variables in it that are larger than a bit")
+
+
+class MemoryWord(Wire):
+    """A word of a memory area, and what lies in it."""
+
+    address: str = Field(description="in the vendor's notation: `D100`, `K4X20`, `%MW3`")
+    symbols: list[SymbolInfo] = Field(description="variables that lie in it, at least in part")
+
+
+class MemoryPlace(Wire):
+    """A word of a memory area."""
+
+    area: str
+    word: int = Field(description="its number within the area")
+
+
+class WordsFound(Wire):
+    """Where a value was found in a memory area."""
+
+    scan: Scan = Field(description="all words were looked at as they were before this scan")
+    words: list[int] = Field(description="numbers of words within the area, ascending")
+    more: bool = Field(description="there may be more: look again from after the last one")
 
 
 class ReleaseForces(Wire):

@@ -48,6 +48,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "command.problem.before", keys: "Alt+Shift+F8", run: () => goToProblem(-1) },
     { label: "operator.new", run: () => askNewPanel(true) },
     { label: "rack.open", run: openRack },
+    { label: "memory.open", run: () => openPage("memory") },
     { label: "versions.open", run: () => void openVersions() },
     { label: "command.inline", run: toggleInline },
     { label: "command.checks", run: toggleChecks },

@@ -6,6 +6,7 @@ import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
 import { RackPage } from "../panels/operator/RackPage";
 import { VersionsPage } from "../panels/project/editor/VersionsPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
+import { MemoryPage } from "../panels/watch/memory/MemoryPage";
 import { useRecordTitle } from "../store/errors/records";
 import { useSweepTitle } from "../store/errors/sweeps";
 import { isEdited, useUserErrors } from "../store/errors/userErrors";
@@ -25,6 +26,7 @@ export const PAGES: Record<PageName, Page> = {
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
+  memory: { component: MemoryPage, icon: "mem", useTitle: () => t("memory.title") },
   rack: { component: RackPage, icon: "plc", useTitle: () => t("rack.title") },
   usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },
 };

@@ -685,6 +685,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/memory": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The word of memory in which an address, or a variable that has one, lies
+         * @description The word of memory in which an address, or a variable that has one, lies.
+         */
+        get: operations["get_instance_memory"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/memory/{area}/find": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The words of a memory area at which a number of so many bits begins, its low word first; at most 200 at once
+         * @description The words of a memory area at which a number of so many bits begins, its low word first; at most 200 at once.
+         */
+        get: operations["get_instance_memory_find"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/memory/{area}/words": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What the words of a memory area are called, and the variables of the running program that lie in them
+         * @description What the words of a memory area are called, and the variables of the running program that lie in them.
+         */
+        get: operations["list_instance_memory_words"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/mode": {
         parameters: {
             query?: never;
@@ -4193,6 +4253,35 @@ export interface components {
             /** Text */
             text: string;
         };
+        /**
+         * MemoryPlace
+         * @description A word of a memory area.
+         */
+        MemoryPlace: {
+            /** Area */
+            area: string;
+            /**
+             * Word
+             * @description its number within the area
+             */
+            word: number;
+        };
+        /**
+         * MemoryWord
+         * @description A word of a memory area, and what lies in it.
+         */
+        MemoryWord: {
+            /**
+             * Address
+             * @description in the vendor's notation: `D100`, `K4X20`, `%MW3`
+             */
+            address: string;
+            /**
+             * Symbols
+             * @description variables that lie in it, at least in part
+             */
+            symbols: components["schemas"]["Symbol"][];
+        };
         /** ModelInfo */
         ModelInfo: {
             /** Areas */
@@ -7158,6 +7247,27 @@ export interface components {
             name: string;
         };
         /**
+         * WordsFound
+         * @description Where a value was found in a memory area.
+         */
+        WordsFound: {
+            /**
+             * More
+             * @description there may be more: look again from after the last one
+             */
+            more: boolean;
+            /**
+             * Scan
+             * @description all words were looked at as they were before this scan
+             */
+            scan: number;
+            /**
+             * Words
+             * @description numbers of words within the area, ascending
+             */
+            words: number[];
+        };
+        /**
          * Write
          * @description Writes a variable or an address, with the rights of a tool.
          */
@@ -8497,6 +8607,112 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["LastWriter"];
+                };
+            };
+        };
+    };
+    get_instance_memory: {
+        parameters: {
+            query: {
+                path: string;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MemoryPlace"];
+                };
+            };
+        };
+    };
+    get_instance_memory_find: {
+        parameters: {
+            query: {
+                bits?: "16" | "32" | "64";
+                /** @description number of a word within the area, 0 is its first */
+                first?: number;
+                value: number;
+            };
+            header?: never;
+            path: {
+                area: string;
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WordsFound"];
+                };
+            };
+        };
+    };
+    list_instance_memory_words: {
+        parameters: {
+            query?: {
+                count?: number;
+                /** @description number of a word within the area, 0 is its first */
+                first?: number;
+            };
+            header?: never;
+            path: {
+                area: string;
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MemoryWord"][];
                 };
             };
         };

@@ -15,6 +15,8 @@ import type {
   HistoryVersion,
   ImportedRecord,
   Instance,
+  MemoryPlace,
+  MemoryWord,
   ModelInfo,
   ModelSummary,
   NewSweep,
@@ -39,6 +41,7 @@ import type {
   WatchEntry,
   WatchList,
   WatchListInfo,
+  WordsFound,
 } from "./types";
 
 /** A request that the server refused: the reason, and what to do next, in the server's words. */
@@ -262,6 +265,18 @@ export const rest = {
   binding: (instance: number, path: string) =>
     json<Binding>("GET", `/instances/${instance}/binding?path=${encodeURIComponent(path)}`),
 
+  memoryPlace: (instance: number, path: string) =>
+    json<MemoryPlace>("GET", `/instances/${instance}/memory?path=${encodeURIComponent(path)}`),
+  memoryWords: (instance: number, area: string, first: number, count: number) =>
+    json<MemoryWord[]>(
+      "GET",
+      `/instances/${instance}/memory/${encodeURIComponent(area)}/words?first=${first}&count=${count}`,
+    ),
+  memoryFind: (instance: number, area: string, value: bigint, bits: number, first: number) =>
+    json<WordsFound>(
+      "GET",
+      `/instances/${instance}/memory/${encodeURIComponent(area)}/find?value=${value}&bits=${bits}&first=${first}`,
+    ),
   rack: (instance: number) => json<Channel[]>("GET", `/instances/${instance}/rack`),
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),

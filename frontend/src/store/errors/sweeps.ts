@@ -208,7 +208,7 @@ export async function keepStateAs(name: string, scan: number | null): Promise<Pr
   const { instance } = useBench.getState();
   if (!instance) throw new Error(t("sweep.noplc"));
   const made = await rest.keepState(instance.id, name, scan);
-  set(({ states }) => ({ states: [...states, made] }));
+  set(({ states }) => ({ states: [...states, made].sort((a, b) => (a.name < b.name ? -1 : 1)) })); // as the server lists them
   return made;
 }
 

@@ -73,11 +73,12 @@ export function mendDisturbance(name: string): void {
 
 /** Injects the disturbance if the form is complete. */
 export async function disturb(): Promise<void> {
-  const { wanted, troubles } = readDisturbance(get().form, readClock().scan);
+  const { form } = get();
+  const { wanted, troubles } = readDisturbance(form, readClock().scan);
   set({ tried: true, outcome: null });
   if (Object.keys(troubles).length > 0) return;
-  if (!(await ordered((instance) => wire.define(instance, wanted)))) return;
-  set({ tried: false });
+  const taken = await ordered((instance) => wire.define(instance, wanted));
+  if (taken && get().form === form) set({ tried: false }); // else the next one is being entered
 }
 
 /** Takes back one disturbance; null takes back all of them. */

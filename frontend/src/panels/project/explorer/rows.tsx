@@ -20,6 +20,7 @@ import { usePlc } from "../../../store/plc/plc";
 import { isDirty, useDocuments } from "../../../store/project/documents";
 import { addToTrace } from "../../../store/trace/traces";
 import { verifyPou } from "../../../store/verify/verify";
+import { showInMemory } from "../../../store/watch/memory";
 import { addToWatch } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
 import type { IconName } from "../../../ui/Icon";
@@ -307,7 +308,15 @@ function areaRows(area: Area, folding: Folding, openMenu: OpenMenu): TreeRow[] {
     meta: `${area.first}–${area.last}`,
     title: t("area.access", { program: area.program, tool: area.tool, engine: area.engine, words: area.words }),
     drag: area.first,
-    onMenu: (at) => openMenu([{ label: t("watch.add.path", { path: area.first }), icon: "eye", onSelect: add }], at),
+    onActivate: () => void showInMemory(area.first),
+    onMenu: (at) =>
+      openMenu(
+        [
+          { label: t("memory.show"), icon: "mem", onSelect: () => void showInMemory(area.first) },
+          { label: t("watch.add.path", { path: area.first }), icon: "eye", onSelect: add },
+        ],
+        at,
+      ),
   };
   if (!open) return [row];
   const who = (["program", "tool", "engine"] as const).map((side) =>

@@ -1,11 +1,11 @@
 import { useEffect, useRef } from "react";
 import type { Format } from "../../../logic/format/formats";
 import { useMembers } from "../../../store/plc/members";
-import { bindCell } from "../../../store/plc/values";
 import { useShownProgram } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { PlcSymbol, Refusal } from "../../../wire/types";
+import { showLive } from "../live";
 
 interface Props {
   path: string;
@@ -39,9 +39,6 @@ function MemberCount({ path }: { path: string }) {
   );
 }
 
-const FADE_AFTER = 120;
-const MARK_FOR = 1000;
-
 function LiveCell({ path, from, known, format }: { path: string; from: string; known: boolean; format: Format }) {
   const cell = useRef<HTMLSpanElement>(null);
   const lamp = useRef<HTMLSpanElement>(null);
@@ -49,25 +46,8 @@ function LiveCell({ path, from, known, format }: { path: string; from: string; k
 
   // biome-ignore lint/correctness/useExhaustiveDependencies: reads the cell again when the symbol arrives
   useEffect(() => {
-    let fade: ReturnType<typeof setTimeout> | undefined;
-    let unmark: ReturnType<typeof setTimeout> | undefined;
-    const unbind = bindCell(from, format, (reading) => {
-      if (text.current) text.current.textContent = reading.text;
-      lamp.current?.classList.toggle("on", reading.lamp === true);
-      lamp.current?.toggleAttribute("hidden", reading.lamp === null);
-      text.current?.classList.toggle("bw", reading.lamp !== null);
-      if (!reading.changed) return;
-      cell.current?.classList.add("flash", "changed");
-      clearTimeout(fade);
-      clearTimeout(unmark);
-      fade = setTimeout(() => cell.current?.classList.remove("flash"), FADE_AFTER);
-      unmark = setTimeout(() => cell.current?.classList.remove("changed"), MARK_FOR);
-    });
-    return () => {
-      unbind();
-      clearTimeout(fade);
-      clearTimeout(unmark);
-    };
+    if (!cell.current || !text.current || !lamp.current) return;
+    return showLive(from, format, { cell: cell.current, text: text.current, lamp: lamp.current });
   }, [from, format, known]);
 
   return (

@@ -11,6 +11,7 @@ import { addToTrace } from "../../../store/trace/traces";
 import { askDisturb } from "../../../store/verify/disturb";
 import { useBindings } from "../../../store/watch/bindings";
 import { forcedAt } from "../../../store/watch/forces";
+import { showInMemory } from "../../../store/watch/memory";
 import {
   addToWatch,
   force,
@@ -54,6 +55,7 @@ export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): Menu
           },
         ]
       : []),
+    ...(symbol?.address ? [{ label: t("memory.show"), onSelect: () => void showInMemory(row.path) }] : []),
     ...breakItems(row, symbol),
     { label: t("watch.remove"), hint: "Del", separated: true, onSelect: () => removeFromWatch(row.root) },
   ];
