@@ -48,6 +48,21 @@ test('everything is reached by keys: commands, places, problems, and a text in a
     await expect(errors).toBeInViewport();
   });
 
+  await test.step('who reads and who writes the name at the caret, over all files; a place leads to its line', async () => {
+    await main.caretAfter('motor := station.run;');
+    for (const key of ['ArrowLeft', 'ArrowLeft', 'Control+Alt+r']) await keyboard.press(key);
+    const places = page.getByRole('table', { name: 'Cross references' });
+    await expect(places.getByRole('row').filter({ hasText: 'Written' }).first()).toContainText('Station.st');
+    await expect(places.getByRole('row').filter({ hasText: 'motor := station.run;' })).toContainText('Read');
+    await places
+      .getByRole('button', { name: /^Station\.st:/ })
+      .first()
+      .click();
+    await expect(mika.editor('Station.st').region).toBeVisible();
+    await page.getByTestId('close:cross').click();
+    await main.open();
+  });
+
   const search = page.getByRole('textbox', { name: 'Search', exact: true });
   const all = page.getByRole('button', { name: /^Replace all/ });
   await test.step('a search looks through texts that are not saved, and through files that are not open', async () => {

@@ -1,6 +1,7 @@
 """The language server with a client that is not ours: each request once; what is answered is shown in `tests/language`."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from lsprotocol import types
@@ -257,5 +258,38 @@ def test_a_pou_says_how_often_it_is_named(folder: Path) -> None:
         told = await client.code_lens_resolve_async(lens)
         assert told.command is not None
         assert told.command.title == "1 reference"
+
+    conversation(folder, talk)
+
+
+def test_cross_references_and_what_nobody_reads_are_requests_of_our_own(folder: Path) -> None:
+    async def talk(client: LanguageClient) -> None:
+        async def ask(method: str, **params: Any) -> Any:
+            return await client.protocol.send_request_async(f"scanbench/{method}", params)  # type: ignore[no-untyped-call]  # pygls
+
+        doc = opened(client, folder / "main.st")
+        at = position(MAIN, "total :=")
+        where = {"line": at.line, "character": at.character}
+        told = await ask("crossReferences", textDocument={"uri": doc.uri}, position=where)
+        assert told.name == "total"
+        assert told.complete
+        assert [each.access for each in told.references] == [
+            "declared",
+            "written",
+            "written",
+            "read",
+            "read",
+            "written",
+        ]
+        assert told.references[1].pou == "Main"
+        again = await ask("crossReferences", symbol=told.symbol)
+        assert again == told
+        by_path = await ask("crossReferences", path="Main.inc.n")
+        assert [Path(each.uri).name for each in by_path.references] == ["inc.st", "inc.st", "inc.st", "main.st"]
+        assert await ask("crossReferences", path="Main.nothing") is None
+        lonely = await ask("unused")
+        assert [(each["name"], each["written"], each["pou"]) for each in lonely] == [("名前", False, "Main")]
+        opened(client, folder / "inc.st", BLOCK.replace("n + by", "n + bi"))
+        assert await ask("unused") is None
 
     conversation(folder, talk)

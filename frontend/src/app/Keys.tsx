@@ -11,6 +11,7 @@ const WHERE: Record<string, readonly (readonly [string, TextKey])[]> = {
     ["F12", "keys.definition"],
     ["Ctrl+F12", "keys.implementations"],
     ["Shift+F12", "keys.references"],
+    ["Ctrl+Alt+R", "cross.title"],
     ["F2", "keys.rename"],
     ["Ctrl+Space", "keys.complete"],
     ["Ctrl+Shift+Space", "keys.parameters"],

@@ -11,6 +11,7 @@ import { COMMANDS, type Command, showKeys, showPalette } from "../store/page/pal
 import { chooseLanguage, chooseTheme, themes, toggleChecks, toggleInline } from "../store/page/prefs";
 import { showInstances } from "../store/plc/instances";
 import { returnToLive, stepBack } from "../store/plc/timeline";
+import { showUnused } from "../store/project/cross";
 import { build, save, useDocuments } from "../store/project/documents";
 import { goBack, goForward } from "../store/project/places";
 import { goToProblem } from "../store/project/problemKeys";
@@ -47,6 +48,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "command.problem.next", keys: "Alt+F8", run: () => goToProblem(1) },
     { label: "command.problem.before", keys: "Alt+Shift+F8", run: () => goToProblem(-1) },
     { label: "operator.new", run: () => askNewPanel(true) },
+    { label: "cross.unused", run: () => void showUnused() },
     { label: "rack.open", run: openRack },
     { label: "memory.open", run: () => openPage("memory") },
     { label: "versions.open", run: () => void openVersions() },

@@ -4,6 +4,7 @@ import { RecordPage } from "../panels/errors/history/RecordPage";
 import { SweepPage } from "../panels/errors/sweep/SweepPage";
 import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
 import { RackPage } from "../panels/operator/RackPage";
+import { CrossPage } from "../panels/project/cross/CrossPage";
 import { VersionsPage } from "../panels/project/editor/VersionsPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
 import { MemoryPage } from "../panels/watch/memory/MemoryPage";
@@ -26,6 +27,7 @@ export const PAGES: Record<PageName, Page> = {
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
+  cross: { component: CrossPage, icon: "swap", useTitle: () => t("cross.title") },
   memory: { component: MemoryPage, icon: "mem", useTitle: () => t("memory.title") },
   rack: { component: RackPage, icon: "plc", useTitle: () => t("rack.title") },
   usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },

@@ -10,7 +10,7 @@ import scanbench
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.from_disk import PROJECT_FILE
 from scanbench.syntax.parse_file import ENDINGS
-from scanbench.web.lsp import annotations, calls, completion, mending, navigation, outline, renaming
+from scanbench.web.lsp import annotations, calls, completion, crossing, mending, navigation, outline, renaming
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.project import Saved, Told
 
@@ -62,7 +62,7 @@ def make_server(saved_of: Callable[[types.InitializeParams], Saved]) -> Language
             language.project.saved.files = dict(params.files)
             language.refreshed()
 
-    for room in (navigation, completion, outline, renaming, mending, annotations, calls):
+    for room in (navigation, crossing, completion, outline, renaming, mending, annotations, calls):
         room.register(language)
     return server
 

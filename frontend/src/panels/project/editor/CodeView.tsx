@@ -12,6 +12,7 @@ import "./checks";
 import "./completion";
 import { markCoverage } from "./coverage";
 import "./debug.css";
+import { addCrossAction } from "./crossAction";
 import { addDebugActions } from "./debugActions";
 import { addDisturbAction } from "./disturbAction";
 import { offerEditorCommands } from "./editorCommands";
@@ -65,6 +66,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     addTabActions(code);
     addWatchAction(code, path);
     addWriterAction(code, path);
+    addCrossAction(code, path);
     const noCommands = offerEditorCommands(code, path);
     const noDrag = dragToWatch(code, host.current, path);
     let gutter: Gutter | null = null;

@@ -153,7 +153,7 @@ export const options: editor.IStandaloneEditorConstructionOptions = {
   autoClosingComments: "never",
   autoIndent: "none",
   minimap: { enabled: false },
-  stickyScroll: { enabled: false },
+  stickyScroll: { enabled: true, maxLineCount: 3 },
   fontSize: 12.5,
   lineHeight: 20,
   fontLigatures: false,

@@ -7,6 +7,7 @@ import { type Access, addDataBreakpoint } from "../../../store/debug/debug";
 import { showWriter } from "../../../store/past/writer";
 import { usePlc } from "../../../store/plc/plc";
 import { useWatches } from "../../../store/plc/watches";
+import { showCrossReferencesOf } from "../../../store/project/cross";
 import { addToTrace } from "../../../store/trace/traces";
 import { askDisturb } from "../../../store/verify/disturb";
 import { useBindings } from "../../../store/watch/bindings";
@@ -55,6 +56,7 @@ export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): Menu
           },
         ]
       : []),
+    { label: t("cross.title"), onSelect: () => void showCrossReferencesOf(row.path) },
     ...(symbol?.address ? [{ label: t("memory.show"), onSelect: () => void showInMemory(row.path) }] : []),
     ...breakItems(row, symbol),
     { label: t("watch.remove"), hint: "Del", separated: true, onSelect: () => removeFromWatch(row.root) },

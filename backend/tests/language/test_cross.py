@@ -1,0 +1,85 @@
+"""Who reads and who writes; what nobody reads."""
+
+from scanbench.language.cross import complete, cross_references, symbol_of_path, unused
+from scanbench.language.navigate import named_at
+from tests.language.reading import FILE, marked, read
+
+PROGRAM = """\
+FUNCTION_BLOCK Belt
+VAR_INPUT run : BOOL; END_VAR
+VAR_OUTPUT position : INT; END_VAR
+VAR speed, spare : INT; seen : BOOL; END_VAR
+IF run THEN
+  position := position + speed;
+END_IF;
+seen := run;
+speed := 3;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Reset
+VAR_IN_OUT what : INT; END_VAR
+what := 0;
+END_FUNCTION_BLOCK
+VAR_GLOBAL
+  total : INT;
+  lamp AT %QX0.0 : BOOL;
+END_VAR
+PROGRAM Main
+VAR belts : ARRAY[1..2] OF Belt; reset : Reset; END_VAR
+belts[1](run := TRUE);
+total := belts[1].position;
+reset(what := total);
+lamp := total > 5;
+END_PROGRAM
+"""
+
+
+def crossed(text: str) -> list[str]:
+    reading, position = marked(text)
+    found = named_at(reading, FILE, position)
+    assert found is not None
+    assert complete(reading)
+    return [f"{each.place.span.line} {each.access} {each.pou}" for each in cross_references(reading, found.symbol)]
+
+
+def test_each_place_says_whether_it_reads_or_writes_and_in_which_pou() -> None:
+    assert crossed(PROGRAM.replace("position := pos", "|position := pos")) == [
+        "3 declared Belt",
+        "6 written Belt",
+        "6 read Belt",
+        "22 read Main",
+    ]
+    assert crossed(PROGRAM.replace("  total : INT", "  |total : INT")) == [
+        "16 declared ",
+        "22 written Main",
+        "23 written Main",
+        "24 read Main",
+    ]
+
+
+def test_the_line_is_told_without_its_indentation() -> None:
+    reading, position = marked(PROGRAM.replace("speed := 3", "|speed := 3"))
+    found = named_at(reading, FILE, position)
+    assert found is not None
+    assert cross_references(reading, found.symbol)[1].text == "position := position + speed;"
+
+
+def test_an_instance_path_leads_to_the_variable_of_the_block() -> None:
+    reading = read(PROGRAM)
+    found = symbol_of_path(reading, "Main.belts[2].speed")
+    assert found is not None
+    assert (found.owner, found.name) == ("BELT", "SPEED")
+    total = symbol_of_path(reading, "total")
+    assert total is not None
+    assert total.owner == "GLOBAL"
+    assert symbol_of_path(reading, "Main.belts[2].sped") is None
+    assert symbol_of_path(reading, "D100") is None
+    assert symbol_of_path(read(PROGRAM.replace("total := ", "total = ")), "total") is None
+
+
+def test_what_nobody_reads_is_listed_and_what_others_may_see_is_not() -> None:
+    found = [(each.declared.name, each.written, each.pou) for each in unused(read(PROGRAM))]
+    assert found == [("spare", False, "Belt"), ("seen", True, "Belt")]
+
+
+def test_a_program_with_errors_is_not_complete() -> None:
+    assert not complete(read(PROGRAM.replace("lamp := total > 5;", "lamp := totl > 5;")))

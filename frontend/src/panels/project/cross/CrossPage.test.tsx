@@ -1,0 +1,86 @@
+import { render, screen, waitFor, within } from "@testing-library/react";
+import { beforeEach, expect, test, vi } from "vitest";
+import { showCrossReferences, showCrossReferencesOf, showUnused } from "../../../store/project/cross";
+import { useDocuments } from "../../../store/project/documents";
+import { openPage } from "../../../testing/page";
+import { t } from "../../../text";
+import { CrossPage } from "./CrossPage";
+
+const server = vi.hoisted(() => ({ asked: [] as [string, object][], answers: new Map<string, unknown>() }));
+
+vi.mock("../../../store/project/language", () => {
+  const ask = (method: string, params: object) => {
+    server.asked.push([method.replace("scanbench/", ""), params]);
+    return Promise.resolve(server.answers.get(method.replace("scanbench/", "")) ?? null);
+  };
+  return {
+    ask,
+    askAt: (method: string, path: string, at: { line: number; column: number }) =>
+      ask(method, { path, line: at.line, column: at.column }),
+    pathOf: (uri: string) => uri.replace("scanbench:/", ""),
+  };
+});
+
+const at = (file: string, line: number) => ({
+  uri: `scanbench:/${file}`,
+  range: { start: { line: line - 1, character: 2 }, end: { line: line - 1, character: 7 } },
+});
+const LEVEL = {
+  name: "level",
+  symbol: ["variable", "GLOBAL", "LEVEL"],
+  complete: true,
+  references: [
+    { ...at("Globals.st", 2), access: "declared", pou: "", text: "level : INT;" },
+    { ...at("Main.st", 9), access: "written", pou: "Main", text: "level := level + 1;" },
+    { ...at("Main.st", 9), access: "read", pou: "Main", text: "level := level + 1;" },
+  ],
+};
+
+beforeEach(() => {
+  server.asked.length = 0;
+  server.answers.clear();
+});
+
+const rows = () =>
+  within(screen.getByRole("table"))
+    .getAllByRole("row")
+    .slice(1)
+    .map((row) =>
+      within(row)
+        .getAllByRole("cell")
+        .map((cell) => cell.textContent)
+        .join(" | "),
+    );
+
+test("who reads and who writes is listed line by line, leads there, and is asked for again when the texts change", async () => {
+  const { places, user } = await openPage();
+  server.answers.set("crossReferences", LEVEL);
+  await showCrossReferences({ file: "Main.st", line: 9, column: 4 }, "level");
+  render(<CrossPage />);
+  await waitFor(() => expect(screen.getByText(t("cross.count", { read: 1, written: 1 }))).toBeTruthy());
+  expect(rows()).toEqual([
+    `${t("cross.declared")} | Globals.st:2 |  | level : INT;`,
+    `${t("cross.written")} | Main.st:9 | Main | level := level + 1;`,
+    `${t("cross.read")} | Main.st:9 | Main | level := level + 1;`,
+  ]);
+  await user.click(screen.getByRole("button", { name: "Globals.st:2" }));
+  expect(places.at(-1)).toBe("file Globals.st");
+
+  server.answers.set("crossReferences", { ...LEVEL, complete: false, references: LEVEL.references.slice(0, 1) });
+  useDocuments.setState({ problems: [] });
+  await waitFor(() => expect(rows()).toHaveLength(1));
+  expect(server.asked.at(-1)).toEqual(["crossReferences", { symbol: LEVEL.symbol }]);
+  expect(screen.getByRole("status").textContent).toBe(t("cross.errors"));
+});
+
+test("what has no declaration says so; nothing is listed as unread while the program has errors", async () => {
+  await openPage();
+  await showCrossReferencesOf("D100");
+  render(<CrossPage />);
+  await waitFor(() => expect(screen.getByText(t("cross.nothing", { path: "D100" }))).toBeTruthy());
+  await showUnused();
+  await waitFor(() => expect(screen.getByRole("status").textContent).toBe(t("cross.unused.errors")));
+  server.answers.set("unused", [{ ...at("Main.st", 3), name: "spare", written: false, pou: "Main" }]);
+  await showUnused();
+  await waitFor(() => expect(rows()).toEqual([`${t("cross.unused.never")} | Main.st:3 | Main | spare`]));
+});
