@@ -8,7 +8,7 @@ test('the memory of the PLC: looked at, written, searched, by keyboard; in the p
   await jo.runs();
   const { page } = jo;
   const pane = page.locator('[data-pane=memory]');
-  const word = (address: string) => pane.getByTestId(`word:${address}`);
+  const word = (address: string) => pane.getByTestId(`memory:${address}`);
 
   await test.step('a variable leads to its word, which names it', async () => {
     await page.keyboard.press('F1');

@@ -49,7 +49,7 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
   return (
     <div
       ref={grid.scroll}
-      className={`grid mem scroll of-${format}`}
+      className={`grid memgrid scroll of-${format}`}
       role="grid"
       aria-label={t("memory.of", { area: area.name })}
       aria-rowcount={Math.ceil(area.words / columns) + 1}
@@ -162,7 +162,7 @@ const WordCell = memo(function WordCell({ index, word: { address, symbols }, for
       aria-selected={on}
       aria-label={names ? `${address}, ${names}` : address}
       title={names ? `${address}: ${names}` : address}
-      data-testid={`word:${address}`}
+      data-testid={`memory:${address}`}
       onClick={() => selectWord(index)}
       onDoubleClick={() => onEdit(bare(currentText(address, format), format))}
     >

@@ -34,7 +34,7 @@ async function openMemory() {
   return { ...page, grid: screen.getByRole("grid") };
 }
 
-const cell = (address: string) => screen.getByTestId(`word:${address}`);
+const cell = (address: string) => screen.getByTestId(`memory:${address}`);
 const details = (address: string) => screen.getByRole("region", { name: t("memory.word", { address }) });
 
 test("a word is chosen by keys, its details name the variables in it, and it is written in the format of the grid", async () => {
