@@ -16,6 +16,7 @@ from scanbench.syntax import tree
 
 Access = Literal["declared", "read", "written"]
 """`written`: assigned there, or passed to something that may write it."""
+_FOR = re.compile(r"\bFOR\s+$", re.IGNORECASE)
 _PART = re.compile(r"\.?([^\W\d]\w*)|\[[^\]]*\]|\^")
 
 
@@ -97,7 +98,12 @@ def unused(reading: Reading) -> list[Unused]:
     candidates = list(_candidates(reading))
     read: defaultdict[Symbol, set[bool]] = defaultdict(set)
     for each in reading.index.of(declared.symbol for declared, _ in candidates):
-        read[each.symbol].add(not each.written)
+        read[each.symbol].add(not each.written or _counts(reading, each))
+    program = reading.checked.program
+    for access in program.accesses if program is not None else ():  # tools read it by that name
+        symbol = symbol_of_path(reading, access.path)
+        if symbol is not None:
+            read[symbol].add(True)
     found = []
     for declared, member in candidates:
         uses = read[declared.symbol]
@@ -115,6 +121,13 @@ def _candidates(reading: Reading) -> Iterator[tuple[Declared, Member]]:
             member = member_of(reading.project.checker, each.symbol)
             if member is not None and not member.hidden and member.section is not Section.MEMBER:
                 yield each, member
+
+
+def _counts(reading: Reading, place: Occurrence) -> bool:
+    """Whether it is the variable of a FOR, which reads it itself."""
+    span = place.span
+    start = reading.position(span.file, span.line, 1)
+    return _FOR.search(reading.text(span.file)[start : reading.position(span.file, span.line, span.column)]) is not None
 
 
 def _is_private(member: Member) -> bool:

@@ -81,5 +81,24 @@ def test_what_nobody_reads_is_listed_and_what_others_may_see_is_not() -> None:
     assert found == [("spare", False, "Belt"), ("seen", True, "Belt")]
 
 
+def test_what_tools_are_given_and_what_a_loop_counts_with_is_read() -> None:
+    found = unused(
+        read("""\
+PROGRAM Main
+VAR given, i, n : INT; END_VAR
+FOR i := 1 TO 3 DO n := n + 1; END_FOR;
+END_PROGRAM
+CONFIGURATION Plant
+RESOURCE Cpu ON GENERIC_IEC
+TASK Fast(INTERVAL := T#10ms, PRIORITY := 1);
+PROGRAM P WITH Fast : Main;
+END_RESOURCE
+VAR_ACCESS tool : Cpu.P.given : INT READ_ONLY; END_VAR
+END_CONFIGURATION
+""")
+    )
+    assert [each.declared.name for each in found] == []
+
+
 def test_a_program_with_errors_is_not_complete() -> None:
     assert not complete(read(PROGRAM.replace("lamp := total > 5;", "lamp := totl > 5;")))

@@ -286,10 +286,12 @@ def test_cross_references_and_what_nobody_reads_are_requests_of_our_own(folder: 
         assert again == told
         by_path = await ask("crossReferences", path="Main.inc.n")
         assert [Path(each.uri).name for each in by_path.references] == ["inc.st", "inc.st", "inc.st", "main.st"]
-        assert await ask("crossReferences", path="Main.nothing") is None
+        assert (await ask("crossReferences", path="Main.nothing")).symbol is None
         lonely = await ask("unused")
-        assert [(each["name"], each["written"], each["pou"]) for each in lonely] == [("名前", False, "Main")]
+        assert lonely.complete
+        assert [(each.name, each.written, each.pou) for each in lonely.unused] == [("名前", False, "Main")]
         opened(client, folder / "inc.st", BLOCK.replace("n + by", "n + bi"))
-        assert await ask("unused") is None
+        broken = await ask("unused")
+        assert (broken.complete, broken.unused) == (False, [])
 
     conversation(folder, talk)

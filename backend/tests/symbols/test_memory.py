@@ -73,3 +73,9 @@ def test_a_value_is_found_where_words_begin_and_only_in_its_area() -> None:
 def test_an_area_that_the_model_does_not_have_is_refused_with_those_it_has() -> None:
     with pytest.raises(NoSuchArea, match="no memory area 'Z'; the areas are CIO, "):
         words(program("CJ1M-CPU63"), "Z", 0, 1)
+
+
+def test_of_a_large_array_the_array_is_told_and_what_has_no_address_is_not_looked_through() -> None:
+    made = program("CJ1M-CPU63", "many : ARRAY[0..30000] OF Pair; f AT D0 : ARRAY[0..9999] OF INT; last AT W7 : INT;")
+    assert shown(made, "D", 9999, 2) == ["D9999 Main.f", "D10000"]
+    assert shown(made, "W", 7, 1) == ["W7 Main.last"]

@@ -78,14 +78,20 @@ class Server:
 
     def instance(self, name: str, model: str, **files: str) -> int:
         """A project of its own with these files, and an instance that runs it."""
+        name = self._free(name)
         project = self.project(name, model, **files)
         reply = self.http.post("/api/instances", json={"project": project, "name": name})
         assert reply.status_code == 201, reply.text
         self.made.append(int(reply.json()["id"]))
         return self.made[-1]
 
+    def _free(self, name: str) -> str:
+        """The name, or the next one that no project has: which tests share a server is chance."""
+        taken = {each["name"] for each in self.http.get("/api/projects").json()}
+        return next(each for each in (name, *(f"{name} {n}" for n in range(2, 99))) if each not in taken)
+
     def project(self, name: str, model: str, **files: str) -> int:
-        reply = self.http.post("/api/projects", json={"name": name, "model": model})
+        reply = self.http.post("/api/projects", json={"name": self._free(name), "model": model})
         assert reply.status_code == 201, reply.text
         id = int(reply.json()["id"])
         for file, text in files.items():

@@ -11,11 +11,11 @@ from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.positions import Positions
 
 CROSS_REFERENCES = "scanbench/crossReferences"
-"""`{textDocument, position}`, `{path}` or `{symbol}`: `{name, symbol, complete, references: [{uri, range, access, pou, text}]}`, null where nothing is meant. `symbol` asks for
-the same again when the text has changed.
-Not `complete`: the program has errors, so names in some statements are not known."""
+"""`{textDocument, position}`, `{path}` or `{symbol}`: `{name, symbol, complete, references: [{uri, range, access, pou, text}]}`. `symbol` asks for
+the same again when the text has changed; it is null where nothing is meant. Not `complete`: the program has errors, so names in some
+statements are not known."""
 UNUSED = "scanbench/unused"
-"""`{}`: `[{name, uri, range, written, pou}]`; null while the program has errors."""
+"""`{}`: `{complete, unused: [{name, uri, range, written, pou}]}`; nothing is listed while the program has errors."""
 
 
 _KINDS: dict[str, SymbolKind] = {kind: kind for kind in get_args(SymbolKind)}
@@ -32,28 +32,13 @@ def register(language: Language) -> None:
     def crossing(params: _Named) -> dict[str, object] | None:
         if language.project is None:
             return None
-        path: str | None = getattr(params, "path", None)
-        again: list[str] | None = getattr(params, "symbol", None)
-        if again is not None and len(again) == len(Symbol._fields):
-            kind, owner, name = again
-            reading, symbol = language.project.reading, Symbol(_KINDS[kind], owner, name) if kind in _KINDS else None
-        elif path is not None:
-            reading = language.project.reading
-            symbol = symbol_of_path(reading, path)
-        else:
-            where, at = params.textDocument, params.position  # type: ignore[attr-defined]  # as the client sent it
-            asked = language.asked(where.uri, types.Position(at.line, at.character))
-            if asked is None or asked.name is None:
-                return None
-            reading, symbol = asked.reading, asked.name.symbol
-        if symbol is None:
-            return None
+        reading, symbol = language.project.reading, _meant(language, params)
         positions = language.positions(reading)
-        found = cross_references(reading, symbol)
+        found = [] if symbol is None else cross_references(reading, symbol)
         named = next((each for each in found if each.access == "declared"), found[0] if found else None)
         return {
-            "name": symbol.name if named is None else reading.written(named.place.span),
-            "symbol": list(symbol),
+            "name": "" if named is None else reading.written(named.place.span),
+            "symbol": None if symbol is None else list(symbol),
             "complete": complete(reading),
             "references": [
                 {**_place(language, positions, each.place), "access": each.access, "pou": each.pou, "text": each.text}
@@ -62,18 +47,37 @@ def register(language: Language) -> None:
         }
 
     @server.feature(UNUSED)
-    def never_read(_: _Named) -> list[dict[str, object]] | None:
-        if language.project is None or not complete(language.project.reading):
+    def never_read(_: _Named) -> dict[str, object] | None:
+        if language.project is None:
             return None
         reading = language.project.reading
         positions = language.positions(reading)
-        return [
-            {
-                **_place(language, positions, Occurrence(each.declared.span, each.declared.symbol)),
-                "name": each.declared.name, "written": each.written, "pou": each.pou,
-            }
-            for each in unused(reading)
-        ]  # fmt: skip
+        known = complete(reading)
+        return {
+            "complete": known,
+            "unused": [
+                {
+                    **_place(language, positions, Occurrence(each.declared.span, each.declared.symbol)),
+                    "name": each.declared.name, "written": each.written, "pou": each.pou,
+                }
+                for each in (unused(reading) if known else ())
+            ],
+        }  # fmt: skip
+
+
+def _meant(language: Language, params: _Named) -> Symbol | None:
+    assert language.project is not None
+    path: str | None = getattr(params, "path", None)
+    again: list[str] | None = getattr(params, "symbol", None)
+    if again is not None:
+        kind, owner, name = again
+        return Symbol(_KINDS[kind], owner, name) if kind in _KINDS else None
+    if path is not None:
+        return symbol_of_path(language.project.reading, path)
+    where, at = params.textDocument, params.position  # type: ignore[attr-defined]  # as the client sent it
+    asked = language.asked(where.uri, types.Position(at.line, at.character))
+    named = None if asked is None else asked.name
+    return None if named is None else named.symbol
 
 
 def _place(language: Language, positions: Positions, place: Occurrence) -> dict[str, object]:

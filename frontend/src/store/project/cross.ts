@@ -3,6 +3,7 @@
 import type { Range } from "vscode-languageserver-types";
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
+import { t } from "../../text";
 import { openPage } from "../page/navigate";
 import { onInstanceChange } from "../plc/reset";
 import { useDocuments } from "./documents";
@@ -62,7 +63,8 @@ interface Told {
 }
 interface Answer {
   name: string;
-  symbol: string[];
+  /** Null: nothing is meant. */
+  symbol: string[] | null;
   complete: boolean;
   references: (Told & Pick<CrossReference, "access" | "pou" | "text">)[];
 }
@@ -112,12 +114,10 @@ async function askFor(wanted: Wanted): Promise<void> {
     const { ask, askAt } = await import("./language");
     const answer =
       "file" in wanted ? await askAt<Answer>(CROSS, wanted.file, wanted) : await ask<Answer>(CROSS, wanted);
-    if (!answer) {
-      symbol = null;
-      return { state: "nothing" as const, references: [] };
-    }
+    if (!answer) throw new Error(t("cross.unanswered"));
     symbol = answer.symbol;
     const { name, complete } = answer;
+    if (symbol === null) return { complete, state: "nothing" as const, references: [] };
     return { name, complete, state: "there" as const, references: await placed(answer.references) };
   });
 }
@@ -125,8 +125,12 @@ async function askFor(wanted: Wanted): Promise<void> {
 async function askUnused(): Promise<void> {
   await answered(async () => {
     const { ask } = await import("./language");
-    const answer = await ask<(Told & Pick<Unused, "name" | "written" | "pou">)[]>(UNUSED, {});
-    return { state: "there" as const, complete: answer !== null, unused: answer ? await placed(answer) : [] };
+    const answer = await ask<{ complete: boolean; unused: (Told & Pick<Unused, "name" | "written" | "pou">)[] }>(
+      UNUSED,
+      {},
+    );
+    if (!answer) throw new Error(t("cross.unanswered"));
+    return { state: "there" as const, complete: answer.complete, unused: await placed(answer.unused) };
   });
 }
 
@@ -138,7 +142,7 @@ async function answered(ask: () => Promise<Partial<Cross>>): Promise<void> {
     const said = await ask();
     if (mine === turn) set({ ...said, trouble: null });
   } catch (error) {
-    if (mine === turn) set({ trouble: messageOf(error) });
+    if (mine === turn) set({ trouble: messageOf(error), references: [], unused: [], state: "asking" });
   }
 }
 

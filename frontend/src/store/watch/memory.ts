@@ -70,6 +70,9 @@ export function showFormat(format: MemoryFormat): void {
 
 export const selectWord = (selected: number) => set({ selected, trouble: null });
 
+/** Why nothing can be done now. */
+export const complain = (trouble: string) => set({ trouble });
+
 /** A different program may have other variables in the same words. */
 export function forgetNames(): void {
   turn += 1;

@@ -33,7 +33,7 @@ export const watch = {
   "memory.title": "Memory",
   "memory.trouble": "The memory could not be read: {message}",
   "memory.variables": "Variables in this word",
-  "memory.variables.none": "No variable of the program lies here.",
+  "memory.variables.none": "No variable is declared at this address. Those with %I*, %Q* or %M* were not looked at.",
   "memory.word": "Word {address}",
   "watch.add": "Add to watch",
   "watch.add.nopath":

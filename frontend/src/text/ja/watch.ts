@@ -36,7 +36,7 @@ export const watch: Record<keyof typeof english, string> = {
   "memory.title": "メモリ",
   "memory.trouble": "メモリを読み出せませんでした: {message}",
   "memory.variables": "このワードの変数",
-  "memory.variables.none": "ここにプログラムの変数はありません。",
+  "memory.variables.none": "このアドレスに宣言された変数はありません。%I*、%Q*、%M* の変数は調べていません。",
   "memory.word": "ワード {address}",
   "watch.add": "ウォッチに追加",
   "watch.add.nopath":

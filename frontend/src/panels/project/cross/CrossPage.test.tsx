@@ -75,12 +75,19 @@ test("who reads and who writes is listed line by line, leads there, and is asked
 
 test("what has no declaration says so; nothing is listed as unread while the program has errors", async () => {
   await openPage();
+  server.answers.set("crossReferences", { name: "", symbol: null, complete: true, references: [] });
+  server.answers.set("unused", { complete: false, unused: [] });
   await showCrossReferencesOf("D100");
   render(<CrossPage />);
   await waitFor(() => expect(screen.getByText(t("cross.nothing", { path: "D100" }))).toBeTruthy());
   await showUnused();
   await waitFor(() => expect(screen.getByRole("status").textContent).toBe(t("cross.unused.errors")));
-  server.answers.set("unused", [{ ...at("Main.st", 3), name: "spare", written: false, pou: "Main" }]);
+  const spare = { ...at("Main.st", 3), name: "spare", written: false, pou: "Main" };
+  server.answers.set("unused", { complete: true, unused: [spare] });
   await showUnused();
   await waitFor(() => expect(rows()).toEqual([`${t("cross.unused.never")} | Main.st:3 | Main | spare`]));
+  server.answers.clear();
+  await showUnused();
+  await waitFor(() => expect(screen.getByRole("alert").textContent).toBe(t("cross.unanswered")));
+  expect(screen.queryByRole("table")).toBeNull();
 });

@@ -4,7 +4,7 @@ import { columnsOf, type MemoryFormat, movedTo, type WholeArea, WORD } from "../
 import { useForbidden } from "../../../store/plc/plc";
 import { currentText } from "../../../store/plc/values";
 import { useWatches, watch } from "../../../store/plc/watches";
-import { loadWords, selectWord, useMemory, wordIn, writeWord } from "../../../store/watch/memory";
+import { complain, loadWords, selectWord, useMemory, wordIn, writeWord } from "../../../store/watch/memory";
 import { t } from "../../../text";
 import { useGrid, useReveal } from "../../../ui/useGrid";
 import type { MemoryWord } from "../../../wire/types";
@@ -23,7 +23,8 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
   useWords(area.name, from, to, wordAt);
 
   function edit(first: string): void {
-    if (forbidden === null && wordAt(selected)) setTyped(first);
+    if (forbidden !== null) complain(forbidden);
+    else if (wordAt(selected)) setTyped(first);
   }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {

@@ -20,8 +20,9 @@ export function MemoryPage() {
   const wanted = useMemory((memory) => memory.area);
   const areas = useMemo(() => wholeAreas(model?.areas ?? []), [model]);
   const area = areas.find(({ name }) => name === wanted) ?? areas[0];
-  // biome-ignore lint/correctness/useExhaustiveDependencies: a different program may have other variables there
-  useEffect(forgetNames, [version]);
+  const away = usePlc(({ link, state }) => link.state !== "open" || state?.state === "off");
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a different program may have other variables there; one that was away is asked again
+  useEffect(forgetNames, [version, away]);
 
   return (
     <section className="pane flexcol memory" aria-label={t("memory.title")} data-pane="memory" data-live>

@@ -68,14 +68,18 @@ function useReadOnly(address: string): boolean {
 
 function Values({ address }: { address: string }) {
   const [value, setValue] = useState<bigint | null>(null);
-  useEffect(
-    () =>
-      bindCell(address, "hex", () => {
-        const key = sortKey(address);
-        setValue(key === null || typeof key === "string" ? null : BigInt(key));
-      }),
-    [address],
-  );
+  useEffect(() => {
+    // The grid watches only what is visible, and the selected word may not be.
+    const release = watch([address]);
+    const unbind = bindCell(address, "hex", () => {
+      const key = sortKey(address);
+      setValue(key === null || typeof key === "string" ? null : BigInt(key));
+    });
+    return () => {
+      unbind();
+      release();
+    };
+  }, [address]);
   if (value === null) return null;
   return (
     <dl className="memvalues">
