@@ -174,7 +174,7 @@ class Checker:
     system: System = field(init=False)
     plant: Plant = field(init=False)
     stimuli: Stimuli = field(default_factory=Stimuli)
-    declared: Mark = (0, 0, 0, 0, 0)
+    declared: Mark = (0, 0, 0, 0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
     """Members, size and alignment of the frame of each POU, before its body adds temporaries."""

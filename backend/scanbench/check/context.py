@@ -18,7 +18,7 @@ class Rejected(Exception):
     """A construct was reported as wrong; whoever checks the next one catches it."""
 
 
-Mark = tuple[int, int, int, int, int]
+Mark = tuple[int, int, int, int, int, int]
 """Lengths of the lists of a report."""
 
 
@@ -33,19 +33,23 @@ class Report:
     """Which names mean what; some are told more than once."""
     written: list[Span] = field(default_factory=list)
     """Of the variables that are assigned, or that something else may write: spans end where those of their uses end."""
+    lent: list[Span] = field(default_factory=list)
+    """Of what is written, what is passed to an in-out: it may be read there, too."""
     parts: dict[Pou, "Report"] = field(default_factory=dict)
     """What was met in the body of each POU; its sites are numbered from 1 there."""
 
     @contextmanager
     def apart(self) -> Iterator["Report"]:
         """What is met meanwhile goes into a report of its own, for `parts`."""
-        before, inner = (self.problems, self.traps, self.checks, self.uses, self.written), Report()
+        names = self.uses, self.written, self.lent
+        before, inner = (self.problems, self.traps, self.checks), Report()
         self.problems, self.traps, self.checks = inner.problems, inner.traps, inner.checks
-        self.uses, self.written = inner.uses, inner.written
+        self.uses, self.written, self.lent = inner.uses, inner.written, inner.lent
         try:
             yield inner
         finally:
-            self.problems, self.traps, self.checks, self.uses, self.written = before
+            self.problems, self.traps, self.checks = before
+            self.uses, self.written, self.lent = names
 
     def join(self, order: Iterable[Pou]) -> None:
         """Takes over the parts of these POUs, whose sites then count from the end of what is there."""
@@ -88,13 +92,13 @@ class Report:
 
     def mark(self) -> Mark:
         """Where the lists end now, for `undo`."""
-        return len(self.problems), len(self.traps), len(self.checks), len(self.uses), len(self.written)
+        return len(self.problems), len(self.traps), len(self.checks), len(self.uses), len(self.written), len(self.lent)
 
     def undo(self, mark: Mark) -> None:
         """Forgets what was reported since, before the same is checked once more."""
-        problems, traps, checks, uses, written = mark
+        problems, traps, checks, uses, written, lent = mark
         del self.problems[problems:], self.traps[traps:], self.checks[checks:]
-        del self.uses[uses:], self.written[written:]
+        del self.uses[uses:], self.written[written:], self.lent[lent:]
 
     def needless(self, number: int, why: str) -> None:
         """What was to be checked there needs no check."""

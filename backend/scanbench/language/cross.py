@@ -14,8 +14,8 @@ from scanbench.language.reading import Reading
 from scanbench.program.types import ArrayType, Elementary, Member, Record, Reference, Section, StringType, Type
 from scanbench.syntax import tree
 
-Access = Literal["declared", "read", "written"]
-"""`written`: assigned there, or passed to something that may write it."""
+Access = Literal["declared", "read", "written", "named"]
+"""`written`: assigned there, also in part, or passed to something that may write it. `named`: of what is no variable."""
 _FOR = re.compile(r"\bFOR\s+$", re.IGNORECASE)
 _PART = re.compile(r"\.?([^\W\d]\w*)|\[[^\]]*\]|\^")
 
@@ -48,7 +48,8 @@ def cross_references(reading: Reading, symbol: Symbol) -> list[CrossReference]:
     return [
         CrossReference(
             each,
-            "declared" if _key(each.span.file, each.span.line, each.span.column) in own
+            "declared" if _key(each.span.file, each.span.line, each.span.column) in own or _is_external(reading, each)
+            else "named" if each.symbol.kind != "variable"
             else "written" if each.written else "read",
             *_around(reading, each),
         )
@@ -98,7 +99,8 @@ def unused(reading: Reading) -> list[Unused]:
     candidates = list(_candidates(reading))
     read: defaultdict[Symbol, set[bool]] = defaultdict(set)
     for each in reading.index.of(declared.symbol for declared, _ in candidates):
-        read[each.symbol].add(not each.written or _counts(reading, each))
+        if not _is_external(reading, each):
+            read[each.symbol].add(not each.written or each.lent or _counts(reading, each))
     program = reading.checked.program
     for access in program.accesses if program is not None else ():  # tools read it by that name
         symbol = symbol_of_path(reading, access.path)
@@ -121,6 +123,12 @@ def _candidates(reading: Reading) -> Iterator[tuple[Declared, Member]]:
             member = member_of(reading.project.checker, each.symbol)
             if member is not None and not member.hidden and member.section is not Section.MEMBER:
                 yield each, member
+
+
+def _is_external(reading: Reading, place: Occurrence) -> bool:
+    """Whether it is a VAR_EXTERNAL, which only names a global."""
+    span = place.span
+    return "VAR_EXTERNAL" in reading.holding(span.file, reading.position(span.file, span.line, span.column))
 
 
 def _counts(reading: Reading, place: Occurrence) -> bool:

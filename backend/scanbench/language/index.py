@@ -20,6 +20,8 @@ class Occurrence:
     symbol: Symbol
     written: bool = False
     """Whether the variable is assigned there, or passed to something that may write it."""
+    lent: bool = False
+    """It is passed to an in-out, which may read it, too."""
 
 
 class Index:
@@ -30,15 +32,17 @@ class Index:
         chunks = (chunk for file in files.values() for chunk in file.chunks)
         self._of: dict[Source, list[Use]] = {chunk.source: [] for chunk in chunks}
         self._written: defaultdict[Source, set[int]] = defaultdict(set)
+        self._lent: defaultdict[Source, set[int]] = defaultdict(set)
         self._sorted: dict[Source, tuple[list[int], list[Use]]] = {}
         for report in (checker.report, *checker.report.parts.values()):
             for use in report.uses:
                 span = use.span
                 if isinstance(span, Stretch) and span.source in self._of:
                     self._of[span.source].append(use)
-            for span in report.written:
-                if isinstance(span, Stretch):
-                    self._written[span.source].add(span.end)
+            for spans, ends in ((report.written, self._written), (report.lent, self._lent)):
+                for span in spans:
+                    if isinstance(span, Stretch):
+                        ends[span.source].add(span.end)
 
     def at(self, file: str, position: int) -> Occurrence | None:
         """The name that this position of a file is in or after."""
@@ -102,7 +106,8 @@ class Index:
             key = span.source, span.end
             if key not in seen and _is_written(use):
                 seen.add(key)
-                yield Occurrence(use.place, use.symbol, span.end in self._written[span.source])
+                written, lent = span.end in self._written[span.source], span.end in self._lent[span.source]
+                yield Occurrence(use.place, use.symbol, written, lent)
 
 
 def chunk_at(file: Chunked, position: int) -> Chunk:

@@ -54,6 +54,16 @@ def test_each_place_says_whether_it_reads_or_writes_and_in_which_pou() -> None:
         "23 written Main",
         "24 read Main",
     ]
+    assert crossed(PROGRAM.replace("VAR_INPUT run", "VAR_INPUT |run")) == [
+        "2 declared Belt",
+        "5 read Belt",
+        "8 read Belt",
+        "21 written Main",
+    ]
+    assert crossed(PROGRAM.replace("FUNCTION_BLOCK Reset", "FUNCTION_BLOCK |Reset")) == [
+        "11 declared Reset",
+        "20 named Main",
+    ]
 
 
 def test_the_line_is_told_without_its_indentation() -> None:
@@ -98,6 +108,30 @@ END_CONFIGURATION
 """)
     )
     assert [each.declared.name for each in found] == []
+
+
+def test_what_is_passed_to_an_in_out_may_be_read_there_and_an_external_only_names_a_global() -> None:
+    reading = read("""\
+VAR_GLOBAL shared, dead : INT; END_VAR
+FUNCTION_BLOCK Bump
+VAR_IN_OUT x : INT; END_VAR
+x := x + 1;
+END_FUNCTION_BLOCK
+TYPE Pair : STRUCT low, high : INT; END_STRUCT; END_TYPE
+PROGRAM Main
+VAR_EXTERNAL shared, dead : INT; END_VAR
+VAR bump : Bump; n : INT; p : Pair; END_VAR
+bump(x := n);
+p.low := shared;
+END_PROGRAM
+""")
+    assert [each.declared.name for each in unused(reading)] == ["dead"]
+    dead = symbol_of_path(reading, "dead")
+    pair = symbol_of_path(reading, "Main.p")
+    assert dead is not None
+    assert pair is not None
+    assert [each.access for each in cross_references(reading, dead)] == ["declared", "declared"]
+    assert [each.access for each in cross_references(reading, pair)] == ["declared", "written"]
 
 
 def test_a_program_with_errors_is_not_complete() -> None:

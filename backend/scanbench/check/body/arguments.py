@@ -102,6 +102,8 @@ def by_formal(
         member = _formal(body, argument, argument.name, formals, owner, callee)
         if argument.place is not None:
             body.report.use(argument.place, argument.name, variable_symbol(member, owner))
+            if member.section is Section.INPUT:
+                body.report.written.append(argument.place)
         if member.name.upper() in given:
             raise body.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
         given[member.name.upper()] = argument
@@ -220,7 +222,9 @@ def in_out(body: Body, member: Member, value: tree.Expression | None, span: Span
         return _constant_in_out(body, member, value, before)
     if not isinstance(value, VARIABLES):
         raise body.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
-    return _bindable(body, member, targets.target(body, value), value)
+    place = targets.target(body, value)
+    body.report.lent.append(targets.variable(value).span)
+    return _bindable(body, member, place, value)
 
 
 def _constant_in_out(body: Body, member: Member, value: tree.Expression, before: list[Stmt]) -> Place:

@@ -16,12 +16,16 @@ def target(body: Body, node: tree.Expression) -> Place:
 def declared_target(body: Body, node: tree.Expression) -> Found:
     """The same, and the declared variable that it is, or is inside of."""
     place, member = body.place(node)
-    body.report.written.append(_variable(node).span)
+    changed = variable(node)
+    body.report.written.append(changed.span)
+    while isinstance(changed, tree.MemberOf):  # a part of it is written
+        changed = variable(changed.owner)
+        body.report.written.append(changed.span)
     body.effects.assignable(body, place, member, node.span)
     return place, member
 
 
-def _variable(node: tree.Expression) -> tree.Expression:
+def variable(node: tree.Expression) -> tree.Expression:
     """The variable that is written where an element or a part of it is."""
     while isinstance(node, tree.IndexOf | tree.PartialAccess):
         node = node.array if isinstance(node, tree.IndexOf) else node.owner

@@ -80,6 +80,8 @@ class Wiring:
             )
         if argument.place is not None:
             self._report.use(argument.place, argument.name, variable_symbol(member, instance.pou.instance))
+            if member.section is Section.INPUT:
+                self._report.written.append(argument.place)
         if argument.output != (member.section is Section.OUTPUT):
             arrow = "=>" if member.section is Section.OUTPUT else ":="
             raise self._report.reject(

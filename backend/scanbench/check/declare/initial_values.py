@@ -58,6 +58,7 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
             hint = did_you_mean(name, [each.name for each in type.members.values()])
             raise declared.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
         declared.report.use(span, name, variable_symbol(member, type))
+        declared.report.written.append(span)
         data = initial_image(declared, item, member.type)
         if member.bit is None:
             image[member.offset : member.offset + len(data)] = data

@@ -4,7 +4,7 @@ import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** Says in the past that a different program version ran than the one whose files are shown. */
-export function PastNote({ of }: { of: "files" | "problems" }) {
+export function PastNote({ of }: { of: "files" | "problems" | "cross" }) {
   const ran = useRanApart();
   if (ran === null) return null;
   return (

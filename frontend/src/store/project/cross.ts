@@ -15,7 +15,7 @@ interface Place {
 }
 
 export interface CrossReference extends Place {
-  access: "declared" | "read" | "written";
+  access: "declared" | "read" | "written" | "named";
   /** The POU around it, with the method; empty outside of any. */
   pou: string;
   /** Its line. */
@@ -76,6 +76,7 @@ let turn = 0;
 
 /** Of the name at a place of a text; `path` is the variable of the PLC that it is there. */
 export async function showCrossReferences(at: Place, path: string | null): Promise<void> {
+  symbol = null;
   openPage("cross");
   set({ ...nothing, name: "", path });
   await askFor(at);
@@ -83,6 +84,7 @@ export async function showCrossReferences(at: Place, path: string | null): Promi
 
 /** Of a variable of the PLC, by its instance path. */
 export async function showCrossReferencesOf(path: string): Promise<void> {
+  symbol = null;
   openPage("cross");
   set({ ...nothing, name: path, path });
   await askFor({ path });
@@ -115,10 +117,11 @@ async function askFor(wanted: Wanted): Promise<void> {
     const answer =
       "file" in wanted ? await askAt<Answer>(CROSS, wanted.file, wanted) : await ask<Answer>(CROSS, wanted);
     if (!answer) throw new Error(t("cross.unanswered"));
-    symbol = answer.symbol;
-    const { name, complete } = answer;
-    if (symbol === null) return { complete, state: "nothing" as const, references: [] };
-    return { name, complete, state: "there" as const, references: await placed(answer.references) };
+    const { complete, references } = answer;
+    const gone = references.length === 0 && "symbol" in wanted;
+    if (answer.symbol === null || gone) return { complete, state: "nothing" as const, references: [] };
+    const name = answer.name || useCross.getState().name;
+    return { name, complete, state: "there" as const, references: await placed(references), of: answer.symbol };
   });
 }
 
@@ -135,12 +138,14 @@ async function askUnused(): Promise<void> {
 }
 
 /** What an answer says; one that comes after a later question is dropped. */
-async function answered(ask: () => Promise<Partial<Cross>>): Promise<void> {
+async function answered(ask: () => Promise<Partial<Cross> & { of?: readonly string[] }>): Promise<void> {
   turn += 1;
   const mine = turn;
   try {
-    const said = await ask();
-    if (mine === turn) set({ ...said, trouble: null });
+    const { of, ...said } = await ask();
+    if (mine !== turn) return;
+    if (of) symbol = of;
+    set({ ...said, trouble: null });
   } catch (error) {
     if (mine === turn) set({ trouble: messageOf(error), references: [], unused: [], state: "asking" });
   }

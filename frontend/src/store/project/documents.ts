@@ -189,7 +189,8 @@ const saving = inTurn();
  * because somebody else saved first or the server refused.
  */
 export function save(path: string): Promise<boolean> {
-  const { project } = get();
+  const { project, open } = get();
+  if (isDirty(open[path]) && isCutOff()) return Promise.resolve(false); // the one under way may have no answer for long
   return saving(`${project} ${path}`, () => saveNow(project, path));
 }
 

@@ -9,6 +9,7 @@ import type { MemoryWord } from "../../wire/types";
 import { keep, recall } from "../page/localStorage";
 import { openPage } from "../page/navigate";
 import { useBench } from "../plc/bench";
+import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 
 interface Memory {
@@ -41,6 +42,7 @@ const set = useMemory.setState;
 
 onInstanceChange(() => {
   turn += 1;
+  going += 1;
   asked.clear();
   set(nothing);
 });
@@ -59,6 +61,7 @@ export const wordIn = (blocks: Memory["blocks"], area: string, index: number): M
   blocks.get(blockOf(area, index))?.[index % BLOCK];
 
 export function showArea(area: string): void {
+  going += 1;
   set({ area, selected: 0, trouble: null, found: null });
   keep(KEPT, { area, format: get().format });
 }
@@ -68,7 +71,10 @@ export function showFormat(format: MemoryFormat): void {
   keep(KEPT, { area: get().area ?? "", format });
 }
 
-export const selectWord = (selected: number) => set({ selected, trouble: null });
+export function selectWord(selected: number): void {
+  going += 1;
+  set({ selected, trouble: null });
+}
 
 /** Why nothing can be done now. */
 export const complain = (trouble: string) => set({ trouble });
@@ -109,15 +115,21 @@ export async function showInMemory(path: string): Promise<void> {
   await goToAddress(path);
 }
 
+/** Grows with every choice of a word: an answer to an earlier one is late. */
+let going = 0;
+
 export async function goToAddress(path: string): Promise<void> {
   const instance = useBench.getState().instance?.id;
   if (instance === undefined || path.trim() === "") return;
+  going += 1;
+  const mine = going;
   try {
     const { area, word } = await rest.memoryPlace(instance, path);
+    if (mine !== going) return;
     if (area !== get().area) showArea(area);
     set({ selected: word, trouble: null, found: null });
   } catch (error) {
-    set({ trouble: messageOf(error) });
+    if (mine === going) set({ trouble: messageOf(error) });
   }
 }
 
@@ -128,24 +140,27 @@ export async function findValue(area: string, typed: string, bits: FindBits): Pr
   if (value === null)
     return set({ trouble: t("memory.notnumber", { text: typed, format: t(`format.${get().format}`) }), found: null });
   if (instance === undefined) return;
-  const mine = turn;
+  going += 1;
+  const mine = going;
   try {
     const next = get().selected + 1;
     const later = await rest.memoryFind(instance, area, value, bits, next);
     const answer = later.words.length > 0 ? later : await rest.memoryFind(instance, area, value, bits, 0);
-    if (mine !== turn || area !== (get().area ?? area)) return;
+    if (mine !== going) return;
     const [word] = answer.words;
-    const { scan } = answer;
-    if (word === undefined) return set({ trouble: null, found: t("memory.none", { text: typed.trim(), area, scan }) });
-    set({ selected: word, trouble: null, found: t(word < next ? "memory.again" : "memory.found", { scan }) });
+    const halted = usePlc.getState().state?.halt != null;
+    const when = halted ? t("memory.when.halt") : t("memory.when.scan", { scan: answer.scan });
+    if (word === undefined) return set({ trouble: null, found: t("memory.none", { text: typed.trim(), area, when }) });
+    set({ selected: word, trouble: null, found: t(word < next ? "memory.again" : "memory.found", { when }) });
   } catch (error) {
-    if (mine === turn) set({ trouble: messageOf(error), found: null });
+    if (mine === going) set({ trouble: messageOf(error), found: null });
   }
 }
 
 /** Writes a word. False when it was refused: the reason is shown. */
 export async function writeWord(path: string, value: string): Promise<boolean> {
+  const mine = turn;
   const answer = await send({ type: "write", path, value, site: "" });
-  set({ trouble: answer.ok ? null : answer.message || t("operator.notsent") });
+  if (mine === turn) set({ trouble: answer.ok ? null : answer.message || t("operator.notsent") });
   return answer.ok;
 }

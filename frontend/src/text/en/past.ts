@@ -177,6 +177,7 @@ export const past = {
   "past.text.unsure":
     "This is the saved text. The text that ran in this scan, program version {version}, cannot be shown: {message}",
   "past.text.readonly": "This text ran in the past. Return to live to edit the text.",
+  "past.cross": "These are the texts as they are edited now. Scan {scan} ran version {version}.",
   "past.files": "These are the current files; scan {scan} ran program version {version}.",
   "past.problems": "These are the problems of the current files; scan {scan} ran program version {version}.",
 } as const;

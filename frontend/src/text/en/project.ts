@@ -28,8 +28,10 @@ export const project = {
   "cross.access": "Access",
   "cross.asking": "Looking for it in all files",
   "cross.count": "read {read} times, written {written} times",
+  "cross.count.named": "named {count} times",
   "cross.declared": "Declared",
   "cross.errors": "The program has errors: names in statements with an error are missing here.",
+  "cross.named": "Named",
   "cross.nothing":
     "No declaration of {path} was found. It may be an address, or the program has errors: correct them first.",
   "cross.nothing.here": "There is no name of the project at this place. Put the caret into a name.",

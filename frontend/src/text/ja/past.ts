@@ -177,6 +177,7 @@ export const past: Record<keyof typeof english, string> = {
   "past.text.unsure":
     "表示しているのは保存済みのテキストです。このスキャンで実行されたプログラム版 {version} のテキストは表示できません: {message}",
   "past.text.readonly": "これは過去に実行されたテキストです。編集するには現在に戻ってください。",
+  "past.cross": "現在編集中のテキストの結果です。スキャン {scan} ではバージョン {version} が実行されました。",
   "past.files": "これは現在のファイルです。スキャン {scan} で実行されたのはプログラム版 {version} です。",
   "past.problems": "これは現在のファイルの問題です。スキャン {scan} で実行されたのはプログラム版 {version} です。",
 };

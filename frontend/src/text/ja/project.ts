@@ -30,8 +30,10 @@ export const project: Record<keyof typeof english, string> = {
   "cross.access": "アクセス",
   "cross.asking": "すべてのファイルから検索しています",
   "cross.count": "読み出し {read} か所、書き込み {written} か所",
+  "cross.count.named": "{count} か所で使用",
   "cross.declared": "宣言",
   "cross.errors": "プログラムにエラーがあります。エラーのある文の名前はここに表示されません。",
+  "cross.named": "使用",
   "cross.nothing":
     "{path} の宣言が見つかりません。アドレスであるか、プログラムにエラーがあります。先にエラーを修正してください。",
   "cross.nothing.here": "この位置にプロジェクトの名前はありません。名前の上にカーソルを置いてください。",

@@ -6,9 +6,15 @@ import { type CrossReference, followTexts, showUnused, type Unused, useCross } f
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { useGrid } from "../../../ui/useGrid";
+import { PastNote } from "../PastNote";
 import "./cross.css";
 
-const LOOK: Record<CrossReference["access"], IconName> = { declared: "var", read: "eye", written: "init" };
+const LOOK: Record<CrossReference["access"], IconName> = {
+  declared: "var",
+  read: "eye",
+  written: "init",
+  named: "link",
+};
 
 export function CrossPage() {
   useEffect(followTexts, []);
@@ -30,6 +36,7 @@ export function CrossPage() {
           </button>
         )}
       </div>
+      <PastNote of="cross" />
       {trouble !== null && (
         <p className="trouble st fatal" role="alert">
           <Icon name="error" small />
@@ -61,6 +68,7 @@ export function CrossPage() {
 
 function counted(references: readonly CrossReference[]): string {
   const of = (access: CrossReference["access"]) => references.filter((each) => each.access === access).length;
+  if (of("named") > 0) return t("cross.count.named", { count: of("named") });
   return t("cross.count", { read: of("read"), written: of("written") });
 }
 

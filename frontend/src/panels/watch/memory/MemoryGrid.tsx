@@ -2,7 +2,7 @@ import { type KeyboardEvent, memo, useCallback, useEffect, useMemo, useRef, useS
 import { literalOf } from "../../../logic/format/formats";
 import { columnsOf, type MemoryFormat, movedTo, type WholeArea, WORD } from "../../../logic/watch/memory";
 import { useForbidden } from "../../../store/plc/plc";
-import { currentText } from "../../../store/plc/values";
+import { currentText, sortKey } from "../../../store/plc/values";
 import { useWatches, watch } from "../../../store/plc/watches";
 import { complain, loadWords, selectWord, useMemory, wordIn, writeWord } from "../../../store/watch/memory";
 import { t } from "../../../text";
@@ -14,7 +14,7 @@ import { showLive } from "../live";
 export function MemoryGrid({ area }: { area: WholeArea }) {
   const { format, selected, blocks } = useMemory();
   const forbidden = useForbidden("write");
-  const [typed, setTyped] = useState<string | null>(null);
+  const [typed, setTyped] = useState<{ index: number; first: string } | null>(null);
   const wordAt = useCallback((index: number) => wordIn(blocks, area.name, index), [blocks, area.name]);
   const columns = columnsOf([wordAt(0)?.address, wordAt(10)?.address], format);
   const grid = useGrid({ count: Math.ceil(area.words / columns) });
@@ -24,7 +24,7 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
 
   function edit(first: string): void {
     if (forbidden !== null) complain(forbidden);
-    else if (wordAt(selected)) setTyped(first);
+    else if (wordAt(selected)) setTyped({ index: selected, first });
   }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
@@ -39,11 +39,11 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
     event.preventDefault();
   }
 
-  async function enter(value: string): Promise<void> {
-    const word = wordAt(selected);
+  /** What is refused stays in its field. */
+  async function enter({ address }: MemoryWord, value: string): Promise<void> {
+    if (!(await writeWord(address, literalOf(WORD, format, value)))) return;
     setTyped(null);
     grid.scroll.current?.focus();
-    if (word) await writeWord(word.address, literalOf(WORD, format, value));
   }
 
   const heads = Array.from({ length: columns }, (_, at) => `+${at}`);
@@ -86,8 +86,17 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
                 const index = first + at;
                 const word = wordAt(index);
                 if (index >= area.words || !word) return <span key={head} role="gridcell" />;
-                if (index === selected && typed !== null)
-                  return <Entry key={head} word={word} first={typed} onEnter={enter} onLeave={() => setTyped(null)} />;
+                if (index === typed?.index)
+                  return (
+                    <Entry
+                      key={head}
+                      id={cellId(index)}
+                      word={word}
+                      first={typed.first}
+                      onEnter={(value) => void enter(word, value)}
+                      onLeave={() => setTyped(null)}
+                    />
+                  );
                 return (
                   <WordCell
                     key={head}
@@ -148,7 +157,7 @@ const WordCell = memo(function WordCell({ index, word: { address, symbols }, for
     const { current: whole } = cell;
     const written = (shown: string) => {
       const short = bare(shown, format);
-      whole.classList.toggle("zero", /^[0.]*$/.test(short));
+      whole.classList.toggle("zero", Number(sortKey(address) ?? -1) === 0);
       return format === "binary" ? short.replace(/\B(?=(.{4})+$)/g, " ") : short;
     };
     return showLive(address, format, { cell: whole, text: text.current, written });
@@ -161,18 +170,19 @@ const WordCell = memo(function WordCell({ index, word: { address, symbols }, for
       className={`val${on ? " on" : ""}${names ? " named" : ""}`}
       role="gridcell"
       aria-selected={on}
-      aria-label={names ? `${address}, ${names}` : address}
       title={names ? `${address}: ${names}` : address}
       data-testid={`memory:${address}`}
       onClick={() => selectWord(index)}
       onDoubleClick={() => onEdit(bare(currentText(address, format), format))}
     >
+      <span className="sr">{names ? `${address}, ${names}: ` : `${address}: `}</span>
       <span ref={text} className="txt" />
     </span>
   );
 });
 
 interface EntryProps {
+  id: string;
   word: MemoryWord;
   first: string;
   onEnter: (value: string) => void;
@@ -180,7 +190,7 @@ interface EntryProps {
 }
 
 /** The field in which the selected word is typed: Enter writes, Escape leaves it as it is. */
-function Entry({ word: { address }, first, onEnter, onLeave }: EntryProps) {
+function Entry({ id, word: { address }, first, onEnter, onLeave }: EntryProps) {
   const input = useRef<HTMLInputElement>(null);
   const [value, setValue] = useState(first);
   useEffect(() => {
@@ -188,7 +198,7 @@ function Entry({ word: { address }, first, onEnter, onLeave }: EntryProps) {
     if (first.length > 1) input.current?.select();
   }, [first]);
   return (
-    <span role="gridcell" className="memedit">
+    <span id={id} role="gridcell" className="memedit">
       <input
         ref={input}
         className="inp sm mono"

@@ -30,7 +30,7 @@ async function openMemory() {
     server.has(LEVEL, 0x1f);
   });
   render(<MemoryPage />);
-  await waitFor(() => expect(cell("D12").textContent).toBe("001F"));
+  await waitFor(() => expect(cell("D12").querySelector(".txt")?.textContent).toBe("001F"));
   return { ...page, grid: screen.getByRole("grid") };
 }
 
@@ -57,7 +57,8 @@ test("a refused write says why; a part that tools may not write says so before",
   grid.focus();
   await user.keyboard("5{Enter}");
   await waitFor(() => expect(screen.getByRole("alert").textContent).toBe("D0 is read-only for tools"));
-  await user.keyboard("{Control>}{End}{/Control}");
+  expect(screen.getByRole("textbox", { name: t("memory.change", { address: "D0" }) })).toHaveProperty("value", "5");
+  await user.keyboard("{Escape}{Control>}{End}{/Control}");
   await waitFor(() => expect(details("D39").textContent).toContain(t("memory.readonly")));
 });
 
@@ -70,10 +71,10 @@ test("a value is found from the selected word on, and from the start again; an a
   }));
   await user.type(screen.getByRole("textbox", { name: t("memory.find") }), "1F{Enter}");
   await waitFor(() => expect(cell("D12").getAttribute("aria-selected")).toBe("true"));
-  expect(screen.getByRole("status").textContent).toBe(t("memory.found", { scan: 7 }));
+  expect(screen.getByRole("status").textContent).toBe(t("memory.found", { when: t("memory.when.scan", { scan: 7 }) }));
   await user.type(screen.getByRole("textbox", { name: t("memory.find") }), "{Enter}");
   await waitFor(() => expect(cell("D3").getAttribute("aria-selected")).toBe("true"));
-  expect(screen.getByRole("status").textContent).toBe(t("memory.again", { scan: 7 }));
+  expect(screen.getByRole("status").textContent).toBe(t("memory.again", { when: t("memory.when.scan", { scan: 7 }) }));
   await user.type(screen.getByRole("textbox", { name: t("memory.find") }), "xyz{Enter}");
   await waitFor(() => expect(screen.getByRole("alert").textContent).toContain("1Fxyz"));
 

@@ -20,9 +20,18 @@ export function MemoryPage() {
   const wanted = useMemory((memory) => memory.area);
   const areas = useMemo(() => wholeAreas(model?.areas ?? []), [model]);
   const area = areas.find(({ name }) => name === wanted) ?? areas[0];
-  const away = usePlc(({ link, state }) => link.state !== "open" || state?.state === "off");
+  const name = area?.name;
+  // What was looked at on a different model may not be there.
+  useEffect(() => {
+    if (name !== undefined && name !== wanted) showArea(name);
+  }, [name, wanted]);
+  const away = usePlc(
+    ({ link, state }) => link.state !== "open" || ["off", "silent", "failed"].includes(state?.state ?? "off"),
+  );
   // biome-ignore lint/correctness/useExhaustiveDependencies: a different program may have other variables there; one that was away is asked again
-  useEffect(forgetNames, [version, away]);
+  useEffect(() => {
+    if (!away) forgetNames();
+  }, [version, away]);
 
   return (
     <section className="pane flexcol memory" aria-label={t("memory.title")} data-pane="memory" data-live>

@@ -4,7 +4,7 @@ import { showWriter } from "../../../store/past/writer";
 import { useBench } from "../../../store/plc/bench";
 import { bindCell, sortKey } from "../../../store/plc/values";
 import { watch } from "../../../store/plc/watches";
-import { useForcedAt } from "../../../store/watch/forces";
+import { useForces } from "../../../store/watch/forces";
 import { useMemory, wordIn } from "../../../store/watch/memory";
 import { addToWatch } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
@@ -16,12 +16,16 @@ export function WordDetails({ area }: { area: WholeArea }) {
   const selected = useMemory((memory) => memory.selected);
   const word = useMemory(({ blocks }) => wordIn(blocks, area.name, selected));
   if (!word || selected >= area.words) return null;
-  return <Details key={word.address} word={word} />;
+  return <Details key={word.address} word={word} area={area.name} />;
 }
 
-function Details({ word: { address, symbols } }: { word: MemoryWord }) {
-  const readOnly = useReadOnly(address);
-  const forced = useForcedAt(address);
+function Details({ word: { address, symbols }, area }: { word: MemoryWord; area: string }) {
+  const readOnly = useReadOnly(area);
+  const forced = useForces(({ held }) =>
+    [...held.values()].find(
+      ({ path }) => path === address || path.startsWith(`${address}.`) || symbols.some((each) => each.path === path),
+    ),
+  );
   return (
     <section className="memword" aria-label={t("memory.word", { address })}>
       <div className="memhead">
@@ -29,7 +33,7 @@ function Details({ word: { address, symbols } }: { word: MemoryWord }) {
         {forced && (
           <span className="st forced">
             <Icon name="forced" small />
-            {t("force.to", { value: forced.value })}
+            {`${forced.path}: ${t("force.to", { value: forced.value })}`}
           </span>
         )}
         {readOnly && <span className="faint">{t("memory.readonly")}</span>}
@@ -53,17 +57,16 @@ function Details({ word: { address, symbols } }: { word: MemoryWord }) {
 }
 
 /** Whether tools may not write the word; the model says it for each part of an area. */
-function useReadOnly(address: string): boolean {
+function useReadOnly(area: string): boolean {
   const selected = useMemory((memory) => memory.selected);
-  const area = useMemory((memory) => memory.area);
   const model = useBench((bench) => bench.model);
   let before = 0;
   for (const part of model?.areas ?? []) {
-    if (part.name !== (area ?? model?.areas[0]?.name)) continue;
+    if (part.name !== area) continue;
     if (selected < before + part.words) return part.tool !== "write";
     before += part.words;
   }
-  return address === "";
+  return false;
 }
 
 function Values({ address }: { address: string }) {
