@@ -1,12 +1,11 @@
 import { fireEvent, render, screen } from "@testing-library/react";
-import { expect, test, vi } from "vitest";
+import { expect, onTestFinished, test } from "vitest";
 import type { PanelElement } from "../../logic/operator/panel";
+import { useOperatorPanels } from "../../store/operator/panels";
 import { t } from "../../text";
+import { ElementForm } from "./ElementForm";
 
-const edits = vi.hoisted(() => [] as unknown[]);
-vi.mock("../../store/operator/panels", () => ({ editPanel: (_path: string, change: unknown) => edits.push(change) }));
-
-const { ElementForm } = await import("./ElementForm");
+const PATH = "Line.panel.json";
 
 const ELEMENT: PanelElement = {
   id: "a",
@@ -22,7 +21,18 @@ const ELEMENT: PanelElement = {
 };
 
 test("half an address is on nobody's panel: a text counts when it is entered, and Escape takes it back", () => {
-  render(<ElementForm path="Line.panel.json" element={ELEMENT} onRemoved={() => {}} />);
+  const panel = { elements: [ELEMENT] };
+  const open = { version: 1, base: panel, panel, wrong: null, trouble: null, kept: true };
+  useOperatorPanels.setState({ open: { [PATH]: open } });
+  const edits: unknown[] = [];
+  const ends = useOperatorPanels.subscribe((now, before) => {
+    if (now.open[PATH]?.panel !== before.open[PATH]?.panel) edits.push(now.open[PATH]?.panel);
+  });
+  onTestFinished(() => {
+    ends();
+    useOperatorPanels.setState({ open: {} });
+  });
+  render(<ElementForm path={PATH} element={ELEMENT} onRemoved={() => {}} />);
   const variable = screen.getByRole("combobox", { name: t("operator.variable") });
   for (const text of ["D", "D10", "D100"]) fireEvent.change(variable, { target: { value: text } });
   expect(edits).toHaveLength(0);

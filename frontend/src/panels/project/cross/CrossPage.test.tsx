@@ -1,25 +1,13 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
-import { beforeEach, expect, test, vi } from "vitest";
+import { beforeEach, expect, onTestFinished, test, vi } from "vitest";
 import { showCrossReferences, showCrossReferencesOf, showUnused } from "../../../store/project/cross";
 import { useDocuments } from "../../../store/project/documents";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
+import { LspClient } from "../../../wire/lsp";
 import { CrossPage } from "./CrossPage";
 
-const server = vi.hoisted(() => ({ asked: [] as [string, object][], answers: new Map<string, unknown>() }));
-
-vi.mock("../../../store/project/language", () => {
-  const ask = (method: string, params: object) => {
-    server.asked.push([method.replace("scanbench/", ""), params]);
-    return Promise.resolve(server.answers.get(method.replace("scanbench/", "")) ?? null);
-  };
-  return {
-    ask,
-    askAt: (method: string, path: string, at: { line: number; column: number }) =>
-      ask(method, { path, line: at.line, column: at.column }),
-    pathOf: (uri: string) => uri.replace("scanbench:/", ""),
-  };
-});
+const server = { asked: [] as [string, object][], answers: new Map<string, unknown>() };
 
 const at = (file: string, line: number) => ({
   uri: `scanbench:/${file}`,
@@ -36,9 +24,15 @@ const LEVEL = {
   ],
 };
 
+/** The language server, which the fake server does not have. */
 beforeEach(() => {
   server.asked.length = 0;
   server.answers.clear();
+  const asked = vi.spyOn(LspClient.prototype, "request").mockImplementation(async (method, params) => {
+    server.asked.push([method.replace("scanbench/", ""), params]);
+    return (server.answers.get(method.replace("scanbench/", "")) ?? null) as never;
+  });
+  onTestFinished(() => asked.mockRestore());
 });
 
 const rows = () =>
