@@ -8,6 +8,8 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 from pytest_lsp import LanguageClient
 
+from scanbench.web.lsp.server import make_server
+from scanbench.web.lsp.stdio import folder_of
 from tests.lsp.client import conversation, opened
 
 BLOCK = """\
@@ -295,3 +297,23 @@ def test_cross_references_and_what_nobody_reads_are_requests_of_our_own(folder: 
         assert (broken.complete, broken.unused) == (False, [])
 
     conversation(folder, talk)
+
+
+class Closed:
+    """The end of a client that is gone."""
+
+    writes = 0
+
+    def write(self, _: bytes) -> None:
+        self.writes += 1
+        raise ValueError("write to closed file")
+
+    def close(self) -> None: ...
+
+
+def test_what_cannot_be_sent_is_not_reported_by_sending() -> None:
+    closed = Closed()
+    server = make_server(folder_of)
+    server.protocol.set_writer(closed)
+    server.window_show_message(types.ShowMessageParams(types.MessageType.Info, "Is anybody there?"))
+    assert closed.writes == 1

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException, JsonRpcInternalError, PyglsError
 from pygls.lsp.server import LanguageServer
 
 import scanbench
@@ -23,9 +24,16 @@ class _Files(Protocol):
     def files(self) -> list[tuple[str, str]]: ...
 
 
+class _Server(LanguageServer):
+    def report_server_error(self, error: Exception, source: type[PyglsError | JsonRpcException]) -> None:
+        """Tells the client of an error; but not by sending what went wrong in sending, as that would have no end when it is gone."""
+        if source is not JsonRpcInternalError:
+            super().report_server_error(error, source)
+
+
 def make_server(saved_of: Callable[[types.InitializeParams], Saved]) -> LanguageServer:
     """A server for one client."""
-    server = LanguageServer("scanbench", scanbench.__version__)
+    server = _Server("scanbench", scanbench.__version__)
     language = Language(server, saved_of)
 
     @server.feature(types.INITIALIZE)
