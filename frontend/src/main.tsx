@@ -2,6 +2,7 @@ import { createRoot } from "react-dom/client";
 import { App } from "./app/App";
 import { connectStores } from "./app/dispatch";
 import { start } from "./store/plc/bench";
+import { Boundary } from "./ui/Boundary";
 import "./ui/tokens.css";
 import "./ui/base.css";
 import "./ui/controls.css";
@@ -16,4 +17,10 @@ import "./ui/forced.css";
 connectStores();
 void start();
 const root = document.getElementById("root");
-if (root) createRoot(root).render(<App />);
+if (root) {
+  createRoot(root).render(
+    <Boundary>
+      <App />
+    </Boundary>,
+  );
+}

@@ -1,5 +1,5 @@
 import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewPanelProps } from "dockview-react";
-import { type MouseEvent, type ReactNode, useEffect } from "react";
+import { type FunctionComponent, type MouseEvent, type ReactNode, useEffect } from "react";
 import { baseName } from "../logic/format/paths";
 import { isPanelFile, panelName } from "../logic/project/panelFiles";
 import { ConsolePanel } from "../panels/debug/console/ConsolePanel";
@@ -22,6 +22,7 @@ import { type PageName, pageOf } from "../store/page/navigate";
 import { usePlc } from "../store/plc/plc";
 import { isDirty, useDocuments } from "../store/project/documents";
 import { t } from "../text";
+import { Boundary } from "../ui/Boundary";
 import { Icon, type IconName } from "../ui/Icon";
 import type { Pou } from "../wire/types";
 import { closeByHand } from "./closing";
@@ -30,7 +31,7 @@ import { PageEnd } from "./PageEnd";
 import { PAGES, pageComponents } from "./pages";
 import { Start } from "./Start";
 
-export const components = {
+const panels = {
   start: Start,
   editor: ({ params: { path } }: IDockviewPanelProps<{ path: string }>) =>
     isPanelFile(path) ? <PanelFile path={path} /> : <EditorPanel path={path} />,
@@ -48,6 +49,17 @@ export const components = {
   history: HistoryPanel,
   ...pageComponents,
 };
+
+/** What fails in one panel ends that panel only. */
+const bounded = (Panel: FunctionComponent<IDockviewPanelProps>) => (props: IDockviewPanelProps) => (
+  <Boundary>
+    <Panel {...props} />
+  </Boundary>
+);
+
+export const components = Object.fromEntries(
+  Object.entries<FunctionComponent<IDockviewPanelProps>>(panels).map(([name, panel]) => [name, bounded(panel)]),
+);
 
 /** An operator panel; where its text cannot be drawn, that text, to be repaired. */
 function PanelFile({ path }: { path: string }) {

@@ -66,6 +66,12 @@ export const common = {
   "copy.address": "Copy address",
   "copy.row": "Copy row",
   "panel.forces": "Forces",
+  "boundary.again": "Show it again",
+  "boundary.fault": "This part of the page failed, and nothing else is lost: {message}",
+  "boundary.reload": "Reload the page",
+  "later.failed":
+    "This part of the page could not be loaded. The page tries again by itself; after an update of the server, reload the page.",
+  "later.loading": "Loading",
   somebody: "Somebody",
   tryagain: "Try again",
   undo: "Undo",

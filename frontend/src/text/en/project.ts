@@ -68,7 +68,6 @@ export const project = {
   "diagnostics.where": "Place",
   "editor.firstsuggestion": "Accept the first suggestion",
   "editor.indent": "Indent the line like its block",
-  "editor.loading": "Loading the editor",
   "editor.of": "Editor, {path}",
   "editor.refused": "{path} cannot be shown: {message}",
   "explorer.class": "Classes",

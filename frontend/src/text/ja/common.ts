@@ -68,6 +68,12 @@ export const common: Record<keyof typeof english, string> = {
   "copy.address": "アドレスをコピー",
   "copy.row": "行をコピー",
   "panel.forces": "強制",
+  "boundary.again": "もう一度表示",
+  "boundary.fault": "ページのこの部分でエラーが発生しました。ほかは失われていません: {message}",
+  "boundary.reload": "ページを再読み込み",
+  "later.failed":
+    "ページのこの部分を読み込めませんでした。自動的に再試行します。サーバーを更新した後は、ページを再読み込みしてください。",
+  "later.loading": "読み込み中",
   somebody: "誰か",
   tryagain: "再試行",
   undo: "元に戻す",

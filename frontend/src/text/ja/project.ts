@@ -69,7 +69,6 @@ export const project: Record<keyof typeof english, string> = {
   "diagnostics.where": "場所",
   "editor.firstsuggestion": "最初の候補を挿入",
   "editor.indent": "ブロックに合わせて字下げ",
-  "editor.loading": "エディタを読み込み中",
   "editor.of": "エディタ {path}",
   "editor.refused": "{path} を表示できません: {message}",
   "explorer.class": "クラス",

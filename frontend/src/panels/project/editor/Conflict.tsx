@@ -1,10 +1,10 @@
-import { lazy, Suspense } from "react";
 import { resolveConflict } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { later } from "../../../ui/later";
 import type { FileText } from "../../../wire/types";
 
-const DiffView = lazy(() => import("./DiffView"));
+const DiffView = later(() => import("./DiffView"));
 
 /** Somebody else saved first: both texts side by side, and a choice. Nothing is lost until the user chooses. */
 export function Conflict({ path, theirs }: { path: string; theirs: FileText }) {
@@ -27,9 +27,7 @@ export function Conflict({ path, theirs }: { path: string; theirs: FileText }) {
           {t("conflict.mine")}
         </button>
       </div>
-      <Suspense fallback={null}>
-        <DiffView path={path} theirs={theirs.text} />
-      </Suspense>
+      <DiffView path={path} theirs={theirs.text} />
     </section>
   );
 }

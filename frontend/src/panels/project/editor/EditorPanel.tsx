@@ -1,20 +1,15 @@
-import { lazy, Suspense, useEffect, useRef, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
 import { isDirty, openDocument, useDocuments } from "../../../store/project/documents";
 import { useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { later } from "../../../ui/later";
 import { Conflict } from "./Conflict";
 import { EditorBar } from "./EditorBar";
 
 // Monaco is 4 MB: it is loaded after the page is shown.
-const CodeView = lazy(() => import("./CodeView"));
-
-const Code = (props: { path: string; past: string | null }) => (
-  <Suspense fallback={<p className="lonely faint">{t("editor.loading")}</p>}>
-    <CodeView {...props} />
-  </Suspense>
-);
+const CodeView = later(() => import("./CodeView"));
 
 /** Says which version is shown, and that the edited text is kept; or why there is no text. */
 function PastNote({ path, version }: { path: string; version: number }) {
@@ -91,7 +86,9 @@ export function EditorPanel({ path }: { path: string }) {
       )}
       {version !== null && past && <PastNote path={path} version={version} />}
       {version !== null && !past && unsure !== null && <UnsureNote version={version} refused={unsure} />}
-      {!past ? loaded && <Code path={path} past={null} /> : ran !== undefined && <Code path={path} past={ran} />}
+      {!past
+        ? loaded && <CodeView path={path} past={null} />
+        : ran !== undefined && <CodeView path={path} past={ran} />}
       {conflict && !past && <Conflict path={path} theirs={conflict} />}
     </section>
   );

@@ -1,12 +1,12 @@
-import { lazy, Suspense } from "react";
 import { dayTime } from "../../../logic/format/numbers";
 import type { Difference } from "../../../logic/project/versions";
 import { choose, type Side, takeVersion, useVersions } from "../../../store/project/versions";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { later } from "../../../ui/later";
 import "./versions.css";
 
-const TextsDiff = lazy(() => import("./TextsDiff"));
+const TextsDiff = later(() => import("./TextsDiff"));
 
 /** Two versions of the program beside each other, file by file. */
 export function VersionsPage() {
@@ -55,11 +55,7 @@ export function VersionsPage() {
               </li>
             ))}
           </ul>
-          {shown && (
-            <Suspense fallback={null}>
-              <TextsDiff key={shown.path} before={shown.before ?? ""} after={shown.after ?? ""} />
-            </Suspense>
-          )}
+          {shown && <TextsDiff key={shown.path} before={shown.before ?? ""} after={shown.after ?? ""} />}
         </div>
       )}
     </div>

@@ -130,6 +130,11 @@ function brackets(colour: string): Record<string, string> {
 paint();
 usePrefs.subscribe(paint);
 
+/** What Monaco itself cancels, as a question about a text that is closed meanwhile, it rejects; nobody waits for an answer any more. */
+addEventListener("unhandledrejection", (event) => {
+  if (event.reason instanceof Error && event.reason.name === "Canceled") event.preventDefault();
+});
+
 /** Popups of all editors live in one element of the page, so that panels do not cut them off. */
 const popups = document.createElement("div");
 popups.className = "monaco-editor editor-popups";
