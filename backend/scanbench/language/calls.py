@@ -35,10 +35,20 @@ class Calls:
 
 
 def party_at(reading: Reading, file: str, position: int) -> Party | None:
-    """The POU or method that is named at a position, also by an instance of it."""
+    """The POU or method that is named at a position, also by an instance of it; where none is, the one around."""
     found = named_at(reading, file, position)
     symbol = None if found is None else _runs(reading, found.symbol)
+    if symbol is None:
+        symbol = _around(reading, file, position)
     return None if symbol is None else next(_parties(reading, symbol, lambda file: extents(reading, file)), None)
+
+
+def _around(reading: Reading, file: str, position: int) -> Symbol | None:
+    around = reading.around(file, position)
+    if around is None:
+        return None
+    key = qualified(around.pou.namespace, around.pou.name).upper()
+    return Symbol("pou", "", key) if around.method is None else Symbol("method", key, around.method.name.upper())
 
 
 def incoming(reading: Reading, symbol: Symbol) -> list[Calls]:

@@ -73,6 +73,14 @@ def test_a_program_calls_blocks_and_methods() -> None:
     assert [(each.party.symbol.owner, len(each.names)) for each in called] == [("", 1), ("COUNTS", 1), ("INC", 1)]
 
 
-def test_a_plain_variable_is_no_party() -> None:
-    reading, position = marked(TEXT.replace("b := any", "|b := any"))
+def test_where_nothing_is_named_that_runs_the_pou_around_is_meant() -> None:
+    for where, name in (("|b := any", "Main"), ("n := Twice(0);|", "Reset"), ("END_VAR|\nFOR", "Main")):
+        reading, position = marked(TEXT.replace(where.replace("|", ""), where, 1))
+        party = party_at(reading, FILE, position)
+        assert party is not None
+        assert party.entry.name == name
+
+
+def test_outside_of_all_pous_there_is_no_party() -> None:
+    reading, position = marked(TEXT.replace("\nPROGRAM Main", "\n|\nPROGRAM Main"))
     assert party_at(reading, FILE, position) is None

@@ -12,6 +12,7 @@ const WHERE: Record<string, readonly (readonly [string, TextKey])[]> = {
     ["Ctrl+F12", "keys.implementations"],
     ["Shift+F12", "keys.references"],
     ["Ctrl+Alt+R", "cross.title"],
+    ["Shift+Alt+H", "calls.title"],
     ["F2", "keys.rename"],
     ["Ctrl+Space", "keys.complete"],
     ["Ctrl+Shift+Space", "keys.parameters"],

@@ -4,6 +4,7 @@ import { RecordPage } from "../panels/errors/history/RecordPage";
 import { SweepPage } from "../panels/errors/sweep/SweepPage";
 import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
 import { RackPage } from "../panels/operator/RackPage";
+import { CallsPage } from "../panels/project/calls/CallsPage";
 import { CrossPage } from "../panels/project/cross/CrossPage";
 import { VersionsPage } from "../panels/project/editor/VersionsPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
@@ -28,6 +29,7 @@ export const PAGES: Record<PageName, Page> = {
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
   cross: { component: CrossPage, icon: "swap", useTitle: () => t("cross.title") },
+  calls: { component: CallsPage, icon: "stack", useTitle: () => t("calls.title") },
   memory: { component: MemoryPage, icon: "mem", useTitle: () => t("memory.title") },
   rack: { component: RackPage, icon: "plc", useTitle: () => t("rack.title") },
   usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },

@@ -8,6 +8,16 @@ export const project: Record<keyof typeof english, string> = {
   "build.ok": "ビルド済み",
   "build.refused": "ビルド不可",
   building: "ビルド中",
+  "calls.again": "(上と同じ)",
+  "calls.asking": "呼出しを検索中",
+  "calls.callers": "呼出し元",
+  "calls.calls": "呼出し先",
+  "calls.direction": "呼出しの方向",
+  "calls.none.callers":
+    "プロジェクトの中で {name} を呼び出しているものはありません。プログラムはタスクから実行されます。",
+  "calls.none.calls": "{name} はプロジェクトのPOUやメソッドを呼び出していません。",
+  "calls.nothing": "この位置はPOUやメソッドの中になく、その名前でもありません。その中にカーソルを置いてください。",
+  "calls.title": "呼出しツリー",
   close: "閉じる",
   "close.about":
     "保存されていません。このブラウザに残しておくと、次にここで開いたときに戻ります。他の人には見えません。",

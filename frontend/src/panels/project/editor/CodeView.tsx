@@ -12,6 +12,7 @@ import "./checks";
 import "./completion";
 import { markCoverage } from "./coverage";
 import "./debug.css";
+import { addCallsAction } from "./callsAction";
 import { addCrossAction } from "./crossAction";
 import { addDebugActions } from "./debugActions";
 import { addDisturbAction } from "./disturbAction";
@@ -67,6 +68,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     addWatchAction(code, path);
     addWriterAction(code, path);
     addCrossAction(code, path);
+    addCallsAction(code, path);
     const noCommands = offerEditorCommands(code, path);
     const noDrag = dragToWatch(code, host.current, path);
     let gutter: Gutter | null = null;
