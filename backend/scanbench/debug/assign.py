@@ -92,12 +92,12 @@ def refused(view: View, spot: Spot, type: Type, shown: str) -> Refusal | None:
     """Why a tool may not write there."""
     offset, bit = spot
     found = view.program.layout.area_at(offset)
-    if found is not None and found[0].access(found[1] // 2, "tool") != "write":
+    size = 1 if bit is not None else type.size
+    if found is not None and found[0].protected(found[1], size, "tool") is not None:
         where = names_of(view.program).text(offset, bit, type)
         return Refusal(f"{shown}: {where} is read-only for tools on {view.model.name}, as on the device")
     table = forced_table(view)
     one = 1 << bit if bit is not None else 0xFF
-    size = 1 if bit is not None else type.size
     if any(table.get(at, (0, 0))[0] & one for at in range(offset, offset + size)):
         return Refusal(f"{shown} is forced, so a write would be lost: release the force first")
     return may(view.header.mode, Right.WRITE, shown)

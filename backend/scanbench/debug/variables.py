@@ -143,7 +143,7 @@ def _writable(scene: Scene, symbol: Symbol, offset: int) -> bool:
     if not isinstance(symbol.type, Elementary | StringType) or symbol.constant:
         return False
     found = scene.program.layout.area_at(offset)
-    return found is None or found[0].access(found[1] // 2, "tool") == "write"
+    return found is None or found[0].protected(found[1], symbol.type.size, "tool") is None
 
 
 def tool_path(scene: Scene, symbol: Symbol, given: str) -> str:

@@ -64,6 +64,11 @@ class Area:
                 return entry.program if who == "program" else entry.tool if who == "tool" else entry.engine
         return "none"
 
+    def protected(self, byte: int, size: int, who: Who) -> int | None:
+        """The first of the words with these bytes that `who` may not write; None where all may be written."""
+        words = range(byte // 2, (byte + max(1, size) + 1) // 2)
+        return next((word for word in words if self.access(word, who) != "write"), None)
+
 
 class Location(NamedTuple):
     """A place in an area: bit n of word w is byte 2*w + n//8, bit n%8."""

@@ -192,7 +192,7 @@ def read_only_reason(view: View, symbol: Symbol, offset: int, bit: int | None) -
     found = view.program.layout.area_at(offset)
     if found is not None:
         area, byte = found
-        if area.access(byte // 2, "tool") != "write":
+        if area.protected(byte, 1 if bit is not None else symbol.type.size, "tool") is not None:
             place = model.format(area, byte, bit, 1 if bit is not None else 8 * symbol.type.size)
             return (
                 f"{place} is read-only for tools on {model.name}, as on the device. "

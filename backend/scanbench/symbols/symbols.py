@@ -400,4 +400,5 @@ def _checked(program: Program, symbol: Symbol) -> Symbol:
     area, byte = found
     bits = 1 if symbol.bit is not None else 8 * symbol.type.size
     address = layout.model.format(area, byte, symbol.bit, bits if bits in RAW_TYPES else 16)
-    return replace(symbol, address=address, tool=area.access(byte // 2, "tool"))
+    free = area.protected(byte, bits // 8, "tool") is None
+    return replace(symbol, address=address, tool="write" if free else "read")

@@ -172,6 +172,18 @@ def test_a_tool(name: str) -> None:
                 assert answer.message.startswith(f"{symbol.path} is read-only for tools on {name}, as on the device")
 
 
+def test_a_variable_that_reaches_into_protected_words_is_protected() -> None:
+    """SM399 may be written, SM400 may not: a DWORD from SM384 on holds both."""
+    text = "PROGRAM Main VAR both AT K8SM384 : DWORD; END_VAR {}END_PROGRAM"
+    (problem,) = check_sources({"main.st": text.format("both := 1; ")}, named("Q03UD")).problems
+    assert problem.message == "K4SM400 is read-only for the program on a Q03UD; it can only be read."
+    virtual = plc(text.format(""), model_name="Q03UD")
+    answer = virtual.submit(Write("Ada", "Main.both", "1"))
+    assert isinstance(answer, Refusal)
+    assert "is read-only for tools" in answer.message
+    assert not resolve(virtual.program, "Main.both").writable
+
+
 @pytest.mark.parametrize("name", MATRIX)
 def test_the_engine_interface(name: str) -> None:
     """It may write everywhere, and what the catalogue writes is what tools may not."""

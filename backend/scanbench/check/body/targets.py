@@ -63,9 +63,11 @@ def writable(body: Body, place: Place, span: Span) -> None:
     for area in model.areas:
         start = body.declarations.areas[area.name]
         if start <= place.offset < start + area.size:
-            word = (place.offset - start) // 2
-            if area.access(word, body.scope.who) != "write":
-                where = model.format(area, place.offset - start, place.bit, 1 if place.bit is not None else 16)
+            byte, bit = place.offset - start, place.bit
+            word = area.protected(byte, 1 if bit is not None else place.type.size, body.scope.who)
+            if word is not None:
+                bits, byte = (16, 2 * word) if bit is None else (1, byte)
+                where = model.format(area, byte, bit, bits)
                 raise body.report.reject(
                     "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.", span
                 )
