@@ -27,8 +27,8 @@ from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.reaction.compare import Outcome, compare
-from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.reaction import WINDOW
+from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.reference import find_error
 from scanbench.jobs.starting import checked_program, model_of, point_in

@@ -12,7 +12,7 @@ from scanbench.cli.inputs import with_near
 from scanbench.cli.raising import BadCommand
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
-from scanbench.faults.reaction.react import Point
+from scanbench.faults.reaction.steps import Point
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.recording.headless import HeadlessRun, run_headless

@@ -15,6 +15,12 @@ class ErrorRef:
     id: str
     details: tuple[tuple[str, str], ...] = ()
 
+    def __str__(self) -> str:
+        """In the notation of `parse_reference`."""
+        return self.id + "".join(
+            f"{',' if number else ':'}{name}={value}" for number, (name, value) in enumerate(self.details)
+        )
+
 
 def find_error(model: Model, id: str) -> ErrorEntry | Refusal:
     """The catalogue's entry, or a refusal with near matches."""

@@ -17,7 +17,7 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
-from scanbench.faults.reaction.react import Point
+from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import sweep
 from scanbench.host.program_cache import keep, key_of, recall
 from scanbench.host.run_files import programs_by

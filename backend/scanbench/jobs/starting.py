@@ -8,8 +8,9 @@ from scanbench.check.build import check_sources
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Generate
-from scanbench.faults.reaction.react import Point, react
+from scanbench.faults.reaction.react import react
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import AUTHOR
 from scanbench.host.build import BuildFailed, find_model
 from scanbench.host.run_files import ProgramOf, programs_by, sources_in

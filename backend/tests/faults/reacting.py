@@ -6,8 +6,9 @@ from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate
-from scanbench.faults.reaction.react import Point, react
+from scanbench.faults.reaction.react import react
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.program.program import Program
 from scanbench.recording.programs import ProgramCache, cached, observed

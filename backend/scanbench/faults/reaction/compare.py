@@ -4,12 +4,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from scanbench.faults.reaction.reaction import Verdict
+from scanbench.faults.reaction.reaction import Verdict, ungraded
 
 Change = Literal["same", "better", "worse", "slower", "faster", "new", "gone"]
 _RANKS: dict[Verdict | None, int] = {
-    "never_read": 0, None: 0, "not_reached": 1, "no_effect": 2, "stored_only": 3, "reacted": 4, "stopped": 4,
+    "never_read": 0, None: 0, "not_reached": 1, "no_effect": 2, "stored_only": 3, "stored": 3, "displayed": 4, "decided": 5,
+    "reacted": 6, "acted": 6, "stopped": 6,
 }  # fmt: skip
+"""No verdict, and a PLC that stopped, are neither better nor worse than the end of the scale."""
+_BEFORE_GRADES = ("reacted", "stored_only")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,9 +60,17 @@ def _kind(old: Outcome | None, new: Outcome | None) -> Change:
         return "new"
     if new is None:
         return "gone"
-    if old.verdict != new.verdict:
-        gained = _RANKS[new.verdict] - _RANKS[old.verdict]
+    was, now = _alike(old.verdict, new.verdict)
+    if was != now:
+        gained = _RANKS[now] - _RANKS[was]
         return "same" if gained == 0 else "better" if gained > 0 else "worse"
     if old.scans is None or new.scans is None or old.scans == new.scans:
         return "same"
     return "slower" if new.scans > old.scans else "faster"
+
+
+def _alike(old: Verdict | None, new: Verdict | None) -> tuple[Verdict | None, Verdict | None]:
+    """Both as they were called before there were grades, if one of them was made then."""
+    if old not in _BEFORE_GRADES and new not in _BEFORE_GRADES:
+        return old, new
+    return None if old is None else ungraded(old), None if new is None else ungraded(new)

@@ -2,7 +2,7 @@
 
 A copy of the error memory, the memory of an edge, what is worked out again in every scan is no state: what it decides shows at
 once, in the run itself. State is a latch, a counter, a timer. It decides when it can reach an output, what the PLC does by
-itself, the plant, a variable of VAR_ACCESS, or the start of a task.
+itself, the plant, or the start of a task.
 """
 
 from bisect import bisect_right
@@ -12,8 +12,8 @@ from typing import NamedTuple
 from scanbench.faults.reaction.flows import ANYWHERE, Flow, Flows, Ref, ref_of
 from scanbench.program.layout import Layout
 from scanbench.program.origin import in_library
-from scanbench.program.program import Base, Pou, Program
-from scanbench.program.types import ArrayType, Kind, Record, Type, has_instance
+from scanbench.program.program import Assign, Base, Pou, Program, Stmt
+from scanbench.program.types import BOOL, ArrayType, Kind, Record, Type, has_instance
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.symbols import resolve
 
@@ -168,7 +168,12 @@ class Deciding:
             self._contexts[pou] = tuple(each.begin for each in self.instances.of.get(pou.instance.name, ()))
             self._bodies_of.setdefault(pou.instance.name, []).append(pou)
         self._ends = list(self._sinks())
+        self._published = list(self._accesses())
         self._answers: dict[str, bool] = {}
+        self._of_stmt: dict[int, list[tuple[Pou | None, Flow]]] = {}
+        for owner, body in (*self._bodies.items(), (None, self._joined)):
+            for flow in body.flows:
+                self._of_stmt.setdefault(id(flow.stmt), []).append((owner, flow))
 
     @staticmethod
     def _runs(pou: Pou) -> bool:
@@ -190,21 +195,24 @@ class Deciding:
             begin = layout.areas[place.area.name] + place.byte
             mask = 0xFF if place.bit is None else 1 << place.bit % 8
             yield Ref(Base.IMAGE, begin, begin + max(1, place.bits // 8), mask)
-        for access in self._program.accesses:
-            symbol = resolve(self._program, access.path)
-            if not symbol.slots:
-                mask = 0xFF if symbol.bit is None else 1 << symbol.bit
-                yield Ref(Base.IMAGE, symbol.offset, symbol.offset + max(1, symbol.type.size), mask)
         for task in self._program.tasks:
             if task.single is not None:
                 yield ref_of(task.single)
         for instance in self._program.plant:
             yield Ref(Base.IMAGE, instance.offset, instance.offset + max(1, instance.pou.instance.size))
 
+    def _accesses(self) -> Iterator[Ref]:
+        """What VAR_ACCESS names."""
+        for access in self._program.accesses:
+            symbol = resolve(self._program, access.path)
+            if not symbol.slots:
+                mask = 0xFF if symbol.bit is None else 1 << symbol.bit
+                yield Ref(Base.IMAGE, symbol.offset, symbol.offset + max(1, symbol.type.size), mask)
+
     # ---- questions ------------------------------------------------------------------------------------------------
 
     def acts(self, leaf: Leaf) -> bool:
-        """Whether this is where something comes out: an output, what the PLC shows of itself, the plant, a VAR_ACCESS."""
+        """Whether this is where something comes out: an output, what the PLC shows of itself, the plant and what it writes."""
         ref = _ref(leaf)
         if self._is_end(ref):
             return True
@@ -215,33 +223,65 @@ class Deciding:
         inputs = (
             each for each in self._program.layout.model.iec_maps if each.letter == "I" and each.area.name == area.name
         )
-        if any(each.first <= byte // 2 < each.first + each.words for each in inputs):
+        if self._plant and any(each.first <= byte // 2 < each.first + each.words for each in inputs):
             return True
         return any(part.program == "read" for part in area.ranges if part.first <= byte // 2 <= part.last)
+
+    def shows(self, leaf: Leaf) -> bool:
+        """Whether only tools read this: a VAR_ACCESS, or memory of the model that the program writes and does not use."""
+        ref = _ref(leaf)
+        if any(_meet(each, ref) for each in self._published):
+            return True
+        found = self._program.layout.area_at(leaf.offset)
+        if found is None or found[0].access(found[1] // 2, "tool") == "none":
+            return False
+        return not self._is_used(Node(None, ref))
+
+    def handles(self, stmt: Stmt) -> bool:
+        """Whether this very statement writes an output, or state that something is decided by, whatever instance it runs on."""
+        is_bool = isinstance(stmt, Assign) and stmt.target.type == BOOL
+        for pou, flow in self._of_stmt.get(id(stmt), ()):
+            spaces: list[Space] = [None] if pou is None else [(pou, start) for start in self._contexts[pou]]
+            nodes = [self._node(ref, space) for space in spaces for ref in flow.writes]
+            if flow.acts or (nodes and all(self._comes_out(node, is_bool) for node in nodes)):
+                return True
+        return False
 
     def decides(self, leaf: Leaf) -> bool:
         """Whether this is state that something is decided by."""
         known = self._answers.get(leaf.name)
         if known is None:
-            known = self._answers[leaf.name] = self._decides(leaf)
+            known = self._answers[leaf.name] = self._decides(_ref(leaf), leaf.type.kind is Kind.BOOL)
         return known
 
-    def block_of(self, leaf: Leaf) -> str:
-        """The path of the library's block that it is in; empty where it is in none."""
+    def block_of(self, leaf: Leaf) -> tuple[str, int, int] | None:
+        """The library's block that it is in: its path, and the bytes from and to which it is in the image."""
         block = self._library_block(_ref(leaf))
-        return "" if block is None else block.path
+        return None if block is None else (block.path, block.begin, block.end)
 
-    def _decides(self, leaf: Leaf) -> bool:
-        ref = _ref(leaf)
+    def _comes_out(self, node: Node, is_bool: bool) -> bool:
+        """Whether what is written there is an output, or state that decides one. What only asks the PLC for something is not."""
+        if node.space is not None or node.ref.base is not Base.IMAGE or node.ref.begin < Layout.HEADER_SIZE:
+            return False
+        return self._is_end(node.ref) or self._decides(node.ref, is_bool)
+
+    def _is_used(self, node: Node) -> bool:
+        """Whether a statement reads it for something else than itself."""
+        for flow, space, _ in self._using(node, writing=False):
+            if flow.acts or flow.call is not None or not all(self._same(ref, space, node) for ref in flow.writes):
+                return True
+        return False
+
+    def _decides(self, ref: Ref, is_bool: bool) -> bool:
         block = self._library_block(ref)
         if block is not None:
             if block.record.name.upper() in _EDGES:
                 return False
             return self._reaches(Node(None, Ref(Base.IMAGE, block.begin, block.end)))
         node = Node(None, ref)
-        return self._is_state(node, leaf) and self._reaches(node)
+        return self._is_state(node, is_bool) and self._reaches(node)
 
-    def _is_state(self, node: Node, leaf: Leaf) -> bool:
+    def _is_state(self, node: Node, is_bool: bool) -> bool:
         """Whether it depends on what was before: not where it is worked out again whenever its body runs, nor a copy."""
         if self._reaches(node, itself=True):
             return True
@@ -250,9 +290,7 @@ class Deciding:
             return False
         if all(flow.constant or flow.source is not None for flow, _ in writers):
             copies = [(flow, here) for flow, here in writers if not flow.constant]
-            return not copies or (
-                leaf.type.kind is Kind.BOOL and any(_holds_itself(flow, here) for flow, here in copies)
-            )
+            return not copies or (is_bool and any(_holds_itself(flow, here) for flow, here in copies))
         return True
 
     def _library_block(self, ref: Ref) -> Instance | None:

@@ -26,6 +26,7 @@ class Variables:
 
     def __init__(self, program: Program) -> None:
         layout, model = program.layout, program.layout.model
+        self._layout = layout
         self.names = KeptNames(program)
         self.deciding = Deciding(program)
         self._outputs = [(layout.areas[each.area.name], each.first, each.last + 1) for each in model.fatal.outputs]
@@ -34,6 +35,11 @@ class Variables:
             for each in model.iec_maps
             if each.letter == "Q"
         ]
+
+    def word_of(self, leaf: Leaf) -> str:
+        """Its name; of a bit without a name of its own that of its word."""
+        layout, found = self._layout, self._layout.area_at(leaf.offset) if leaf.raw and leaf.bit is not None else None
+        return leaf.name if found is None else layout.model.format(found[0], found[1] & ~1, None, 16)
 
     def is_output(self, leaf: Leaf) -> bool:
         """Whether the variable is in an output area."""
@@ -82,18 +88,28 @@ class Effects:
         """Whether all that differs was named."""
         return len(self._found) < _NAMED
 
-    def under_way(self) -> dict[str, int]:
+    def carried(self) -> dict[str, tuple[int, int, int]]:
         """State that differs in the end and decides something: variables, or blocks of the library that hold them, the first
-        to differ first, and since when."""
+        to differ first; since when, and the bytes from and to which it is in the image."""
         if self._last is None:
             return {}
-        found: dict[str, int] = {}
+        found: dict[str, tuple[int, int, int]] = {}
         without, value = self._last
+        deciding = self._variables.deciding
         for each in sorted(self._found.values(), key=lambda each: each.scan):
             leaf = self._leaves[each.path]
-            if _shown(leaf, without) != _shown(leaf, value) and self._variables.deciding.decides(leaf):
-                found.setdefault(self._variables.deciding.block_of(leaf) or each.path, each.scan)
+            if _shown(leaf, without) != _shown(leaf, value) and deciding.decides(leaf):
+                path, begin, end = deciding.block_of(leaf) or (each.path, leaf.offset, leaf.offset + leaf.type.size)
+                found.setdefault(path, (each.scan, begin, end))
         return found
+
+    def displayed(self) -> tuple[str, ...]:
+        """What differed at any time and only tools read; the first of them."""
+        ordered = sorted(self._found.values(), key=lambda each: each.scan)[:SHOWN]
+        leaves = (self._leaves[each.path] for each in ordered)
+        return tuple(
+            dict.fromkeys(self._variables.word_of(leaf) for leaf in leaves if self._variables.deciding.shows(leaf))
+        )
 
     @property
     def count(self) -> int:

@@ -6,7 +6,7 @@ one place as a whole. The target of an in-out is represented by the in-out's slo
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import NamedTuple
 
 from scanbench.program.bodies import bodies
@@ -77,6 +77,8 @@ class Flow:
     constant: bool = False
     acts: bool = False
     """It stops the program."""
+    stmt: Stmt | None = None
+    """Whose flow it is."""
 
 
 class Flows:
@@ -100,14 +102,12 @@ class Flows:
         if not leaves:
             return tuple(found)
         # what decides about a RETURN, EXIT or jump decides about what comes after it
-        return tuple(
-            Flow(each.reads, each.controls | leaves, each.writes, each.call, each.source, each.constant, each.acts)
-            for each in found
-        )
+        return tuple(replace(each, controls=each.controls | leaves) for each in found)
 
     def _walk(self, body: Iterable[Stmt], controls: frozenset[Ref], leaves: set[Ref]) -> Iterator[Flow]:
         for stmt in body:
-            yield from self._statement(stmt, controls, leaves)
+            for flow in self._statement(stmt, controls, leaves):
+                yield flow if flow.stmt is not None else replace(flow, stmt=stmt)
 
     def _statement(self, stmt: Stmt, controls: frozenset[Ref], leaves: set[Ref]) -> Iterator[Flow]:
         match stmt:
@@ -145,16 +145,16 @@ class Flows:
         instance, to = ref_of(call.instance), self._to(call.instance)
         whole = in_library(call.pou.span)
 
-        def inside(ref: Ref) -> Ref:
-            return instance if whole else _inside(call.instance, ref)
+        def within(ref: Ref) -> Ref:
+            return instance if whole else inside(call.instance, ref)
 
         for place, value in call.inputs:
-            written = (inside(ref_of(place)), *self._written(value))
+            written = (within(ref_of(place)), *self._written(value))
             source, constant = (None, False) if whole else (_copied(value), isinstance(_plain(value), Const))
             yield Flow(self._reads(value) | to, controls, written, source=source, constant=constant)
             yield from self._bound(value, controls)
         for slot, actual in call.in_outs:
-            here, outside = inside(ref_of(slot)), ref_of(actual)
+            here, outside = within(ref_of(slot)), ref_of(actual)
             yield Flow(frozenset((outside,)) | to | self._to(actual), controls, (here,))
             if whole or self._writes(call.pou, ref_of(slot)):
                 yield Flow(frozenset((here,)) | to, controls, (outside,))
@@ -164,8 +164,8 @@ class Flows:
             yield Flow(to, controls, call=Call(instance, call.pou))
         for value, target in call.outputs:
             source = None if whole else _copied(value)
-            reads = frozenset(map(inside, self._reads(value))) | to | self._to(target)
-            yield Flow(reads, controls, (ref_of(target),), source=None if source is None else inside(source))
+            reads = frozenset(map(within, self._reads(value))) | to | self._to(target)
+            yield Flow(reads, controls, (ref_of(target),), source=None if source is None else within(source))
 
     def _writes(self, pou: Pou, slot: Ref) -> bool:
         """Whether a block may write to what it is given for this in-out."""
@@ -249,7 +249,7 @@ def parts(node: object) -> Iterator[object]:
                 yield from parts(getattr(node, field.name))
 
 
-def _inside(instance: Place, ref: Ref) -> Ref:
+def inside(instance: Place, ref: Ref) -> Ref:
     """A place of a block that is called, seen by who calls it."""
     whole = ref_of(instance)
     if ref.base is not Base.SELF:

@@ -5,53 +5,53 @@ the program's doing. What the PLC or the program entered by itself is not given 
 out again what there is to find.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
-
-import numpy as np
 
 from scanbench.engines.observe import Observer, ReadAt
 from scanbench.faults.details import Chosen, choose
-from scanbench.faults.detect import Detection
 from scanbench.faults.inject import ACTIVE, Generate, Recover
-from scanbench.faults.reaction.effects import Effects, Variables
-from scanbench.faults.reaction.error_memory import Watched, Words, code_bits, kept_bits, without_patches, words_of
-from scanbench.faults.reaction.reaction import FINDINGS, Line, Reaction, Reader, Verdict, What
+from scanbench.faults.reaction.effects import SHOWN, Effects, Variables
+from scanbench.faults.reaction.error_memory import Watched, code_bits, kept_bits, without_patches
+from scanbench.faults.reaction.following import commands_without, following_of, is_about, spared
+from scanbench.faults.reaction.reaction import (
+    FINDINGS,
+    Basis,
+    Carried,
+    Line,
+    Missed,
+    Reaction,
+    Reader,
+    Verdict,
+    What,
+)
 from scanbench.faults.reaction.readings import Readings
+from scanbench.faults.reaction.state_readers import StateReaders
 from scanbench.faults.reaction.states import Trace
+from scanbench.faults.reaction.steps import (
+    Given,
+    Point,
+    advance,
+    enter,
+    give,
+    observer_of,
+    reenter,
+    resource_at,
+    state_words,
+)
 from scanbench.faults.reaction.tasks import Turns, triggers
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.problems import Span
 from scanbench.program.program import Program
-from scanbench.runtime.command import Command, Entry, Refusal, Swapped
+from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.header import Halt
-from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Programs
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.trap import TrapInfo, Trapped
+from scanbench.runtime.trap import TrapInfo
 from scanbench.symbols.sites import StatementSite
 
 TRACE_LIMIT = 128 << 20
 """Bytes that the run without the error may take: what it changed, scan by scan."""
-_NAMED = 3
-"""Variables or statements that a note names."""
-
-
-@dataclass(frozen=True, slots=True)
-class Point:
-    """A PLC before a scan, where a comparison begins."""
-
-    version: int
-    state: bytes
-    journal: Journal
-
-
-class Given(NamedTuple):
-    """A command from outside that both runs get, and the scan before which it was entered."""
-
-    scan: int
-    entry: Entry
 
 
 def react(
@@ -67,13 +67,13 @@ def react(
     ref = next((each for each in raised if each.id == error), None)
     if ref is None:
         return Refusal(f"{error} was not raised there: {generate.plan.message}")
-    rest = _following(point, generate, following, window, programs)
+    rest = following_of(point, generate, following, window, programs)
     others = [each.id for each in raised if each.id != error]
-    twin = run_twin(point, _without(generate, rest.given, {error, *others}), rest.window, programs, TRACE_LIMIT)
+    twin = run_twin(point, commands_without(generate, rest.given, {error, *others}), rest.window, programs, TRACE_LIMIT)
     comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
     notes = [rest.note]
     if others:
-        given = tuple(each for each in rest.given if _spared(each.entry.command, others) is not None)
+        given = tuple(each for each in rest.given if spared(each.entry.command, others) is not None)
         found = comparison.raised(twin, ref, command.author, given)
         notes.append(f"it was raised together with {', '.join(others)}, and is compared as if it had been alone")
     else:
@@ -98,16 +98,16 @@ def run_twin(
 ) -> Twin:  # fmt: skip
     """Runs from a point with these commands, each before a scan; what is refused now is left out. An entry is one that
     was made inside of its scan."""
-    resource = _resource_at(point, programs)
-    observer = _observer(programs, point)
+    resource = resource_at(point, programs)
+    observer = observer_of(programs, point)
     observer.watch(())
     observer.take()
     trace = Trace(state_words(resource), limit)
     waiting = list(commands)
     while len(trace) < window and not trace.full and resource.trap is None:
         while waiting and waiting[0][0] <= resource.header.scan:
-            _give(resource, waiting.pop(0)[1])
-        _advance(resource)
+            give(resource, waiting.pop(0)[1])
+        advance(resource)
         trace.add(state_words(resource))
     return Twin(trace, observer.take().reached, resource.trap)
 
@@ -120,6 +120,7 @@ class Prepared:
         self.variables = Variables(program)
         self.kept = kept_bits(program)
         self.readings = Readings(program, self.variables.deciding.instances)
+        self.state_readers = StateReaders(program, self.variables.deciding.instances)
 
 
 class Comparison:
@@ -132,7 +133,7 @@ class Comparison:
         self, twin: Twin, ref: ErrorRef, author: str, given: Sequence[Given] = ()
     ) -> Reaction | Refusal:  # fmt: skip
         """The reaction to an error that is raised alone, now, with the commands that follow."""
-        resource = _resource_at(self._point, self._programs)
+        resource = resource_at(self._point, self._programs)
         entry = resource.submit(Generate(author, (ref,)))
         if isinstance(entry, Refusal):
             return entry
@@ -145,16 +146,17 @@ class Comparison:
         chosen = known if isinstance(known, Refusal) else choose(known, dict(ref.details), program.layout)
         if isinstance(chosen, Refusal):
             return chosen
-        resource = _resource_at(self._point, self._programs)
+        resource = resource_at(self._point, self._programs)
         could_run = resource.runnable
         present = [id for id in resource.journal.derived(ACTIVE) if id != ref.id]
-        _reenter(resource, generate)
+        reenter(resource, generate)
         if resource.header.halt & Halt.FATAL_ERROR and chosen.error.severity == "fatal":
-            return Reaction("stopped", 0, note="" if could_run else "the program did not run before either")
-        own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
+            note = "" if could_run else "the program did not run before either"
+            return Reaction("stopped", 0, note=note, basis="exact")
+        own = [generate, *(each.entry for each in given if is_about(each.entry.command, ref.id))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
-        run = _Run(resource, twin, Effects(self._prepared.variables, kept), chosen, ref, self._prepared.readings)
-        found = run.through(_observer(self._programs, self._point), given)
+        run = _Run(resource, twin, Effects(self._prepared.variables, kept), chosen, ref, self._prepared)
+        found = run.through(observer_of(self._programs, self._point), given)
         if isinstance(found, Refusal) or found.verdict not in FINDINGS or not present:
             return found
         hidden = f"{', '.join(present)} was present before: what follows from both is no difference"
@@ -165,10 +167,10 @@ class _Run:
     """The run with the error, compared with its twin."""
 
     def __init__(
-        self, resource: Resource, twin: Twin, effects: Effects, chosen: Chosen, ref: ErrorRef, readings: Readings
+        self, resource: Resource, twin: Twin, effects: Effects, chosen: Chosen, ref: ErrorRef, prepared: Prepared
     ) -> None:  # fmt: skip
         self._resource, self._twin, self._effects, self._chosen, self._ref = resource, twin, effects, chosen, ref
-        self._readings = readings
+        self._prepared = prepared
         self._watched = Watched.of(resource.program, chosen)
         self._readers: dict[tuple[int, What], int] = {}
         self._triggered: dict[tuple[str, Span, What], int] = {}
@@ -187,7 +189,7 @@ class _Run:
         observer.take()
         looking = tuple(triggers(resource.program, self._watched))
         for without in self._twin.trace.states():
-            _enter(resource, waiting)
+            enter(resource, waiting)
             shown = self._kinds_shown()
             scan += 1
             if resource.runnable:
@@ -195,7 +197,7 @@ class _Run:
                 self._turns.ran(resource.header.scan)
                 self._look(looking, scan, shown)
             entered = len(resource.journal)
-            _advance(resource)
+            advance(resource)
             if self._recovered is None and any(_takes_back(each, self._ref) for each in resource.journal[entered:]):
                 self._recovered = scan
             seen = observer.take()
@@ -236,19 +238,13 @@ class _Run:
         reached = {(sites[each].span.file, sites[each].span.line) for each in self._reached - self._twin.reached}
         seen = (effects.first, self._recovered, scans if self._stops_otherwise(scans) else None)
         first = min((each for each in seen if each is not None), default=None)
-        under_way = effects.under_way() if first is None else {}
-        if under_way:
-            first = min(under_way.values())
-        missed = self._missed() if first is None else ()
-        verdict: Verdict
-        if first is not None:
-            verdict = "reacted"
-        elif missed:
-            verdict = "not_reached"
-        elif effects.count:
-            verdict = "stored_only"
-        else:
-            verdict = "no_effect" if readers else "never_read"
+        carried = self._carried() if first is None else ()
+        decided_by = self._decided_by(scans) if first is None and not carried else ()
+        displayed, missed = effects.displayed(), self._missed() if first is None else ()
+        verdict, basis = _graded(
+            acted=first is not None, decided=bool(carried or decided_by), displayed=bool(displayed),
+            missed=bool(missed), stored=effects.count > 0, read=bool(readers),
+        )  # fmt: skip
         return Reaction(
             verdict,
             scans,
@@ -258,12 +254,37 @@ class _Run:
             effects.shown(),
             effects.count,
             tuple(Line(*place) for place in sorted(reached)),
-            "; ".join((*self._notes(scans), *self._more(scans, first is None, tuple(under_way), missed))),
+            "; ".join((*self._notes(scans), *self._more(scans, first is None))),
+            basis,
+            carried,
+            decided_by,
+            displayed,
+            missed,
         )
 
-    def _missed(self) -> tuple[str, ...]:
+    def _carried(self) -> tuple[Carried, ...]:
+        """The state that decides something after the window, with who reads it."""
+        found = list(self._effects.carried().items())[:SHOWN]
+        return tuple(
+            Carried(path, scan, self._prepared.state_readers.of(begin, end)) for path, (scan, begin, end) in found
+        )
+
+    def _decided_by(self, scans: int) -> tuple[str, ...]:
+        """The statements that ran in one of the runs only, and write what an output depends on."""
+        other = self._reached - self._twin.reached
+        if scans == len(self._twin.trace):
+            other |= self._twin.reached - self._reached
+        readings, deciding = self._prepared.readings, self._prepared.variables.deciding
+        found = [each for each in sorted(other) if each in readings.statements]
+        return tuple(
+            dict.fromkeys(readings.place(each) for each in found if deciding.handles(readings.statements[each]))
+        )
+
+    def _missed(self) -> tuple[Missed, ...]:
         """The statements that would read what the error writes, and did not come to it."""
-        return tuple(str(each) for each in self._readings.of(self._watched) if each.site not in self._looked)
+        readings, reached = self._prepared.readings, self._reached | self._twin.reached
+        found = (each for each in readings.of(self._watched) if each.site not in self._looked)
+        return tuple(readings.missed(each, reached, self._turns.idle) for each in found)
 
     def _places(self, sites: Sequence[StatementSite]) -> dict[tuple[str, int, str, What], int]:
         """Who read what, and in which scan first."""
@@ -298,19 +319,28 @@ class _Run:
         if not self._effects.complete:
             yield f"more than {self._effects.count} variables differ"
 
-    def _more(self, scans: int, nothing: bool, under_way: Sequence[str], missed: Sequence[str]) -> Iterator[str]:
+    def _more(self, scans: int, nothing: bool) -> Iterator[str]:
         if self._recovered is not None:
             yield f"the program recovered it itself, after {self._recovered} scan{'s' * (self._recovered != 1)}"
-        if under_way:
-            yield f"no output differed in the window; {_some(under_way)} did, and may decide one later"
-        if missed:
-            yield f"not reached in the {scans} scans: {_some(missed)}: a longer window or a different state would tell"
         if nothing:
             yield from self._turns.notes(scans)
 
 
-def _some(names: Sequence[str]) -> str:
-    return ", ".join(names[:_NAMED]) + (f" and {len(names) - _NAMED} more" if len(names) > _NAMED else "")
+def _graded(
+    *, acted: bool, decided: bool, displayed: bool, missed: bool, stored: bool, read: bool
+) -> tuple[Verdict, Basis]:  # fmt: skip
+    """What an error did at most, and what says so."""
+    if acted:
+        return "acted", "exact"
+    if decided:
+        return "decided", "static"
+    if displayed:
+        return "displayed", "exact"
+    if missed:
+        return "not_reached", "static"
+    if stored:
+        return "stored", "exact"
+    return ("no_effect" if read else "never_read"), "exact"
 
 
 def _takes_back(entry: Entry, ref: ErrorRef) -> bool:
@@ -319,128 +349,3 @@ def _takes_back(entry: Entry, ref: ErrorRef) -> bool:
     if not isinstance(command, Recover):
         return False
     return command.ids is None or ref.id in command.ids or ref in command.numbers
-
-
-# ---- steps of a run ------------------------------------------------------------------------------------------------
-
-
-def _resource_at(point: Point, programs: Programs) -> Resource:
-    """A PLC at the point. There is only one at a time, as the memory of a program is one."""
-    loaded = programs.get(point.version)
-    resource = Resource(loaded, programs=programs, detect=Detection())
-    resource.restore(loaded, point.state, point.journal.prefix(len(point.journal)))
-    resource.lenient = True
-    return resource
-
-
-def _observer(programs: Programs, point: Point) -> Observer:
-    observer = programs.get(point.version).observer
-    assert observer is not None, "what is compared runs on observed code"
-    return observer
-
-
-def _reenter(resource: Resource, entry: Entry) -> None:
-    """As it was recorded: in the seam, or inside of the scan that is next."""
-    if entry.step:
-        resource.await_step(entry)
-    else:
-        resource.reenter(entry)
-
-
-def _give(resource: Resource, command: Command | Entry) -> None:
-    if isinstance(command, Entry):
-        resource.await_step(command)
-    else:
-        resource.submit(command)
-
-
-def _enter(resource: Resource, waiting: list[Given]) -> None:
-    while waiting and waiting[0].scan <= resource.header.scan:
-        _reenter(resource, waiting.pop(0).entry)
-
-
-def _advance(resource: Resource) -> None:
-    if resource.runnable:
-        resource.run(1)
-    else:
-        resource.pass_time(1)
-
-
-def state_words(resource: Resource) -> Words:
-    """The state as it is now; not a copy."""
-    return np.frombuffer(resource.memory, np.uint64, words_of(resource.program))
-
-
-# ---- the journal after an error -----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class _Following:
-    """What came after an error from outside, and how long it can be compared."""
-
-    given: tuple[Given, ...]
-    window: int
-    note: str
-
-
-def _following(
-    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs
-) -> _Following:
-    """Runs it once more as it was: what is entered again by itself came from the PLC or its program, the rest from outside."""
-    resource = _resource_at(point, programs)
-    _reenter(resource, generate)
-    begin = resource.header.scan
-    end, note = begin + window, ""
-    left: list[Entry] = []
-    for entry in following:
-        if entry.scan >= end or isinstance(entry.command, Trapped):  # after a trap nothing is compared
-            break
-        if entry.plan.cuts:
-            end = entry.scan
-            note = "the program was changed" if isinstance(entry.plan.effect, Swapped) else "the program was restarted"
-            break
-        left.append(entry)
-    given: list[Given] = []
-    while resource.header.scan < end and resource.trap is None:
-        while left and left[0].scan <= resource.header.scan:
-            given.append(Given(left[0].scan, left.pop(0)))
-            _reenter(resource, given[-1].entry)
-        entered = len(resource.journal)
-        _advance(resource)
-        for made in resource.journal[entered:]:
-            same = [each for each in left if each.scan <= resource.header.scan and each.command == made.command]
-            if same:
-                left.remove(same[0])
-    return _Following(tuple(given), end - begin, note)
-
-
-def _without(generate: Entry, given: Iterable[Given], errors: Collection[str]) -> list[tuple[int, Command | Entry]]:
-    """The commands that the run without these errors gets. What is left of one inside of a scan comes after that."""
-    found: list[tuple[int, Command | Entry]] = []
-    for scan, entry in ((generate.scan, generate), *given):
-        left = _spared(entry.command, errors)
-        if left is not None and entry.step:
-            found.append((scan, entry) if left is entry.command else (scan + 1, left))
-        elif left is not None:
-            found.append((scan, left))
-    return found
-
-
-def _spared(command: Command, errors: Collection[str]) -> Command | None:
-    """What is left of a command when it is not to touch these errors."""
-    if isinstance(command, Generate):
-        left = tuple(each for each in command.errors if each.id not in errors)
-        return replace(command, errors=left) if left else None
-    if isinstance(command, Recover) and command.ids is not None:
-        ids = tuple(id for id in command.ids if id not in errors)
-        numbers = tuple(each for each in command.numbers if each.id not in errors)
-        return replace(command, ids=ids, numbers=numbers) if ids or numbers else None
-    return command
-
-
-def _is_about(command: Command, error: str) -> bool:
-    if isinstance(command, Generate):
-        return any(each.id == error for each in command.errors)
-    if not isinstance(command, Recover):
-        return False
-    return command.ids is None or error in command.ids or any(each.id == error for each in command.numbers)

@@ -1,19 +1,44 @@
 """How a program reacted to an error: a run with it compared with the same run without it. Data only; `react.py` computes it."""
 
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, get_args
 
 from scanbench.public import Public
 
-Verdict = Literal["reacted", "stored_only", "no_effect", "not_reached", "never_read", "stopped"]
-"""stored_only: what differs decides nothing. not_reached: a statement that would read it did not come to it. stopped: a fatal
-error, the PLC stopped as the model says, so no program could react."""
+Grade = Literal["acted", "decided", "displayed", "stored", "no_effect", "not_reached", "never_read"]
+"""What an error did, the most first. acted: an output differs, the program raised or recovered an error or stopped. decided: state
+differs that decides an output later, or a handler ran whose output had its value already. displayed: it reached memory that
+only tools read. stored: it was kept, and nothing comes of it. not_reached: a statement that would read it did not come to it."""
+Verdict = Literal[Grade, "stopped", "reacted", "stored_only"]
+"""stopped: a fatal error, the PLC stopped as the model says, so no program could react. Only in what was kept before there were
+grades: reacted (acted or decided), stored_only (displayed or stored)."""
+Basis = Literal["", "exact", "static"]
+"""exact: the two runs say it. static: the program's flows say it, of what did not happen in the window. Empty: not known."""
 What = Literal["flag", "code", "detail", "log"]
 """log: the PLC's own error log or its counter, where a record of the error is."""
-FINDINGS: tuple[Verdict, ...] = ("never_read", "not_reached", "no_effect", "stored_only")
-"""What the program missed: nobody read it, or nothing came of it."""
+GRADES: tuple[Grade, ...] = get_args(Grade)
+FINDINGS: tuple[Verdict, ...] = ("never_read", "not_reached", "no_effect", "stored", "stored_only", "displayed")
+"""What the program missed, the worst first: nobody read it, or nothing came of it."""
+WORST_FIRST: tuple[Verdict, ...] = (*FINDINGS, "decided", "reacted", "acted", "stopped")
+_UNGRADED: dict[Verdict, Verdict] = {
+    "acted": "reacted", "decided": "reacted", "displayed": "stored_only", "stored": "stored_only"
+}  # fmt: skip
 WINDOW = 200
 """Scans that a program gets to react."""
+
+
+def ungraded(verdict: Verdict) -> Verdict:
+    """What it was called before there were grades."""
+    return _UNGRADED.get(verdict, verdict)
+
+
+def fulfils(verdict: Verdict, required: Grade) -> bool:
+    """Whether an error did at least this. What was not graded did what it did at most; a PLC that stopped did all there is."""
+    if verdict == "stopped":
+        return True
+    if verdict in ("reacted", "stored_only"):
+        return GRADES.index(required) >= GRADES.index("acted" if verdict == "reacted" else "displayed")
+    return GRADES.index(verdict) <= GRADES.index(required)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +79,38 @@ class Line(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class Carried(Public):
+    """State that still differs when the window ends, and that decides an output."""
+
+    path: str
+    """A variable, or a block of the library that holds the state."""
+    scan: int
+    """Of the window in which it first differed, from 1."""
+    readers: tuple[str, ...] = ()
+    """The statements that read it, as `file:line`."""
+
+
+Obstacle = Literal["condition", "left", "task", "body"]
+"""condition: a statement around it ran, and did not come to it. left: its body ran, and was left before it. task: its task had
+no turn. body: its program or block was not run."""
+
+
+@dataclass(frozen=True, slots=True)
+class Missed(Public):
+    """A statement that would read the error, and was not executed in the window."""
+
+    PUBLIC: ClassVar = "MissedReader"
+
+    file: str
+    line: int
+    paths: tuple[str, ...]
+    """The instances that it runs on."""
+    why: Obstacle
+    at: str = ""
+    """The statement around it as `file:line`, or the name of the task."""
+
+
+@dataclass(frozen=True, slots=True)
 class Reaction(Public):
     """What became of one error, raised alone or in a run as it was."""
 
@@ -63,8 +120,8 @@ class Reaction(Public):
     first_read: int | None = None
     """Scan of the window in which flag, code, detail or log was first read, from 1."""
     first_effect: int | None = None
-    """Scan of the window from which on the program did something else, from 1: an output differs, and the like; where there is
-    none, state that decides one later. None where nothing but copies differ."""
+    """Scan of the window from which on the program did something else, from 1: an output differs, and the like. None where
+    that did not happen in the window."""
     readers: tuple[Reader, ...] = ()
     differences: tuple[Difference, ...] = ()
     """The first 200, outputs first."""
@@ -72,6 +129,15 @@ class Reaction(Public):
     lines: tuple[Line, ...] = ()
     note: str = ""
     """What ended the comparison early, or must be known: the program trapped with it, it was refused."""
+    basis: Basis = ""
+    carried: tuple[Carried, ...] = ()
+    """decided: the state that decides."""
+    decided_by: tuple[str, ...] = ()
+    """decided: the statements, as `file:line`, that ran with the error only and write what an output depends on."""
+    displayed: tuple[str, ...] = ()
+    """The variables and words that it reached and only tools read."""
+    missed: tuple[Missed, ...] = ()
+    """Statements that would read it and were not executed."""
 
     @property
     def reader_places(self) -> tuple[str, ...]:

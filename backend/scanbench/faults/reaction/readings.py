@@ -3,19 +3,20 @@
 Reads of a block or function through an in-out are found; reads through a reference are not.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass
 
 from scanbench.faults.reaction.deciding import Instances
 from scanbench.faults.reaction.error_memory import Watched
 from scanbench.faults.reaction.flows import heads, parts, ref_of
-from scanbench.program.bodies import every
+from scanbench.faults.reaction.reaction import Missed, Obstacle
+from scanbench.program.bodies import bodies
 from scanbench.program.copies import makes_copies
 from scanbench.program.program import Base, CallBlock, CallFunction, Place, Pou, Program, Stmt
+from scanbench.program.tasks import Task
 from scanbench.program.types import ULINT
 from scanbench.symbols.sites import Sites, sites_of
 
-_PATHS = 3
 _BYTES = 1 << 16
 """Of a place with computed indices so many are looked at."""
 
@@ -28,11 +29,8 @@ class Reading:
     file: str
     line: int
     paths: tuple[str, ...]
-
-    def __str__(self) -> str:
-        more = len(self.paths) - _PATHS
-        named = ", ".join(self.paths[:_PATHS]) + (f" and {more} more" if more > 0 else "")
-        return f"{self.file}:{self.line} ({named})"
+    pou: Pou | None
+    """None: in a CONFIGURATION."""
 
 
 class Readings:
@@ -41,6 +39,10 @@ class Readings:
     def __init__(self, program: Program, instances: Instances) -> None:
         self._sites: Sites = sites_of(program)
         self._paths: dict[Pou, tuple[str, ...]] = {}
+        self._around: dict[int, int | None] = {}
+        """By statement the one around it."""
+        self.statements: dict[int, Stmt] = {}
+        """By their numbers."""
         self._direct: list[tuple[int, Pou | None, Place]] = []
         """In an area of the model."""
         self._through: dict[tuple[Pou, Place], list[int]] = {}
@@ -72,12 +74,47 @@ class Readings:
                 found[site] = each[0]
         return [self._reading(site, pou) for site, pou in sorted(found.items(), key=lambda each: each[0])]
 
+    def place(self, number: int) -> str:
+        """`file:line` of a statement."""
+        span = self._sites.statements[number].span
+        return f"{span.file}:{span.line}"
+
+    def missed(self, reading: Reading, reached: Set[int], idle: Iterable[Task]) -> Missed:
+        """Why a statement was not executed, of which so many were; `idle`: tasks that had no turn."""
+        why, at = self._obstacle(reading, reached, idle)
+        return Missed(reading.file, reading.line, reading.paths, why, at)
+
+    def _obstacle(self, reading: Reading, reached: Set[int], idle: Iterable[Task]) -> tuple[Obstacle, str]:
+        around = self._around.get(reading.site)
+        while around is not None:
+            if around in reached:
+                return "condition", self.place(around)
+            around = self._around[around]
+        if reading.pou is None:
+            return "body", ""
+        if not reached.isdisjoint(self._sites.bodies.get(reading.pou, ())):
+            return "left", ""
+        for task in idle:
+            if any(each.pou is reading.pou for each in task.programs):
+                return "task", task.name
+        return "body", ""
+
     def _reading(self, number: int, pou: Pou | None) -> Reading:
         site = self._sites.statements[number]
-        return Reading(number, site.span.file, site.span.line, self._paths[pou] if pou is not None else (site.pou,))
+        paths = self._paths[pou] if pou is not None else (site.pou,)
+        return Reading(number, site.span.file, site.span.line, paths, pou)
+
+    def _nested(self, body: Iterable[Stmt], around: int | None) -> Iterator[Stmt]:
+        for stmt in body:
+            number = self._sites.number(stmt)
+            if number is not None:
+                self._around[number], self.statements[number] = around, stmt
+            yield stmt
+            for inner in bodies(stmt):
+                yield from self._nested(inner, around if number is None else number)
 
     def _take(self, pou: Pou | None, body: Iterable[Stmt]) -> None:
-        for stmt in every(body):
+        for stmt in self._nested(body, None):
             number = self._sites.number(stmt)
             passed: set[int] = set()
             for node in parts(heads(stmt)):

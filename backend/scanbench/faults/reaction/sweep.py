@@ -3,8 +3,9 @@
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from scanbench.faults.reaction.react import TRACE_LIMIT, Comparison, Point, Prepared, Twin, run_twin
+from scanbench.faults.reaction.react import TRACE_LIMIT, Comparison, Prepared, Twin, run_twin
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Programs
@@ -17,6 +18,7 @@ class Cell:
     """One error from one point; without a reaction `note` says why it could not be raised or run."""
 
     error: str
+    """With the details that were chosen, as `ErrorRef` writes them."""
     point: str
     reaction: Reaction | None
     note: str = ""
@@ -24,7 +26,7 @@ class Cell:
 
 def sweep(
     points: Mapping[str, Point],
-    errors: Sequence[str],
+    errors: Sequence[ErrorRef],
     window: int,
     programs: Programs,
     done: Collection[tuple[str, str]] = (),
@@ -32,12 +34,14 @@ def sweep(
 ) -> Iterator[Cell]:
     """Raises errors in the order given, each from all points, but for the pairs (error, point) in `done`.
 
-    All points are of one program. Details are the catalogue's defaults. The run without an error is run once for each point.
+    All points are of one program. Details that are not given are the catalogue's defaults. The run without an error is run once
+    for each point.
     """
-    left = [(error, name) for error in errors for name in points if (error, name) not in done]
+    left = [(error, name) for error in errors for name in points if (str(error), name) not in done]
     prepared: dict[int, Prepared] = {}
     known: dict[str, tuple[Comparison, Twin]] = {}
-    for error, name in left:
+    for ref, name in left:
+        error = str(ref)
         on_try(error, name)
         if name not in known:
             point = points[name]
@@ -46,7 +50,7 @@ def sweep(
             twin = run_twin(point, (), window, programs, TRACE_LIMIT // len(points))
             known[name] = Comparison(point, programs, prepared[point.version]), twin
         comparison, twin = known[name]
-        found = comparison.raised(twin, ErrorRef(error), AUTHOR)
+        found = comparison.raised(twin, ref, AUTHOR)
         if isinstance(found, Refusal):
             yield Cell(error, name, None, found.message)
         else:

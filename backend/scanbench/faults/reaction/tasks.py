@@ -21,6 +21,11 @@ class Turns:
         if self._waiting:
             self._waiting = [task for task in self._waiting if scan % task.every]
 
+    @property
+    def idle(self) -> tuple[Task, ...]:
+        """Those that had none until now."""
+        return tuple(self._waiting)
+
     def notes(self, scans: int) -> Iterator[str]:
         """About those that had none in so many scans."""
         for task in self._waiting:
