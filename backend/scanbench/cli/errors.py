@@ -23,14 +23,17 @@ from scanbench.cli.inputs import (
 from scanbench.cli.interrupt import leaving
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
+from scanbench.cli.requirements import BadRequirements, read_requirements, wanted_of
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved
+from scanbench.faults.reaction.choices import Choices
 from scanbench.faults.reaction.compare import Outcome, compare
 from scanbench.faults.reaction.reaction import WINDOW
+from scanbench.faults.reaction.required import Required
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import Cell, sweep
-from scanbench.faults.reference import find_error
+from scanbench.faults.reference import ErrorRef, error_of, find_error
 from scanbench.jobs.starting import checked_program, model_of, point_in
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
@@ -72,6 +75,18 @@ class Severities(StrEnum):
     FATAL = "fatal"
     NONFATAL = "nonfatal"
     ALL = "all"
+
+
+class Require(StrEnum):
+    """What an error has to do at least."""
+
+    ACTED = "acted"
+    DECIDED = "decided"
+    DISPLAYED = "displayed"
+    STORED = "stored"
+    NO_EFFECT = "no_effect"
+    NOT_REACHED = "not_reached"
+    NONE = "none"
 
 
 class SweepEngine(StrEnum):
@@ -143,12 +158,13 @@ def sweep_errors(
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object, for `errors compare` too."),
     junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: a test case for each error and state."),
     html: Path | None = typer.Option(None, metavar="FILE", help="Write a page to print too."),
+    require: Require = typer.Option(Require.DECIDED, help="What an error has to do at least; less is a finding."),
+    requirements: Path | None = typer.Option(None, metavar="FILE", help="What single errors have to do instead (JSON, docs/error-sweep.md)."),
 ) -> None:  # fmt: skip
     """Raise every error alone, from each state, and find out what the program does about it.
 
-    Each run is compared with the same run without the error. Exit 0; 1: an error is unhandled (never read, not reached,
-    only stored, or read without effect), or the program does not compile; 2: wrong usage; 130: interrupted, no error
-    unhandled so far.
+    Each run is compared with the same run without the error. Exit 0; 1: an error did less than --require says, or the
+    program does not compile; 2: wrong usage; 130: interrupted, no finding so far.
     """
     for path in filter(None, (junit, html)):
         must_be_writable(path)
@@ -157,36 +173,38 @@ def sweep_errors(
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
     program = _program(given, plc, as_json)
     chosen = _chosen(program.layout.model, only)
+    required = _required(require, requirements, program.layout.model)
     make = _engine(engine)
     points = _points(states, program, given, make)
     programs = cached({_VERSION: program}, observed(make))
-    cells, whole = _swept(points, chosen, window, programs)
-    tried = {cell.error for cell in cells}
+    raised = Choices(program).expand(ErrorRef(each.id) for each in chosen)
+    cells, whole = _swept(points, raised, window, programs)
+    tried = {error_of(cell.error) for cell in cells}
     begun = tuple((name, Header(point.state).scan) for name, point in points.items())
     result = SweepResult(
         project.resolve().name, plc.name, window, begun, tuple(each for each in chosen if each.id in tried), cells
     )
     severities = _severities(severity)
-    unhandled = result.unhandled(severities)
+    unhandled = result.unhandled(severities, required)
     _tell(result, unhandled, as_json)
     if junit is not None:
-        write_text(junit, sweep_junit(result, severities))
+        write_text(junit, sweep_junit(result, severities, required))
     if html is not None:
-        write_text(html, sweep_page(result, iso(wall_time())))
+        write_text(html, sweep_page(result, iso(wall_time()), required))
     if not whole:
         typer.echo(f"scanbench: interrupted after {len(tried)} of {count(len(chosen), 'error')}", err=True)
     raise typer.Exit(1 if unhandled else 0 if whole else INTERRUPTED)
 
 
 def _swept(
-    points: dict[str, Point], chosen: Sequence[ErrorEntry], window: int, programs: Programs
+    points: dict[str, Point], raised: Sequence[ErrorRef], window: int, programs: Programs
 ) -> tuple[tuple[Cell, ...], bool]:
     """The cells, and whether they are all; after Ctrl-C those of the errors that were raised in every state."""
     cells: list[Cell] = []
     try:
-        of = len(points) * len(chosen)
+        of = len(points) * len(raised)
         with progress(of, lambda: len(cells), lambda: f"{len(cells):,} of {of:,} cases"):
-            cells.extend(sweep(points, [each.id for each in chosen], window, programs))
+            cells.extend(sweep(points, raised, window, programs))
     except KeyboardInterrupt:
         return tuple(cells[: len(cells) - len(cells) % len(points)]), False
     return tuple(cells), True
@@ -204,7 +222,7 @@ def _tell(result: SweepResult, unhandled: Sequence[Cell], as_json: bool) -> None
         typer.echo(f"scanbench: {some}: the error could not be raised, so nothing is known of it there", err=True)
     if unhandled and not as_json:
         typer.echo(
-            f"scanbench: {count(len(unhandled), 'finding')}: an error is forgotten, not reached, only stored, or read in vain",
+            f"scanbench: {count(len(unhandled), 'finding')}: the error did less than is required (see --require)",
             err=True,
         )
 
@@ -271,6 +289,17 @@ def _program_of(sources: Sources, program: Program) -> Callable[[Sources], Progr
             raise NoProgram(f"of the run's own program: {why}") from why
 
     return get
+
+
+def _required(all: Require, path: Path | None, model: Model) -> Required:
+    wanted = wanted_of(all.value)
+    assert wanted is not None
+    if path is None:
+        return Required(wanted)
+    try:
+        return Required(wanted, read_requirements(path, model))
+    except BadRequirements as why:
+        usage(f"--requirements {path}: {why}")
 
 
 def _severities(asked: list[Severities]) -> tuple[Severity, ...]:

@@ -7,7 +7,7 @@ from typing import Literal
 
 from scanbench.faults.details import choose
 from scanbench.faults.inject import Active, Generate, Origin, Recover
-from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
+from scanbench.faults.reaction.reaction import WORST_FIRST, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorEntry, Model
 from scanbench.program.layout import Layout
@@ -45,9 +45,6 @@ class Swept:
     scans: int | None
 
 
-_WORST_FIRST: tuple[Verdict, ...] = (*FINDINGS, "reacted", "stopped")
-
-
 def worst(found: Iterable[tuple[str, Swept]]) -> dict[str, Swept]:
     """Of what was found in several states the worst, by error; of several as bad the slowest."""
     kept: dict[str, Swept] = {}
@@ -58,7 +55,7 @@ def worst(found: Iterable[tuple[str, Swept]]) -> dict[str, Swept]:
 
 
 def _badness(swept: Swept) -> tuple[int, int]:
-    return _WORST_FIRST.index(swept.verdict), -(swept.scans or 0)
+    return WORST_FIRST.index(swept.verdict), -(swept.scans or 0)
 
 
 @dataclass(frozen=True, slots=True)

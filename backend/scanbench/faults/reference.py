@@ -22,6 +22,11 @@ class ErrorRef:
         )
 
 
+def error_of(text: str) -> str:
+    """The id in the notation of the command line: what comes before the details."""
+    return text.partition(":")[0]
+
+
 def find_error(model: Model, id: str) -> ErrorEntry | Refusal:
     """The catalogue's entry, or a refusal with near matches."""
     entry = model.error(id)

@@ -17,8 +17,10 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
+from scanbench.faults.reaction.choices import Choices
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import sweep
+from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.host.program_cache import keep, key_of, recall
 from scanbench.host.run_files import programs_by
 from scanbench.jobs import history as history_job
@@ -30,6 +32,7 @@ from scanbench.recording.format import RunFileError
 from scanbench.recording.programs import cached, observed, on
 from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
 from scanbench.wire.codec import BadMessage, Splitter, pack
@@ -45,6 +48,7 @@ from scanbench.wire.jobs import (
     KeepProgram,
     Reacted,
     RunSweep,
+    SweepPlanned,
     Trying,
 )
 from scanbench.wire.refused import Refused
@@ -153,11 +157,17 @@ class Job:
 
     def _cells(self, ask: RunSweep) -> Iterator[CellFound]:
         program = self._program(ask.sources)
+        asked = [parse_reference(program.layout.model, each) for each in ask.errors]
+        for each in asked:
+            if isinstance(each, Refusal):
+                raise Refused(each.message, each.near)
+        errors = Choices(program).expand(each for each in asked if isinstance(each, ErrorRef))
         points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
         scans = {name: Header(point.state).scan for name, point in points.items()}
         programs = cached({ask.sources.version: program}, observed(self._flavours.observed))
+        self._say(SweepPlanned(ask.ref, tuple(map(str, errors))))
         on_try = self._telling(Trying, ask.ref)
-        for cell in sweep(points, ask.errors, ask.window, programs, set(ask.done), on_try):
+        for cell in sweep(points, errors, ask.window, programs, set(ask.done), on_try):
             yield CellFound(ask.ref, cell.error, cell.point, scans[cell.point], cell.reaction, cell.note)
 
     def _point(self, name: str, run: Path, sources: Sources) -> Point:

@@ -7,14 +7,13 @@ from typing import ClassVar, Literal
 
 from scanbench.faults.history import ErrorRow, Status
 from scanbench.faults.inject import Origin
-from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
+from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Reaction, Verdict
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.public import Moment, Public
 from scanbench.reports.record_text import Language, RecordLine, details_in_words, in_names, worded
 
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
-WORST_FIRST: tuple[Verdict, ...] = (*FINDINGS, "stopped", "reacted")
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from html import escape
 from itertools import groupby
 
-from scanbench.faults.reaction.reaction import FINDINGS, Difference, Reaction, Verdict
+from scanbench.faults.reaction.reaction import FINDINGS, UNGRADED, WORST_FIRST, Difference, Reaction, Verdict
 from scanbench.reports.page import Page, moment, table, td, th, tr
+from scanbench.reports.reason import evidence_of
 from scanbench.reports.record import (
-    WORST_FIRST,
     Missed,
     RecordCell,
     RecordError,
@@ -52,17 +52,18 @@ class _Document:
 
     def _summary(self) -> str:
         told = self._record.summary
+        verdicts = [each for each in reversed(WORST_FIRST) if told.verdicts[each] or each not in UNGRADED]
         numbers = [
             (self._word("errors"), "", told.errors), (self._word("tested"), "", told.tested),
             (self._word("untested"), "", told.errors - told.tested), (self._word("generated_now"), "", told.generated),
-            *((self._word(verdict), f"verdict {verdict}", told.verdicts[verdict]) for verdict in reversed(WORST_FIRST)),
+            *((self._word(verdict), f"verdict {verdict}", told.verdicts[verdict]) for verdict in verdicts),
             (self._word("unknown"), "verdict unknown", told.unknown), (self._word("accepted"), "", told.accepted),
             (self._word("open"), "", told.open),
         ]  # fmt: skip
         items = "".join(f'<li><b>{count}</b><span class="{mark}">{word}</span></li>' for word, mark, count in numbers)
         meanings = "".join(
             f'<dt class="verdict {verdict}">{self._word(verdict)}</dt><dd>{self._word(f"mean_{verdict}")}</dd>'
-            for verdict in reversed(WORST_FIRST)
+            for verdict in verdicts
         )
         return (
             f'<h2>{self._word("summary")}</h2>\n<ul class="numbers">{items}</ul>\n'
@@ -123,6 +124,8 @@ class _Document:
         if finding.where == "sweep":
             verdict += f'<br><span class="faint">{self._word("in_sweep")}</span>'
         note = error.reaction_note or ("" if reaction is None else reaction.note)
+        if reaction is not None and finding.where == "plc":
+            verdict += "".join(f'<br><span class="mono faint">{escape(each)}</span>' for each in evidence_of(reaction))
         if note:
             verdict += f'<br><span class="faint">{escape(note)}</span>'
         return tr(

@@ -12,7 +12,18 @@ from lxml import etree
 
 from scanbench.faults.history import Status
 from scanbench.faults.inject import Origin
-from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict, What
+from scanbench.faults.reaction.reaction import (
+    Basis,
+    Carried,
+    Difference,
+    Line,
+    Obstacle,
+    Reaction,
+    Reader,
+    Unreached,
+    Verdict,
+    What,
+)
 from scanbench.plcmodel.document import Document, first_of, parse
 from scanbench.plcmodel.model import Severity
 from scanbench.problems import Problem, Span
@@ -26,7 +37,7 @@ from scanbench.reports.record import (
     TestRecord,
 )
 from scanbench.reports.record_text import RecordLine
-from scanbench.reports.record_xml import VERSION
+from scanbench.reports.record_xml import READ
 
 FILE = "record.xml"
 _BEGINNING = 10_000
@@ -64,11 +75,11 @@ def from_xml(text: str, file: str = FILE) -> TestRecord | list[Problem]:
 def _of_another_version(text: str, file: str) -> list[Problem]:
     """All else that is wrong with it is so for this version only."""
     match = _ROOT.search(text, 0, _BEGINNING)
-    if match is None or match[1] == VERSION:
+    if match is None or match[1] in READ:
         return []
     line, column = text.count("\n", 0, match.start(1)) + 1, match.start(1) - text.rfind("\n", 0, match.start(1))
     message = (
-        f"this is a test record of Version {match[1]}, and this Scanbench reads Version {VERSION}: "
+        f"this is a test record of Version {match[1]}, and this Scanbench reads Version {' and '.join(READ)}: "
         "bring it in with the version that wrote it"
     )
     return [Problem("M002", message, Span(file, line, column, line, column + len(match[1])))]
@@ -143,6 +154,20 @@ def _reaction(node: etree._Element) -> Reaction:
         difference_count=_count(node, "Differences"),
         lines=tuple(Line(_text(one, "File"), _count(one, "Line")) for one in node.findall("Handler")),
         note=_text(node, "Note"),
+        basis=cast(Basis, _text(node, "Basis")),
+        carried=tuple(
+            Carried(_text(one, "Path"), _count(one, "Scan"), tuple(_text(by, "At") for by in one.findall("By")))
+            for one in node.findall("Carried")
+        ),
+        decided_by=tuple(_text(one, "At") for one in node.findall("DecidedBy")),
+        displayed=tuple(_text(one, "Path") for one in node.findall("Displayed")),
+        unreached=tuple(
+            Unreached(
+                _text(one, "File"), _count(one, "Line"), tuple(_text(on, "Path") for on in one.findall("On")),
+                cast(Obstacle, _text(one, "Why")), _text(one, "At"),
+            )
+            for one in node.findall("Unreached")
+        ),
     )  # fmt: skip
 
 

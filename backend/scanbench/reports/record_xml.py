@@ -9,7 +9,9 @@ from scanbench.faults.reaction.reaction import FINDINGS, Reaction
 from scanbench.plcmodel.document import xml_text
 from scanbench.reports.record import RecordError, RecordSweep, TestRecord
 
-VERSION = "1"
+VERSION = "2"
+READ = ("1", "2")
+"""The versions that `record_read.py` reads."""
 Told = str | int | datetime | None
 
 
@@ -50,7 +52,7 @@ def _error(root: etree._Element, error: RecordError) -> None:
 
 def _reaction(error: etree._Element, reaction: Reaction) -> None:
     node = _add(
-        error, "Reaction", Verdict=reaction.verdict, Window=reaction.window, FirstRead=reaction.first_read,
+        error, "Reaction", Verdict=reaction.verdict, Basis=reaction.basis or None, Window=reaction.window, FirstRead=reaction.first_read,
         FirstEffect=reaction.first_effect, Differences=reaction.difference_count, Note=reaction.note or None,
     )  # fmt: skip
     for reader in reaction.readers:
@@ -61,6 +63,18 @@ def _reaction(error: etree._Element, reaction: Reaction) -> None:
         _add(node, "Output", Path=each.path, Without=each.without, Value=each.value, Scan=each.scan)
     for line in reaction.lines:
         _add(node, "Handler", File=line.file, Line=line.line)
+    for state in reaction.carried:
+        carried = _add(node, "Carried", Path=state.path, Scan=state.scan)
+        for at in state.readers:
+            _add(carried, "By", At=at)
+    for at in reaction.decided_by:
+        _add(node, "DecidedBy", At=at)
+    for path in reaction.displayed:
+        _add(node, "Displayed", Path=path)
+    for one in reaction.unreached:
+        missed = _add(node, "Unreached", File=one.file, Line=one.line, Why=one.why, At=one.at or None)
+        for path in one.paths:
+            _add(missed, "On", Path=path)
 
 
 def _sweep(root: etree._Element, sweep: RecordSweep, accepted: Set[tuple[str, str]]) -> None:

@@ -4,16 +4,18 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from urllib.parse import quote
 
-from scanbench.faults.reaction.reaction import FINDINGS, Difference, Verdict
+from scanbench.faults.reaction.reaction import Difference, Verdict
+from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.plcmodel.catalogue import ErrorEntry
 from scanbench.reports.page import Page, Words, table, td, th, tr
+from scanbench.reports.reason import reason_of
 from scanbench.reports.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
 _WORDS: Words = {"en": {"title": "Error sweep"}, "ja": {"title": "異常スイープ"}}
 
 
-def sweep_page(result: SweepResult, at: str) -> str:
+def sweep_page(result: SweepResult, at: str, required: Required = REQUIRED) -> str:
     """The page; `at` says when the sweep was made."""
     page, about = Page("en", _WORDS), f"{result.project} on {result.model}"
     parts = (
@@ -22,8 +24,8 @@ def sweep_page(result: SweepResult, at: str) -> str:
         "compared with the same run without it</p>\n",
         *_summary(result),
         *_matrix(result),
-        *_findings(result),
-        *_reactions(result),
+        *_findings(result, required),
+        *_reactions(result, required),
     )
     return page.document(about, parts, "screen")
 
@@ -53,11 +55,11 @@ def _matrix(result: SweepResult) -> Iterator[str]:
     yield "<h2>Errors and states</h2>\n"
     rows = (
         tr(
-            f'<th scope="row">{escape(entry.name)} <code class="faint">{escape(entry.id)}</code></th>',
+            f'<th scope="row">{escape(entry.name)} <code class="faint">{escape(error)}</code></th>',
             f"<td><code>{entry.code_text}</code></td>", td(entry.severity),
-            *(_in_matrix(cell) for cell in result.cells if cell.error == entry.id),
+            *(_in_matrix(cell) for cell in result.cells if cell.error == error),
         )
-        for entry in result.errors
+        for error, entry in {cell.error: result.entry(cell) for cell in result.cells}.items()
     )  # fmt: skip
     yield table(tr(*heads) + tr(td(None) * 3, *scans), rows)
 
@@ -71,13 +73,17 @@ def _in_matrix(cell: Cell) -> str:
     return f"<td>{link}</td>"
 
 
-def _findings(result: SweepResult) -> Iterator[str]:
-    found = [cell for cell in result.cells if verdict_of(cell) in FINDINGS or cell.reaction is None]
+def _findings(result: SweepResult, required: Required) -> Iterator[str]:
+    found = [cell for cell in result.cells if not _is_met(cell, required)]
     yield "<h2>Findings</h2>\n"
     if not found:
-        yield "<p>The program reacted to every error that leaves it running.</p>\n"
+        yield "<p>Every error that leaves the program running did what is required.</p>\n"
         return
     yield _table(("Error", "State", "Verdict", "Why"), (_finding(result.entry(cell), cell) for cell in found))
+
+
+def _is_met(cell: Cell, required: Required) -> bool:
+    return cell.reaction is not None and required.met(cell.error, cell.reaction.verdict)
 
 
 def _finding(entry: ErrorEntry, cell: Cell) -> str:
@@ -88,8 +94,8 @@ def _finding(entry: ErrorEntry, cell: Cell) -> str:
     )
 
 
-def _reactions(result: SweepResult) -> Iterator[str]:
-    reacted = [cell for cell in result.cells if verdict_of(cell) == "reacted"]
+def _reactions(result: SweepResult, required: Required) -> Iterator[str]:
+    reacted = [cell for cell in result.cells if verdict_of(cell) != "stopped" and _is_met(cell, required)]
     if not reacted:
         return
     yield "<h2>Reactions</h2>\n"
@@ -97,9 +103,12 @@ def _reactions(result: SweepResult) -> Iterator[str]:
         entry, reaction = result.entry(cell), cell.reaction
         assert reaction is not None
         yield f'<section id="{_anchor(cell)}"><h3>{escape(entry.name)}, {escape(cell.point)}</h3>\n'
-        first = count(reaction.first_effect, "scan") if reaction.first_effect is not None else ""
         read = ", ".join(f"<code>{escape(each)}</code>" for each in reaction.reader_places) or "no statement"
-        yield f"<p>First effect after {first}. Read by: {read}."
+        if reaction.first_effect is not None:
+            first = f"First effect after {count(reaction.first_effect, 'scan')}"
+        else:
+            first = escape(reason_of(reaction))
+        yield f"<p>{first}. Read by: {read}."
         lines = ", ".join(f"<code>{escape(each.file)}:{each.line}</code>" for each in reaction.lines)
         yield f" Reached only with it: {lines}." if lines else ""
         yield f" {escape(reaction.note)}." if reaction.note else ""

@@ -8,18 +8,22 @@ from typing import cast, get_args
 from lxml import etree
 
 from scanbench.faults.reaction.compare import Outcome, SweepChange
-from scanbench.faults.reaction.reaction import FINDINGS, Verdict
+from scanbench.faults.reaction.reaction import Verdict
+from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
+from scanbench.faults.reference import error_of
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
 from scanbench.plcmodel.document import xml_text
 from scanbench.reports import record_words
+from scanbench.reports.reason import reason_of, some
 
 WORDS: Mapping[Verdict | None, str] = {
     verdict: record_words.WORDS["en"][verdict or "not_raised"] for verdict in (*get_args(Verdict), None)
 }
-FORMAT = 1
+FORMAT = 2
+"""2: the grades. 1 is read, too."""
+_READ = (1, 2)
 NO_SWEEP = "is not a sweep's JSON (made with errors sweep --json)"
-_SHOWN = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,17 +41,21 @@ class SweepResult:
 
     def entry(self, cell: Cell) -> ErrorEntry:
         """The error of a cell."""
-        return next(each for each in self.errors if each.id == cell.error)
+        return next(each for each in self.errors if each.id == error_of(cell.error))
 
     def counts(self) -> dict[str, int]:
         """How often there was which verdict, in words."""
         counted = Counter(WORDS[verdict_of(cell)] for cell in self.cells)
         return {word: counted[word] for word in WORDS.values() if counted[word]}
 
-    def unhandled(self, severities: Sequence[Severity]) -> tuple[Cell, ...]:
-        """Errors of these severities that the program forgot, or reads without any effect."""
+    def unhandled(self, severities: Sequence[Severity], required: Required = REQUIRED) -> tuple[Cell, ...]:
+        """Errors of these severities that did less than is required."""
         return tuple(
-            cell for cell in self.cells if verdict_of(cell) in FINDINGS and self.entry(cell).severity in severities
+            cell
+            for cell in self.cells
+            if cell.reaction is not None
+            and self.entry(cell).severity in severities
+            and not required.met(cell.error, cell.reaction.verdict)
         )
 
 
@@ -59,29 +67,7 @@ def verdict_of(cell: Cell) -> Verdict | None:
 def reason(cell: Cell) -> str:
     """A sentence about what was found."""
     reaction = cell.reaction
-    if reaction is None:
-        return cell.note
-    read = f"read in {', '.join(_some(reaction.reader_places))}"
-    changed = [f"{each.path} {each.without} -> {each.value}" for each in reaction.differences]
-    match reaction.verdict:
-        case "stopped":
-            text = "a fatal error: the PLC stopped, as the model says"
-        case "never_read":
-            text = f"no statement read its flag, code or details, or the error log, in {reaction.window} scans"
-        case "not_reached":
-            text = ""
-        case "no_effect":
-            text = f"{read}, but nothing differed in {reaction.window} scans"
-        case "stored_only":
-            text = f"{read}; stored in {', '.join(_some([each.path for each in reaction.differences]))}, which decides nothing"
-        case _:
-            text = "; ".join(filter(None, (read if reaction.readers else "", ", ".join(_some(changed)))))
-    return "; ".join(filter(None, (text, reaction.note)))
-
-
-def _some(texts: Sequence[str]) -> list[str]:
-    more = len(texts) - _SHOWN
-    return [*texts[:_SHOWN], f"{more} more"] if more > 0 else list(texts)
+    return cell.note if reaction is None else "; ".join(filter(None, (reason_of(reaction), reaction.note)))
 
 
 # ---- text ----------------------------------------------------------------------------------------------------------
@@ -94,7 +80,7 @@ def sweep_text(result: SweepResult) -> list[str]:
         entry, reaction = result.entry(cell), cell.reaction
         scans = "" if reaction is None or reaction.first_effect is None else str(reaction.first_effect)
         verdict = WORDS[verdict_of(cell)]
-        rows.append((entry.id, entry.code_text, entry.severity, cell.point, verdict, scans, reason(cell)))
+        rows.append((cell.error, entry.code_text, entry.severity, cell.point, verdict, scans, reason(cell)))
     head = f"{result.project} on {result.model}: {count(len(result.errors), 'error')}, {count(len(result.states), 'state')}"
     counts = ", ".join(f"{number} {word}" for word, number in result.counts().items())
     return [f"{head}, {result.window} scans each", "", *table(rows), "", counts]
@@ -102,11 +88,11 @@ def sweep_text(result: SweepResult) -> list[str]:
 
 def compare_text(changes: Sequence[SweepChange]) -> list[str]:
     """A line for each that is not as before, and a summary."""
-    rows = [("ERROR", "STATE", "BEFORE", "AFTER", "CHANGE")]
+    rows = [("ERROR", "STATE", "BEFORE", "AFTER", "CHANGE", "DIFFERS NO LONGER")]
     for each in changes:
         if each.change != "same":
             before, after = _outcome(each.before, each.scans_before), _outcome(each.after, each.scans_after)
-            rows.append((each.error, each.state, before, after, each.change))
+            rows.append((each.error, each.state, before, after, each.change, ", ".join(some(each.lost))))
     counted = Counter(each.change for each in changes)
     summary = ", ".join(f"{number} {kind}" for kind, number in counted.most_common()) or "nothing to compare"
     return [*(table(rows) if len(rows) > 1 else []), *([""] if len(rows) > 1 else []), summary]
@@ -150,9 +136,10 @@ def sweep_json(result: SweepResult) -> dict[str, object]:
 def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
     reaction = cell.reaction
     about: dict[str, object] = {
-        "id": entry.id, "name": entry.name, "code": entry.code_text, "severity": entry.severity, "state": cell.point,
+        "id": cell.error, "error": entry.id, "name": entry.name, "code": entry.code_text, "severity": entry.severity, "state": cell.point,
         "verdict": verdict_of(cell), "scans": None, "first_read": None, "window": 0, "readers": [], "reads": [],
-        "differences": [], "difference_count": 0, "handler_lines": [], "note": cell.note,
+        "differences": [], "difference_count": 0, "handler_lines": [], "note": cell.note, "basis": "", "carried": [],
+        "decided_by": [], "displayed": [], "unreached": [], "reason": reason(cell),
     }  # fmt: skip
     if reaction is not None:
         about |= {
@@ -161,6 +148,9 @@ def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
             "differences": [asdict(each) for each in reaction.differences],
             "difference_count": reaction.difference_count,
             "handler_lines": [f"{each.file}:{each.line}" for each in reaction.lines], "note": reaction.note,
+            "basis": reaction.basis, "carried": [asdict(each) for each in reaction.carried],
+            "decided_by": list(reaction.decided_by), "displayed": list(reaction.displayed),
+            "unreached": [asdict(each) for each in reaction.unreached],
         }  # fmt: skip
     return about
 
@@ -174,8 +164,8 @@ def outcomes_in(told: object) -> list[Outcome]:
     """What `sweep_json` wrote; ValueError says what is missing or wrong."""
     if not isinstance(told, dict) or not is_sweep(told):
         raise ValueError(f"this {NO_SWEEP}")
-    if told.get("format") != FORMAT:
-        raise ValueError(f"a sweep of format {told.get('format')!r}; this scanbench reads format {FORMAT}")
+    if told.get("format") not in _READ:
+        raise ValueError(f"a sweep of format {told.get('format')!r}; this scanbench reads formats 1 and {FORMAT}")
     return [_outcome_in(number, each) for number, each in enumerate(told["results"])]
 
 
@@ -190,15 +180,28 @@ def _outcome_in(number: int, told: object) -> Outcome:
         raise ValueError(f"{where} has the verdict {verdict!r}; there are {', '.join(get_args(Verdict))}")
     if scans is not None and (not isinstance(scans, int) or isinstance(scans, bool)):
         raise ValueError(f"{where} has the scans {scans!r}, which is no whole number")
-    return Outcome(error, state, cast("Verdict | None", verdict), scans)
+    outputs, others = _differed(told)
+    return Outcome(error, state, cast("Verdict | None", verdict), scans, outputs, others)
+
+
+def _differed(told: Mapping[str, object]) -> tuple[frozenset[str] | None, frozenset[str] | None]:
+    """The outputs and the other variables that differed; None where not all of them are there."""
+    listed, count = told.get("differences"), told.get("difference_count")
+    if not isinstance(listed, list) or count != len(listed) or not all(isinstance(each, dict) for each in listed):
+        return None, None
+    paths = {str(each.get("path")): each.get("output") is True for each in listed}
+    return (
+        frozenset(path for path, output in paths.items() if output),
+        frozenset(path for path, output in paths.items() if not output),
+    )
 
 
 # ---- JUnit ---------------------------------------------------------------------------------------------------------
 
 
-def sweep_junit(result: SweepResult, severities: Sequence[Severity]) -> str:
-    """A test case for each error and state; it fails where an error of these severities is unhandled."""
-    failed = result.unhandled(severities)
+def sweep_junit(result: SweepResult, severities: Sequence[Severity], required: Required = REQUIRED) -> str:
+    """A test case for each error and state; it fails where an error of these severities did less than is required."""
+    failed = result.unhandled(severities, required)
     skipped = [cell for cell in result.cells if cell.reaction is None]
     numbers = {"tests": len(result.cells), "failures": len(failed), "skipped": len(skipped), "errors": 0}
     totals = {name: str(number) for name, number in numbers.items()}
@@ -206,14 +209,16 @@ def sweep_junit(result: SweepResult, severities: Sequence[Severity]) -> str:
     suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{result.project} on {result.model}"), **totals})
     for cell in result.cells:
         entry = result.entry(cell)
-        name = f"{entry.id} ({entry.code_text})"
+        name = f"{cell.error} ({entry.code_text})"
         case = etree.SubElement(
             suite, "testcase", {"classname": xml_text(f"{result.model}.{cell.point}"), "name": name}
         )
         if cell.reaction is None:
             etree.SubElement(case, "skipped", {"message": xml_text(cell.note)})
         elif cell in failed:
-            about = {"message": f"{entry.severity} error: {WORDS[verdict_of(cell)]}", "type": cell.reaction.verdict}
+            wanted = WORDS[required.of(cell.error)]
+            said = f"{entry.severity} error: {WORDS[verdict_of(cell)]}; required: {wanted}"
+            about = {"message": said, "type": cell.reaction.verdict}
             etree.SubElement(case, "failure", about).text = xml_text(reason(cell))
         else:
             etree.SubElement(case, "system-out").text = xml_text(f"{WORDS[verdict_of(cell)]}: {reason(cell)}")

@@ -7,34 +7,31 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import get_args
 
 from scanbench.faults.history import Swept, worst
 from scanbench.faults.inject import Generate
-from scanbench.faults.reaction.compare import Outcome, SweepChange, compare
-from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
-from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.reaction.compare import SweepChange, compare
+from scanbench.faults.reaction.reaction import FINDINGS, Reaction
+from scanbench.faults.reference import error_of, parse_reference
 from scanbench.jobs.client import WORK_S, Gone, Job, Make
-from scanbench.plcmodel.catalogue import path_text
-from scanbench.plcmodel.model import Model
-from scanbench.reports.reaction_json import from_json, to_json
+from scanbench.reports.reaction_json import from_json
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
 from scanbench.server.kept import unreadable
 from scanbench.server.states import NOW, States
+from scanbench.server.sweep_rows import VERDICTS, cell_of, outcomes_of, rows_of, rows_planned
 from scanbench.session.session import Session
-from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus, SweptError
+from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus
 from scanbench.store.store import Store
 from scanbench.typed import BadValue
 from scanbench.wire.events import SweepChanged
 from scanbench.wire.host import Sources
-from scanbench.wire.jobs import CellFound, JobDone, RunSweep, StartPoint, Trying
+from scanbench.wire.jobs import CellFound, JobDone, RunSweep, StartPoint, SweepPlanned, Trying
 from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
 STOPPED_SERVER = "the server was stopped"
 _TOLD_EVERY_NS = 250_000_000
-_VERDICTS: dict[str, Verdict] = {verdict: verdict for verdict in get_args(Verdict)}
 
 OpenState = Callable[[int, Path, str, str], Awaitable[Session]]
 """(project, run file to copy, name, author): a new paused PLC that goes on with it."""
@@ -71,6 +68,8 @@ class _Running:
     task: "asyncio.Task[None] | None" = None
     now: str = ""
     fresh: list[CellRow] = field(default_factory=list)
+    planned: tuple[str, ...] = ()
+    """What it raises, as long as that is not kept."""
     told: int = 0
     """When its progress was last reported to everybody."""
 
@@ -86,7 +85,10 @@ class _Running:
                 name = next((each.name for each in self.row.errors if each.id == part.error), part.error)
                 self.now = f"{name}, {part.point}"
             case CellFound():
-                self.fresh.append(_cell(part))
+                self.fresh.append(cell_of(part))
+            case SweepPlanned():
+                self.planned = part.errors
+                return True
         if monotonic_ns() - self.told < _TOLD_EVERY_NS:
             return False
         self.told = monotonic_ns()
@@ -144,7 +146,9 @@ class Sweeps:
     async def compare(self, before: int, after: int) -> Comparison:
         """What became of the cells from one sweep to the other."""
         first, second = await self.whole(before), await self.whole(after)
-        return Comparison(first.row, second.row, compare(_outcomes(first), _outcomes(second)))
+        kept = [await asyncio.to_thread(self._store.sweeps.reactions, id) for id in (before, after)]
+        old, new = outcomes_of(first.cells, kept[0]), outcomes_of(second.cells, kept[1])
+        return Comparison(first.row, second.row, compare(old, new))
 
     async def found(self, project: int) -> dict[int, dict[str, Swept]]:
         """What the newest sweep of each version of a project's program found out, by version and error."""
@@ -156,8 +160,10 @@ class Sweeps:
 
     async def _verdicts(self, id: int) -> list[tuple[str, Swept]]:
         cells = await asyncio.to_thread(self._store.sweeps.cells, id)
-        found = ((cell, _VERDICTS.get(cell.verdict or "")) for cell in cells)
-        return [(cell.error, Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None]
+        found = ((cell, VERDICTS.get(cell.verdict or "")) for cell in cells)
+        return [
+            (error_of(cell.error), Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None
+        ]
 
     async def _show(self, project: int) -> None:
         """Tells the PLCs of a project what its sweeps found out."""
@@ -183,7 +189,7 @@ class Sweeps:
         if session.instance.why_not:
             raise Refused(session.instance.why_not)
         project, sources, model = session.project_id, session.instance.sources, session.model
-        swept = _swept(model, errors)
+        swept = rows_of(model, errors)
         async with self._beginning.setdefault(project, asyncio.Lock()):
             self._one_at_a_time(project)
             known = {row.id: row for row in await self._states.of_project(project)}
@@ -284,7 +290,10 @@ class Sweeps:
             ack = await session.build(sources, author)
             if not ack.ok:
                 raise Refused(f"{name} was made, but version {sources.version} does not run on it: {ack.message}")
-        ack = await session.submit(Generate(author, (ErrorRef(error, ()),)))
+        ref = parse_reference(session.model, error)
+        if isinstance(ref, Refusal):
+            raise Refused(ref.message, ref.near)
+        ack = await session.submit(Generate(author, (ref,)))
         if not ack.ok:
             raise Refused(f"{name} was made, but {error} could not be raised: {ack.message}", ack.near)
         return session
@@ -357,6 +366,10 @@ class Sweeps:
         return status, message
 
     async def _keep(self, running: _Running) -> None:
+        planned, running.planned = running.planned, ()
+        if planned:
+            plan = partial(self._store.sweeps.plan, running.row.id, rows_planned(running.row.errors, planned))
+            running.row = await asyncio.to_thread(plan)
         fresh, running.fresh = running.fresh, []
         if fresh:
             await asyncio.to_thread(self._store.sweeps.add_cells, running.row.id, fresh)
@@ -371,35 +384,3 @@ class Sweeps:
         """What a sweep tries now."""
         running = self._running.get(id)
         return "" if running is None else running.now
-
-
-def _swept(model: Model, wanted: Sequence[str] | None) -> tuple[SweptError, ...]:
-    """The errors to be swept, in the order of the catalogue."""
-    for id in wanted or ():
-        known = find_error(model, id)
-        if isinstance(known, Refusal):
-            raise Refused(known.message, known.near)
-    found = [
-        SweptError(error.id, error.name, error.code_text, error.severity, path_text(group.name for group in groups))
-        for groups, error in model.errors_with_groups()
-        if wanted is None or error.id in wanted
-    ]
-    if not found:
-        raise Refused("no error is chosen: there is nothing to sweep")
-    return tuple(found)
-
-
-def _cell(found: CellFound) -> CellRow:
-    reaction = found.reaction
-    if reaction is None:
-        return CellRow(found.error, found.point, found.scan, None, note=found.note)
-    return CellRow(
-        found.error, found.point, found.scan, reaction.verdict, reaction.first_read, reaction.first_effect,
-        reaction.difference_count, reaction.note or found.note, to_json(reaction),
-    )  # fmt: skip
-
-
-def _outcomes(whole: Whole) -> list[Outcome]:
-    return [
-        Outcome(cell.error, cell.state, _VERDICTS.get(cell.verdict or ""), cell.first_effect) for cell in whole.cells
-    ]

@@ -1,12 +1,14 @@
 """Test records and histories of all versions: put together from a session and the store; imported ones."""
 
 import asyncio
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import cast
 
 from scanbench.faults.history import ErrorRow
 from scanbench.faults.reaction.reaction import Verdict
+from scanbench.faults.reference import error_of
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import device_of, model_for
 from scanbench.public import Moment, Public
@@ -21,9 +23,10 @@ from scanbench.reports.record import (
 from scanbench.reports.record_read import from_xml
 from scanbench.reports.record_text import Language, RecordLine
 from scanbench.runtime.clock import wall_time
+from scanbench.server.sweep_rows import merged
 from scanbench.server.write_behind import WriteBehind
 from scanbench.session.session import Session
-from scanbench.store.records import BuildRow, NotFound, RecordInfo, RecordRow, SweepRow
+from scanbench.store.records import AcceptedRow, BuildRow, CellRow, NotFound, RecordInfo, RecordRow, SweepRow
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused
 
@@ -81,14 +84,14 @@ class Records:
         def make() -> TestRecord:
             project = self._store.projects.get(session.project_id)
             lines = self._store.log.errors(session.id, version, LOG_LINES)
-            accepted = self._store.findings.accepted(session.project_id)
+            swept, accepted = self._sweeps(session, version)
             head = RecordHead(
                 project.name, model.name, session.name, version, "" if build is None else build.hash, wall_time(), by,
                 self._tool,
             )  # fmt: skip
             return make_record(
-                head, model, rows, language=language, sweeps=self._sweeps(session, version),
-                accepted=[(one.error, RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
+                head, model, rows, language=language, sweeps=swept,
+                accepted=[(error_of(one.error), RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
                 log=[RecordLine(line.at, line.scan, line.author, line.text) for line in lines],
             )  # fmt: skip
 
@@ -117,8 +120,24 @@ class Records:
             return session.model
         return model_for(device_of(session.model), build.sources)
 
-    def _sweeps(self, session: Session, version: int) -> list[RecordSweep]:
-        return [self._sweep(sweep) for sweep in self._swept(session, version)[:SWEEPS]]
+    def _sweeps(self, session: Session, version: int) -> tuple[list[RecordSweep], list[AcceptedRow]]:
+        """The sweeps, with one cell for each error and state, and what was accepted of these cells."""
+        accepted = self._store.findings.accepted(session.project_id)
+        pairs = {(one.error, one.state) for one in accepted}
+        found, told = [], set[tuple[str, str]]()
+        for sweep in self._swept(session, version)[:SWEEPS]:
+            cells = merged(self._store.sweeps.cells(sweep.id), pairs)
+            told |= {(cell.error, cell.state) for cell in cells}
+            made = tuple(map(_record_cell, cells))
+            found.append(
+                RecordSweep(sweep.at, sweep.by, sweep.instance, sweep.status, sweep.window, sweep.states, made)
+            )
+        counts = Counter((error_of(error), state) for error, state in told)
+        return found, [
+            one for one in accepted
+            if one.error == error_of(one.error)
+            or ((one.error, one.state) in told and counts[error_of(one.error), one.state] == 1)
+        ]  # fmt: skip
 
     def _swept(self, session: Session, version: int) -> list[SweepRow]:
         """The sweeps of a version on this PLC, the newest first."""
@@ -128,13 +147,6 @@ class Records:
             if ours and sweep.program_version == version and sweep.done:
                 found.append(sweep)
         return found
-
-    def _sweep(self, sweep: SweepRow) -> RecordSweep:
-        cells = tuple(
-            RecordCell(cell.error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, cell.note)
-            for cell in self._store.sweeps.cells(sweep.id)
-        )
-        return RecordSweep(sweep.at, sweep.by, sweep.instance, sweep.status, sweep.window, sweep.states, cells)
 
     # ---- imported -------------------------------------------------------------------------------------------------
 
@@ -173,3 +185,10 @@ def _read(text: str) -> TestRecord:
     told: Sequence[str] = [str(problem) for problem in found[:TOLD]]
     more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
     raise Refused(f"this is no test record that can be read, nothing was kept: {'; '.join(told)}{more}")
+
+
+def _record_cell(cell: CellRow) -> RecordCell:
+    """The details that it was raised with are named in its note."""
+    error, _, details = cell.error.partition(":")
+    note = "; ".join(filter(None, (details, cell.note)))
+    return RecordCell(error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note)

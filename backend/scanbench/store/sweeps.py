@@ -112,6 +112,14 @@ class Sweeps(Repository):
             session.flush()
             return rows.sweep(row, _counts(session, [sweep])[sweep])
 
+    def plan(self, sweep: int, errors: Sequence[SweptError]) -> SweepRow:
+        """Sets what a sweep raises."""
+        with self._database.writing() as session:
+            row = _sweep(session, sweep)
+            row.errors = [asdict(each) for each in errors]
+            session.flush()
+            return rows.sweep(row, _counts(session, [sweep])[sweep])
+
     def interrupt(self, message: str) -> int:
         """At the start of a server: what ran when it ended is interrupted; how many that were."""
         with self._database.writing() as session:
@@ -142,6 +150,13 @@ class Sweeps(Repository):
             found = [rows.cell(each) for each in session.scalars(select(SweepCell).where(SweepCell.sweep_id == sweep))]
             last = len(errors)
             return sorted(found, key=lambda cell: (errors.get(cell.error, last), states.get(cell.state, 0)))
+
+    def reactions(self, sweep: int) -> dict[tuple[str, str], Json]:
+        """The reactions of all cells that have one, by error and state."""
+        with self._database.reading() as session:
+            _sweep(session, sweep)
+            found = session.scalars(select(SweepCell).where(SweepCell.sweep_id == sweep))
+            return {(each.error, each.state): each.reaction for each in found if each.reaction is not None}
 
     def reaction(self, sweep: int, error: str, state: str) -> Json | None:
         """The reaction of one cell; None where there is none."""

@@ -4,11 +4,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from scanbench.faults.reaction.reaction import Verdict
 from scanbench.store.records import SweptError
 from scanbench.web.messages_base import Id, Scan, Wire
 
 Severity = Literal["fatal", "nonfatal"]
-Verdict = Literal["reacted", "stored_only", "no_effect", "not_reached", "never_read", "stopped"]
 
 # ---- catalogue -------------------------------------------------------------------------------------------------
 
@@ -275,7 +275,12 @@ class SweepChange(Wire):
     after: Verdict | None
     scans_before: int | None
     scans_after: int | None
-    change: Literal["same", "better", "worse", "slower", "faster", "new", "gone"]
+    change: Literal["same", "better", "worse", "fewer", "slower", "faster", "new", "gone"] = Field(
+        description="worse: the grade, or an output differs no longer; fewer: only some other variable does not"
+    )
+    lost: list[str] = Field(
+        default_factory=list, description="what differs no longer because of the error, outputs first"
+    )
 
 
 class SweepComparison(Wire):

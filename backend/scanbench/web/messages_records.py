@@ -4,12 +4,12 @@ from typing import Literal
 
 from pydantic import Field
 
-from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.reaction import Reaction, Verdict
 from scanbench.reports.record import RecordAccepted, RecordSweep, Summary
 from scanbench.reports.record_text import RecordLine
 from scanbench.store.records import RecordInfo
 from scanbench.web.messages_base import Wire
-from scanbench.web.messages_errors import ErrorHistoryRow, Severity, Verdict
+from scanbench.web.messages_errors import ErrorHistoryRow, Severity
 
 
 class HistoryOfVersion(Wire):

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import get_args
 
+from scanbench.faults.reaction.reaction import Verdict
 from scanbench.public import iso
 from scanbench.server.sweeps import Comparison, Whole
 from scanbench.store.records import AcceptedRow, CellRow, SweepRow
@@ -47,7 +48,7 @@ def comparison(found: Comparison) -> wire.SweepComparison:
                 {
                     "error": each.error, "name": names.get(each.error, each.error), "state": each.state,
                     "before": each.before, "after": each.after, "scans_before": each.scans_before,
-                    "scans_after": each.scans_after, "change": each.change,
+                    "scans_after": each.scans_after, "change": each.change, "lost": list(each.lost),
                 }
             )
             for each in found.changes
@@ -62,7 +63,7 @@ def _summary(row: SweepRow) -> dict[str, object]:
         "status": row.status,
         "message": row.message, "done": row.done, "total": row.total, "window": row.window,
         "states": list(row.states), "seconds": round(row.seconds, 1),
-        "counts": {verdict: row.counts.get(verdict, 0) for verdict in get_args(wire.Verdict)},
+        "counts": {verdict: row.counts.get(verdict, 0) for verdict in get_args(Verdict)},
     }  # fmt: skip
 
 

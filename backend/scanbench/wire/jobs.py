@@ -106,6 +106,15 @@ class Trying:
 
 
 @dataclass(frozen=True, slots=True)
+class SweepPlanned:
+    """What a sweep raises, before it begins: its errors, with the details that the program tells apart."""
+
+    ref: int
+    errors: tuple[str, ...]
+    """In the notation of the command line."""
+
+
+@dataclass(frozen=True, slots=True)
 class CellFound:
     """One error from one point; without a reaction `note` says why it could not be raised or run."""
 

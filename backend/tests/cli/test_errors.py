@@ -59,13 +59,14 @@ def test_a_sweep_names_what_is_forgotten_and_what_is_read_in_vain(project: Path)
     assert told["states"] == [{"name": "On", "scan": 30}, {"name": "Off", "scan": 100}]
     verdicts = {key: each["verdict"] for key, each in cells.items()}
     assert verdicts == {
-        ("battery-error", "On"): "reacted", ("battery-error", "Off"): "not_reached",
+        ("battery-error", "On"): "acted", ("battery-error", "Off"): "not_reached",
         ("inner-board-error", "On"): "no_effect", ("inner-board-error", "Off"): "no_effect",
         ("basic-io-error", "On"): "never_read", ("basic-io-error", "Off"): "never_read",
         ("memory-error", "On"): "stopped", ("memory-error", "Off"): "stopped",
     }  # fmt: skip
     assert cells["battery-error", "On"]["readers"] == ["main.st:6"]
-    assert "main.st:6 (Main)" in cells["battery-error", "Off"]["note"]
+    (unreached,) = cells["battery-error", "Off"]["unreached"]
+    assert (unreached["line"], unreached["why"], unreached["at"]) == (6, "condition", "main.st:6")
     assert [each["path"] for each in cells["battery-error", "On"]["differences"]] == ["Main.lamp"]
     assert cells["inner-board-error", "On"]["readers"] == ["main.st:7"]
     assert sorted(told["unhandled"]) == ["basic-io-error", "battery-error", "inner-board-error"]
@@ -79,12 +80,12 @@ def test_a_copy_of_error_memory_fails_a_build(project: Path) -> None:
     assert result.returncode == 1
     found = {each["id"]: (each["verdict"], each["scans"]) for each in json.loads(result.stdout)["results"]}
     assert found.pop("memory-error") == ("stopped", None)
-    assert set(found.values()) == {("stored_only", None)}
+    assert set(found.values()) == {("displayed", None)}
     junit = project.parent / "junit.xml"
     text = scanbench("errors", "sweep", str(project), *FEW, "--window", "30", "--junit", str(junit))
-    assert "stored in Main.d, which decides nothing" in text.stdout
+    assert "displayed in Main.d, which only tools read" in text.stdout
     failures = {each.get("type") for each in ElementTree.parse(junit).iter("failure")}
-    assert failures == {"stored_only"}
+    assert failures == {"displayed"}
 
 
 def test_both_engines_say_the_same(project: Path) -> None:
@@ -170,7 +171,7 @@ def test_the_whole_catalogue_of_the_sample() -> None:
     listed = json.loads(scanbench("errors", "list", SAMPLE, "--json").stdout)["errors"]
     assert [each["id"] for each in told["results"]] == [each["id"] for each in listed]
     verdicts = {each["id"]: each["verdict"] for each in told["results"]}
-    assert verdicts["basic-io-error"] == "reacted"
+    assert verdicts["basic-io-error"] == "acted"
     assert verdicts["battery-error"] == "never_read"
     assert verdicts["memory-error"] == "stopped"
     assert result.returncode == 1
@@ -202,7 +203,7 @@ def test_a_state_from_a_recorded_run(project: Path) -> None:
     result = scanbench("errors", "sweep", str(project), "--only", "battery-error", "--states", given, "--json")
     told = json.loads(result.stdout)
     assert [each["scan"] for each in told["states"]] == [20, 25, 50]
-    assert [each["verdict"] for each in told["results"]] == ["reacted", "reacted", "reacted"]
+    assert [each["verdict"] for each in told["results"]] == ["acted", "acted", "acted"]
     assert not result.stderr
     run.write_bytes(run.read_bytes()[:-5])
     given = states(project, [{"name": "Before", "run": "on.scanrun", "scan": 20}])
@@ -282,7 +283,7 @@ def test_two_sweeps_compared(project: Path) -> None:
     after.write_text(scanbench("errors", "sweep", str(project), *FEW, "--json").stdout, "utf-8")
     better = scanbench("errors", "compare", str(before), str(after))
     assert better.returncode == 0
-    assert "inner-board-error  Start  read, no effect  reacted after 1 scan  better" in better.stdout
+    assert "inner-board-error  Start  read, no effect  displayed  better" in better.stdout
     worse = scanbench("errors", "compare", str(after), str(before), "--json")
     assert worse.returncode == 1
     changes = {each["error"]: each["change"] for each in json.loads(worse.stdout)["changes"]}
@@ -321,7 +322,7 @@ def test_the_projects_own_errors_are_swept_too(project: Path) -> None:
     assert (own["id"], own["code"]) == ("pump-hot", "C001")
     result = scanbench("errors", "sweep", str(project), "--only", "pump-hot", "--json")
     assert result.returncode == 0, result.stderr
-    assert [(each["id"], each["verdict"]) for each in json.loads(result.stdout)["results"]] == [("pump-hot", "reacted")]
+    assert [(each["id"], each["verdict"]) for each in json.loads(result.stdout)["results"]] == [("pump-hot", "acted")]
     (project / "errors.xml").write_text(OWN.replace(' ErrorCode="C001"', ""), "utf-8")
     for command in ("list", "sweep"):
         broken = scanbench("errors", command, str(project))

@@ -49,7 +49,7 @@ def says(found: Reaction) -> str:
     """What the result names for its verdict."""
     named = [*found.displayed, *found.decided_by]
     named += [part for each in found.carried for part in (each.path, *each.readers)]
-    named += [f"{each.file}:{each.line}" for each in found.missed]
+    named += [f"{each.file}:{each.line}" for each in found.unreached]
     return " ".join(named)
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.reaction.reaction import Carried, Missed, Reaction, Reader
+from scanbench.faults.reaction.reaction import Carried, Reaction, Reader, Unreached
 from scanbench.runtime.command import Command, Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
@@ -432,9 +432,9 @@ NO_TURN = "task Alarming (every 5s) did not run in the 50 scans: a longer window
 
 def test_a_task_that_had_no_turn_is_told(make: MakeObserved) -> None:
     source = TASKS.format(body="lamp := battery;", when="INTERVAL := T#5s")
-    missed = Missed("main.st", line("lamp := battery", source), ("Alarm",), "task", "Alarming")
+    missed = Unreached("main.st", line("lamp := battery", source), ("Alarm",), "task", "Alarming")
     assert reaction(source, "battery-error", make) == Reaction(
-        "not_reached", 50, note=NO_TURN, basis="static", missed=(missed,)
+        "not_reached", 50, note=NO_TURN, basis="static", unreached=(missed,)
     )
     assert reaction(source, "battery-error", make, 500).note == ""
 
@@ -609,8 +609,8 @@ def test_a_read_now_and_then_is_not_never(make: MakeObserved) -> None:
     source = handling("n : INT;", body)
     found = reaction(source, "battery-error", make)
     read = line("lamp := battery", source)
-    missed = Missed("main.st", read, ("Main",), "condition", f"main.st:{read - 1}")
-    assert found == Reaction("not_reached", 50, basis="static", missed=(missed,))
+    missed = Unreached("main.st", read, ("Main",), "condition", f"main.st:{read - 1}")
+    assert found == Reaction("not_reached", 50, basis="static", unreached=(missed,))
     assert reaction(source, "battery-error", make, 600).verdict == "acted"
     assert reaction(source, "basic-io-error", make).verdict == "never_read"
 
@@ -620,7 +620,7 @@ def test_a_copy_beside_it_does_not_hide_what_was_not_reached(make: MakeObserved)
     source = handling("n : INT; copy : BOOL;", body)
     found = reaction(source, "battery-error", make)
     assert found.verdict == "not_reached"
-    assert [each.line for each in found.missed] == [line("lamp := battery", source)]
+    assert [each.line for each in found.unreached] == [line("lamp := battery", source)]
     assert [each.line for each in found.readers] == [line("copy := battery", source)]
 
 
@@ -649,7 +649,7 @@ END_CONFIGURATION
 """
     found = reaction(source, "battery-error", make)
     assert found.verdict == "not_reached"
-    (missed,) = found.missed
+    (missed,) = found.unreached
     assert (missed.line, missed.paths[:3], len(missed.paths)) == (
         line("seen := battery", source), ("Main.one", "Main.two", "Main.many[1]"), 7,
     )  # fmt: skip

@@ -37,7 +37,17 @@ from scanbench.runtime.programs import Loaded, LoadedPrograms, NoProgram
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES, Splitter, pack, pack_body, unpack
 from scanbench.wire.host import Sources
-from scanbench.wire.jobs import CellFound, FindReaction, JobDone, JobRefused, Reacted, RunSweep, StartPoint, Trying
+from scanbench.wire.jobs import (
+    CellFound,
+    FindReaction,
+    JobDone,
+    JobRefused,
+    Reacted,
+    RunSweep,
+    StartPoint,
+    SweepPlanned,
+    Trying,
+)
 from tests.faults.reacting import MAKES, ref
 from tests.runtime.bench import model
 
@@ -143,7 +153,7 @@ def test_a_reaction_in_a_run_that_goes_on(job: Job, tmp_path: Path) -> None:
     assert isinstance(answer, Reacted)
     assert answer.ref == 7
     found = answer.reaction
-    assert (found.verdict, found.window, found.first_effect) == ("reacted", 200, 1)
+    assert (found.verdict, found.window, found.first_effect) == ("acted", 200, 1)
     assert [(each.file, each.line) for each in found.readers] == [("main.st", 4)]
     assert [each.path for each in found.differences] == ["Main.lamp"]
     assert (tmp_path / "1.run").stat().st_size == size
@@ -153,7 +163,7 @@ def test_a_reaction_in_a_run_that_goes_on(job: Job, tmp_path: Path) -> None:
     advance(timeline, 50)
     timeline.note()
     job.ask(FindReaction(8, str(tmp_path / "1.run"), "battery-error", again.scan, again.scan + 50, 200))
-    assert job.answer() == Reacted(8, Reaction("never_read", 50))
+    assert job.answer() == Reacted(8, Reaction("never_read", 50, basis="exact"))
     timeline.close()
 
 
@@ -166,7 +176,7 @@ def test_a_reaction_before_which_the_program_changed(job: Job, tmp_path: Path) -
     advance(timeline, 10)
     entry = enter(timeline, Generate("Ada", (ref("basic-io-error"), ref("battery-error"))))
     advance(timeline, 30)
-    for error, verdict in (("basic-io-error", "reacted"), ("battery-error", "never_read")):
+    for error, verdict in (("basic-io-error", "acted"), ("battery-error", "never_read")):
         job.ask(FindReaction(1, str(tmp_path / "1.run"), error, entry.scan, entry.scan + 30, 200))
         answer = job.answer()
         assert isinstance(answer, Reacted), answer
@@ -219,7 +229,7 @@ def test_a_file_that_is_replaced_while_it_is_read(tmp_path: Path, monkeypatch: p
     monkeypatch.setattr(Recording, "open", replaced)
 
     found = reaction_in(path, "basic-io-error", entry.scan, entry.scan + 20, 200, program_of, MAKES["native"])
-    assert (found.verdict, found.window) == ("reacted", 20)
+    assert (found.verdict, found.window) == ("acted", 20)
     with pytest.raises(Unreadable, match="does not have any more"):
         reaction_in(path, "basic-io-error", entry.scan + 1, entry.scan + 20, 200, program_of, MAKES["native"])
 
@@ -261,7 +271,7 @@ def test_a_fault_of_our_own_is_logged_and_told_as_one(
     process.on_request(FindReaction(1, str(tmp_path / "1.run"), "basic-io-error", entry.scan, entry.scan + 20, 20))
     point = StartPoint("A", str(tmp_path / "1.run"))
     process.on_request(RunSweep(2, sources(), (point,), ("battery-error",), 10, ()))
-    reacted, done = Splitter().feed(answers.getvalue())
+    reacted, _, done = Splitter().feed(answers.getvalue())
     assert isinstance(reacted, JobRefused)
     assert isinstance(done, JobRefused)
     assert (reacted.ref, done.ref) == (1, 2)
@@ -304,6 +314,7 @@ def test_a_sweep_over_states(job: Job, tmp_path: Path) -> None:
     points = (StartPoint("New", str(tmp_path / "new.run")), StartPoint("Old", str(tmp_path / "old.run")))
     errors = ("basic-io-error", "battery-error", "memory-error")
     job.ask(RunSweep(3, sources(SOURCE, 9), points, errors, 40, (("battery-error", "Old"),)))
+    assert job.answer() == SweepPlanned(3, errors)
     cells = []
     while isinstance(answer := job.answer(), CellFound):
         cells.append(answer)
@@ -313,7 +324,7 @@ def test_a_sweep_over_states(job: Job, tmp_path: Path) -> None:
         ("memory-error", "New", 25), ("memory-error", "Old", 36),
     ]  # fmt: skip
     verdicts = [each.reaction.verdict for each in cells if each.reaction is not None]
-    assert verdicts == ["reacted", "reacted", "never_read", "stopped", "stopped"]
+    assert verdicts == ["acted", "acted", "never_read", "stopped", "stopped"]
 
 
 def test_a_sweep_that_cannot_be(job: Job, tmp_path: Path) -> None:
@@ -379,7 +390,7 @@ def test_what_a_debugger_entered_inside_of_scans_belongs_to_both_runs(job: Job, 
     answer = job.answer()
     assert isinstance(answer, Reacted), answer
     found = answer.reaction
-    assert (found.verdict, found.first_effect) == ("reacted", 6), "it is read once the lamp handler is on"
+    assert (found.verdict, found.first_effect) == ("acted", 6), "it is read once the lamp handler is on"
     assert [each.path for each in found.differences] == ["Main.lamp"]
     begin = StartPoint("here", str(tmp_path / "1.run"))
     job.ask(RunSweep(2, sources(), (begin,), ("battery-error",), 10, ()))

@@ -4,6 +4,7 @@ import csv
 import io
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta, timezone
+from typing import get_args
 
 import pytest
 from hypothesis import given, settings
@@ -11,11 +12,10 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from scanbench.faults.history import ErrorRow, RowReaction
-from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict
+from scanbench.faults.reaction.reaction import WORST_FIRST, Difference, Line, Reaction, Reader, Verdict
 from scanbench.plcmodel.document import TOLD
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.reports.record import (
-    WORST_FIRST,
     RecordAccepted,
     RecordCell,
     RecordError,
@@ -95,7 +95,7 @@ def test_the_verdict_is_the_plcs_own_or_the_worst_of_the_newest_sweep() -> None:
     assert (told.errors, told.tested, told.generated) == (len(record.errors), 3, 1)
     assert (told.accepted, told.open) == (1, 0)
     assert told.verdicts == {
-        "never_read": 1, "not_reached": 0, "no_effect": 0, "stored_only": 0, "stopped": 0, "reacted": 1,
+        **dict.fromkeys(get_args(Verdict), 0), "never_read": 1, "reacted": 1,
     }  # fmt: skip
     assert told.unknown == 1
 
@@ -333,7 +333,7 @@ def test_reactions_as_json_and_back(reaction: Reaction) -> None:
     [
         (
             {"verdict": "fine"},
-            "verdict must be one of reacted, stored_only, no_effect, not_reached, never_read, stopped, not 'fine'",
+            "verdict must be one of acted, decided, displayed, stored, no_effect, not_reached, never_read, stopped, reacted, stored_only, not 'fine'",
         ),
         ({"window": "200"}, "window must be a whole number, not '200'"),
         ({"window": True}, "window must be a whole number, not True"),
@@ -351,10 +351,10 @@ def test_json_that_is_no_reaction(change: dict[str, object], says: str) -> None:
     ("old", "new", "line", "says"),
     [
         (
-            'Version="1"',
             'Version="2"',
+            'Version="3"',
             2,
-            "of Version 2, and this Scanbench reads Version 1: bring it in with the version",
+            "of Version 3, and this Scanbench reads Version 1 and 2: bring it in with the version",
         ),
         ('ProgramVersion="3"', 'ProgramVersion="three"', 2, "three"),
         ('ProgramVersion="3"', 'ProgramVersion="-1"', 2, "-1"),

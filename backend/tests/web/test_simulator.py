@@ -144,7 +144,7 @@ def test_how_the_program_reacts_is_found_out_by_itself(server: Server) -> None:
             assert found["state"] == "done", found
             verdicts[id] = found["verdict"]
             assert browser.ask(type="recover", ids=[id])["ok"]
-        assert verdicts == dict(zip(ids, ["reacted", "no_effect", "never_read"], strict=True))
+        assert verdicts == dict(zip(ids, ["acted", "no_effect", "never_read"], strict=True))
         told = server.http.get(f"/api/instances/{instance}/errors/basic-io-error/reaction").json()
         assert told["first_effect"] == 1
         assert [(reader["file"], reader["line"]) for reader in told["readers"] if reader["what"] == "flag"] == [
@@ -160,7 +160,7 @@ def test_how_the_program_reacts_is_found_out_by_itself(server: Server) -> None:
         browser.messages.clear()
         other = [{"id": "basic-io-error", "details": {"slot": "2"}}]
         assert browser.ask(type="generate", errors=other, again=True)["ok"]
-        assert reaction_of(browser, "basic-io-error")["verdict"] == "stored_only"  # the lamp is on already
+        assert reaction_of(browser, "basic-io-error")["verdict"] == "decided"  # the lamp is on already
         assert browser.ask(type="recover", ids=None)["ok"]
         # A fatal error ends at once: the PLC stopped, as the model says.
         assert browser.ask(type="generate", errors=[{"id": "io-bus-error"}])["ok"]
@@ -181,7 +181,7 @@ def test_a_reaction_that_was_being_recorded_is_found_after_a_restart_of_the_serv
         found = rows["basic-io-error"]["reaction"]
         if found["state"] == "recording":
             found = reaction_of(browser, "basic-io-error")
-        assert found["verdict"] == "reacted"
+        assert found["verdict"] == "acted"
 
 
 def test_a_fault_with_a_shape_comes_and_goes(server: Server) -> None:
@@ -210,7 +210,7 @@ def test_a_fault_with_a_shape_comes_and_goes(server: Server) -> None:
         )["ok"]
         browser.wait(lambda: any(fault["raised"] > 2 for fault in _last_armed(browser)))
         # of its first time, while it comes and goes; the lamp is on already
-        assert reaction_of(browser, "basic-io-error")["verdict"] == "stored_only"
+        assert reaction_of(browser, "basic-io-error")["verdict"] == "decided"
         assert browser.ask(type="disarm", ids=None)["ok"]
         browser.wait(lambda: _last_armed(browser) == [])
         rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}

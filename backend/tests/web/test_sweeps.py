@@ -45,14 +45,14 @@ def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None
         assert end["total"] == 2 * server.http.get(f"/api/models/{MODEL}").json()["error_count"]
         for state in ("Idle", "Ready"):
             found = verdicts(server, sweep, state)
-            assert found["basic-io-error"] == "reacted"
+            assert found["basic-io-error"] == "acted"
             assert found["battery-error"] == "no_effect"
             assert found["plc-setup-error"] == "never_read"
             assert found["io-bus-error"] == "stopped"
 
         rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}
         assert (rows["battery-error"]["swept"]["verdict"], rows["battery-error"]["reaction"]) == ("no_effect", None)
-        assert (rows["basic-io-error"]["swept"]["verdict"], rows["basic-io-error"]["swept"]["scans"]) == ("reacted", 1)
+        assert (rows["basic-io-error"]["swept"]["verdict"], rows["basic-io-error"]["swept"]["scans"]) == ("acted", 1)
 
         cell = {"error": "plc-setup-error", "state": "Idle"}
         told = server.http.post(f"/api/sweeps/{sweep}/reaction", json=cell).json()

@@ -4,15 +4,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from scanbench.faults.reaction.reaction import Verdict, ungraded
+from scanbench.faults.reaction.reaction import UNGRADED, Reaction, Verdict, ungraded
 
-Change = Literal["same", "better", "worse", "slower", "faster", "new", "gone"]
+Change = Literal["same", "better", "worse", "fewer", "slower", "faster", "new", "gone"]
+"""worse: the grade, or an output differs no longer. fewer: only some other variable does not."""
 _RANKS: dict[Verdict | None, int] = {
     "never_read": 0, None: 0, "not_reached": 1, "no_effect": 2, "stored_only": 3, "stored": 3, "displayed": 4, "decided": 5,
     "reacted": 6, "acted": 6, "stopped": 6,
 }  # fmt: skip
 """No verdict, and a PLC that stopped, are neither better nor worse than the end of the scale."""
-_BEFORE_GRADES = ("reacted", "stored_only")
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +24,20 @@ class Outcome:
     verdict: Verdict | None
     scans: int | None
     """Until the first effect, from 1."""
+    outputs: frozenset[str] | None = None
+    """The outputs that differed; None where that is not known."""
+    others: frozenset[str] | None = None
+    """The other variables that differed; None where not all are known."""
+
+
+def outcome(error: str, state: str, reaction: Reaction) -> Outcome:
+    """Of a reaction with all that is known of it."""
+    outputs = frozenset(each.path for each in reaction.differences if each.output)
+    others = frozenset(each.path for each in reaction.differences if not each.output)
+    whole = reaction.difference_count <= len(reaction.differences)
+    return Outcome(
+        error, state, reaction.verdict, reaction.first_effect, outputs if whole else None, others if whole else None
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +51,8 @@ class SweepChange:
     scans_before: int | None
     scans_after: int | None
     change: Change
+    lost: tuple[str, ...] = ()
+    """What differed because of the error in the earlier sweep, and does not in the later one; outputs first."""
 
 
 def compare(before: Iterable[Outcome], after: Iterable[Outcome]) -> tuple[SweepChange, ...]:
@@ -47,30 +63,42 @@ def compare(before: Iterable[Outcome], after: Iterable[Outcome]) -> tuple[SweepC
 
 
 def _change(pair: tuple[str, str], old: Outcome | None, new: Outcome | None) -> SweepChange:
+    outputs, others = _lost(old, new)
     return SweepChange(
         *pair,
         None if old is None else old.verdict, None if new is None else new.verdict,
         None if old is None else old.scans, None if new is None else new.scans,
-        _kind(old, new),
+        _kind(old, new, bool(outputs), bool(others)), (*outputs, *others),
     )  # fmt: skip
 
 
-def _kind(old: Outcome | None, new: Outcome | None) -> Change:
+def _lost(old: Outcome | None, new: Outcome | None) -> tuple[list[str], list[str]]:
+    """Outputs and others that only the earlier one has."""
+    if old is None or new is None or old.outputs is None or new.outputs is None:
+        return [], []
+    now = new.outputs | (new.others or frozenset())
+    return sorted(old.outputs - now), sorted((old.others or frozenset()) - now)
+
+
+def _kind(old: Outcome | None, new: Outcome | None, outputs: bool, others: bool) -> Change:
     if old is None:
         return "new"
     if new is None:
         return "gone"
     was, now = _alike(old.verdict, new.verdict)
-    if was != now:
-        gained = _RANKS[now] - _RANKS[was]
-        return "same" if gained == 0 else "better" if gained > 0 else "worse"
-    if old.scans is None or new.scans is None or old.scans == new.scans:
+    if was != now and _RANKS[was] != _RANKS[now]:
+        return "better" if _RANKS[now] > _RANKS[was] else "worse"
+    if outputs:
+        return "worse"
+    if others:
+        return "fewer"
+    if was != now or old.scans is None or new.scans is None or old.scans == new.scans:
         return "same"
     return "slower" if new.scans > old.scans else "faster"
 
 
 def _alike(old: Verdict | None, new: Verdict | None) -> tuple[Verdict | None, Verdict | None]:
     """Both as they were called before there were grades, if one of them was made then."""
-    if old not in _BEFORE_GRADES and new not in _BEFORE_GRADES:
+    if old not in UNGRADED and new not in UNGRADED:
         return old, new
     return None if old is None else ungraded(old), None if new is None else ungraded(new)

@@ -19,9 +19,9 @@ from scanbench.faults.reaction.reaction import (
     Basis,
     Carried,
     Line,
-    Missed,
     Reaction,
     Reader,
+    Unreached,
     Verdict,
     What,
 )
@@ -280,7 +280,7 @@ class _Run:
             dict.fromkeys(readings.place(each) for each in found if deciding.handles(readings.statements[each]))
         )
 
-    def _missed(self) -> tuple[Missed, ...]:
+    def _missed(self) -> tuple[Unreached, ...]:
         """The statements that would read what the error writes, and did not come to it."""
         readings, reached = self._prepared.readings, self._reached | self._twin.reached
         found = (each for each in readings.of(self._watched) if each.site not in self._looked)

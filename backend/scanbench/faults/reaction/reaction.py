@@ -20,6 +20,8 @@ GRADES: tuple[Grade, ...] = get_args(Grade)
 FINDINGS: tuple[Verdict, ...] = ("never_read", "not_reached", "no_effect", "stored", "stored_only", "displayed")
 """What the program missed, the worst first: nobody read it, or nothing came of it."""
 WORST_FIRST: tuple[Verdict, ...] = (*FINDINGS, "decided", "reacted", "acted", "stopped")
+UNGRADED: tuple[Verdict, ...] = ("reacted", "stored_only")
+"""Only in what was kept before there were grades."""
 _UNGRADED: dict[Verdict, Verdict] = {
     "acted": "reacted", "decided": "reacted", "displayed": "stored_only", "stored": "stored_only"
 }  # fmt: skip
@@ -36,7 +38,7 @@ def fulfils(verdict: Verdict, required: Grade) -> bool:
     """Whether an error did at least this. What was not graded did what it did at most; a PLC that stopped did all there is."""
     if verdict == "stopped":
         return True
-    if verdict in ("reacted", "stored_only"):
+    if verdict in UNGRADED:
         return GRADES.index(required) >= GRADES.index("acted" if verdict == "reacted" else "displayed")
     return GRADES.index(verdict) <= GRADES.index(required)
 
@@ -96,10 +98,8 @@ no turn. body: its program or block was not run."""
 
 
 @dataclass(frozen=True, slots=True)
-class Missed(Public):
+class Unreached(Public):
     """A statement that would read the error, and was not executed in the window."""
-
-    PUBLIC: ClassVar = "MissedReader"
 
     file: str
     line: int
@@ -136,7 +136,7 @@ class Reaction(Public):
     """decided: the statements, as `file:line`, that ran with the error only and write what an output depends on."""
     displayed: tuple[str, ...] = ()
     """The variables and words that it reached and only tools read."""
-    missed: tuple[Missed, ...] = ()
+    unreached: tuple[Unreached, ...] = ()
     """Statements that would read it and were not executed."""
 
     @property

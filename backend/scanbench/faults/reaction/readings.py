@@ -3,13 +3,13 @@
 Reads of a block or function through an in-out are found; reads through a reference are not.
 """
 
-from collections.abc import Iterable, Iterator, Set
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass
 
 from scanbench.faults.reaction.deciding import Instances
 from scanbench.faults.reaction.error_memory import Watched
 from scanbench.faults.reaction.flows import heads, parts, ref_of
-from scanbench.faults.reaction.reaction import Missed, Obstacle
+from scanbench.faults.reaction.reaction import Obstacle, Unreached
 from scanbench.program.bodies import bodies
 from scanbench.program.copies import makes_copies
 from scanbench.program.program import Base, CallBlock, CallFunction, Place, Pou, Program, Stmt
@@ -60,6 +60,13 @@ class Readings:
     def of(self, watched: Watched) -> list[Reading]:
         """The statements that read any of these bits, in the order of their lines."""
         found: dict[int, Pou | None] = {site: pou for site, pou, place in self._direct if _looks_at(place, watched)}
+        for each in self._slots(watched):
+            for site in self._through.get(each, ()):
+                found[site] = each[0]
+        return [self._reading(site, pou) for site, pou in sorted(found.items(), key=lambda each: each[0])]
+
+    def _slots(self, watched: Watched) -> set[tuple[Pou, Place]]:
+        """The in-outs that may refer to these bits."""
         slots: set[tuple[Pou, Place]] = set()
         grown = True
         while grown:
@@ -69,20 +76,35 @@ class Readings:
                 if passed or _looks_at(actual, watched):
                     slots.add((callee, slot))
             grown = len(slots) > before
-        for each in slots:
-            for site in self._through.get(each, ()):
-                found[site] = each[0]
-        return [self._reading(site, pou) for site, pou in sorted(found.items(), key=lambda each: each[0])]
+        return slots
+
+    def reads(self, bits: Mapping[int, int]) -> frozenset[tuple[int, int, int, int]]:
+        """The places that read any of these bits (masks by byte), as (statement, first byte, end, mask)."""
+        if not bits:
+            return frozenset()
+        watched = Watched({}, {}, dict(bits), {})
+        slots = self._slots(watched)
+        found = {
+            (site, *ref_of(place)[1:]) for site, _, place in self._direct if _looks_at(place, watched)
+        }  # fmt: skip
+        found |= {(site, slot.offset, 0, 0) for pou, slot in slots for site in self._through.get((pou, slot), ())}
+        return frozenset(found)
+
+    def any_in(self, begin: int, end: int) -> bool:
+        """Whether any of these bytes is read or given to an in-out."""
+        places = (*(place for _, _, place in self._direct), *(actual for _, _, _, actual in self._given))
+        refs = (ref_of(place) for place in places if place.slot is None and place.base is Base.IMAGE)
+        return any(ref.base is Base.IMAGE and ref.begin < end and begin < ref.end for ref in refs)
 
     def place(self, number: int) -> str:
         """`file:line` of a statement."""
         span = self._sites.statements[number].span
         return f"{span.file}:{span.line}"
 
-    def missed(self, reading: Reading, reached: Set[int], idle: Iterable[Task]) -> Missed:
+    def missed(self, reading: Reading, reached: Set[int], idle: Iterable[Task]) -> Unreached:
         """Why a statement was not executed, of which so many were; `idle`: tasks that had no turn."""
         why, at = self._obstacle(reading, reached, idle)
-        return Missed(reading.file, reading.line, reading.paths, why, at)
+        return Unreached(reading.file, reading.line, reading.paths, why, at)
 
     def _obstacle(self, reading: Reading, reached: Set[int], idle: Iterable[Task]) -> tuple[Obstacle, str]:
         around = self._around.get(reading.site)
