@@ -16,7 +16,7 @@ test('the test record is filtered, printed, saved and imported again', async ({ 
   await test.step('the row shows when, who, how often, and what the program did', async () => {
     await expect(row).toContainText(['Cleared']);
     await expect(row).toContainText(['Mika']);
-    await expect(row).toContainText([/Reacted|No effect|Never read/]);
+    await expect(row).toContainText([/Acted|No effect|Never read/]);
   });
 
   await test.step('filters reduce the rows, and a message says when none is left', async () => {

@@ -118,7 +118,7 @@ test('the tree, the details and the editor show the reaction', { tag: '@nightly'
 
   await test.step('an error that is handled', async () => {
     await simulator.generate(BASIC);
-    await expect(simulator.error(BASIC)).toContainText('Reacted');
+    await expect(simulator.error(BASIC)).toContainText('Acted');
     await expect(simulator.reaction).toContainText('after 1 scan');
     await expect(simulator.reaction.getByRole('table', { name: 'Variables changed by the error' })).toContainText(
       'lamp',

@@ -283,7 +283,7 @@ def test_two_sweeps_compared(project: Path) -> None:
     after.write_text(scanbench("errors", "sweep", str(project), *FEW, "--json").stdout, "utf-8")
     better = scanbench("errors", "compare", str(before), str(after))
     assert better.returncode == 0
-    assert "inner-board-error  Start  read, no effect  displayed  better" in better.stdout
+    assert "inner-board-error  Start  read, no effect  decided  better" in better.stdout
     worse = scanbench("errors", "compare", str(after), str(before), "--json")
     assert worse.returncode == 1
     changes = {each["error"]: each["change"] for each in json.loads(worse.stdout)["changes"]}

@@ -394,6 +394,7 @@ def test_what_a_debugger_entered_inside_of_scans_belongs_to_both_runs(job: Job, 
     assert [each.path for each in found.differences] == ["Main.lamp"]
     begin = StartPoint("here", str(tmp_path / "1.run"))
     job.ask(RunSweep(2, sources(), (begin,), ("battery-error",), 10, ()))
+    assert job.answer() == SweepPlanned(2, ("battery-error",))
     cell = job.answer()
     assert isinstance(cell, CellFound), cell
     assert cell.reaction is not None, cell.note

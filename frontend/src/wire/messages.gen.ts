@@ -2773,6 +2773,27 @@ export interface components {
              */
             type: "calm";
         };
+        /**
+         * Carried
+         * @description State that still differs when the window ends, and that decides an output.
+         */
+        Carried: {
+            /**
+             * Path
+             * @description A variable, or a block of the library that holds the state.
+             */
+            path: string;
+            /**
+             * Readers
+             * @description The statements that read it, as `file:line`.
+             */
+            readers: string[];
+            /**
+             * Scan
+             * @description Of the window in which it first differed, from 1.
+             */
+            scan: number;
+        };
         /** CellRef */
         CellRef: {
             /** Error */
@@ -4874,6 +4895,21 @@ export interface components {
          * @description What became of one error, raised alone or in a run as it was.
          */
         Reaction: {
+            /**
+             * Basis
+             * @enum {string}
+             */
+            basis: "" | "exact" | "static";
+            /**
+             * Carried
+             * @description decided: the state that decides.
+             */
+            carried: components["schemas"]["Carried"][];
+            /**
+             * Decided By
+             * @description decided: the statements, as `file:line`, that ran with the error only and write what an output depends on.
+             */
+            decided_by: string[];
             /** Difference Count */
             difference_count: number;
             /**
@@ -4882,9 +4918,14 @@ export interface components {
              */
             differences: components["schemas"]["Difference"][];
             /**
+             * Displayed
+             * @description The variables and words that it reached and only tools read.
+             */
+            displayed: string[];
+            /**
              * First Effect
-             * @description Scan of the window from which on the program did something else, from 1: an output differs, and the like; where there is
-             *     none, state that decides one later. None where nothing but copies differ.
+             * @description Scan of the window from which on the program did something else, from 1: an output differs, and the like. None where
+             *     that did not happen in the window.
              */
             first_effect: number | null;
             /**
@@ -4902,10 +4943,15 @@ export interface components {
             /** Readers */
             readers: components["schemas"]["Reader"][];
             /**
+             * Unreached
+             * @description Statements that would read it and were not executed.
+             */
+            unreached: components["schemas"]["Unreached"][];
+            /**
              * Verdict
              * @enum {string}
              */
-            verdict: "reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped";
+            verdict: "acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only";
             /**
              * Window
              * @description Scans that were compared; fewer where something ended them.
@@ -4930,7 +4976,7 @@ export interface components {
              */
             state: "recording" | "done" | "failed";
             /** Verdict */
-            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
+            verdict: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
         };
         /**
          * Reader
@@ -4988,7 +5034,7 @@ export interface components {
              * Verdict
              * @description None: it could not be raised, `note` says why.
              */
-            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
+            verdict: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
         };
         /**
          * RecordError
@@ -5049,7 +5095,7 @@ export interface components {
              * Verdict
              * @description of the PLC itself, else of sweeps
              */
-            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
+            verdict: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
             /**
              * Verdict From
              * @enum {string}
@@ -5664,7 +5710,7 @@ export interface components {
              * Verdict
              * @description null: it could not be raised, `note` says why
              */
-            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
+            verdict: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
         };
         /**
          * SweepChange
@@ -5672,16 +5718,22 @@ export interface components {
          */
         SweepChange: {
             /** After */
-            after: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
+            after: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
             /** Before */
-            before: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
+            before: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
             /**
              * Change
+             * @description worse: the grade, or an output differs no longer; fewer: only some other variable does not
              * @enum {string}
              */
-            change: "same" | "better" | "worse" | "slower" | "faster" | "new" | "gone";
+            change: "same" | "better" | "worse" | "fewer" | "slower" | "faster" | "new" | "gone";
             /** Error */
             error: string;
+            /**
+             * Lost
+             * @description what differs no longer because of the error, outputs first
+             */
+            lost?: string[];
             /** Name */
             name: string;
             /** Scans After */
@@ -6244,6 +6296,31 @@ export interface components {
              * @enum {string}
              */
             type: "travel";
+        };
+        /**
+         * Unreached
+         * @description A statement that would read the error, and was not executed in the window.
+         */
+        Unreached: {
+            /**
+             * At
+             * @description The statement around it as `file:line`, or the name of the task.
+             */
+            at: string;
+            /** File */
+            file: string;
+            /** Line */
+            line: number;
+            /**
+             * Paths
+             * @description The instances that it runs on.
+             */
+            paths: string[];
+            /**
+             * Why
+             * @enum {string}
+             */
+            why: "condition" | "left" | "task" | "body";
         };
         /** Unwatch */
         Unwatch: {

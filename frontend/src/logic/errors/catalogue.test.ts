@@ -43,7 +43,7 @@ const history = (id: string, status: ErrorHistoryRow["status"], code = "009A") =
 describe("catalogueRows", () => {
   it("takes the verdict of a sweep for an error that was not raised here", () => {
     const swept = { state: "done", verdict: "no_effect", scans: null, message: "" } as const;
-    const reaction = { ...swept, verdict: "reacted", scans: 1 } as const;
+    const reaction = { ...swept, verdict: "acted", scans: 1 } as const;
     const told = new Map([
       ["battery-error", { id: "battery-error", status: "never", reaction: null, swept } as ErrorHistoryRow],
       ["io-error", { id: "io-error", status: "cleared", reaction, swept } as ErrorHistoryRow],
@@ -113,7 +113,7 @@ describe("catalogueRows", () => {
     const reacted = (id: string, verdict: string | null, state = "done") =>
       [id, { id, status: "generated", code: "", reaction: { state, verdict, scans: 1, message: "" } }] as const;
     const known = new Map([
-      reacted("unit-error", "reacted"),
+      reacted("unit-error", "acted"),
       reacted("battery-error", "never_read"),
       reacted("io-error", null, "recording"),
     ]) as unknown as CatalogueView["history"];
@@ -126,7 +126,7 @@ describe("catalogueRows", () => {
       ids: ["unit-error", "battery-error", "io-error"],
     });
     expect(keys("findings")).toEqual(["battery-error"]);
-    expect(keys("reacted")).toEqual(["unit-error"]);
+    expect(keys("acted")).toEqual(["unit-error"]);
     expect(keys("unknown")).toEqual(["memory-error", "io-error"]);
   });
 

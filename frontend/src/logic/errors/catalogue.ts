@@ -3,7 +3,7 @@ import type { ErrorGroup, ErrorHistoryRow, ErrorInfo, ReactionState, Verdict } f
 
 export type ErrorStatus = ErrorHistoryRow["status"];
 /** Filters by the known reaction; a finding is something that the program missed: nobody read the error, or reading it had no effect. */
-export type ReactionFilter = "all" | "findings" | "unknown" | Verdict;
+export type ReactionFilter = "all" | "findings" | "unknown" | Exclude<Verdict, "reacted" | "stored_only">;
 export type Check = "none" | "some" | "all";
 
 export interface GroupRow {
@@ -138,9 +138,14 @@ export function verdictOf(row: Told): Verdict | null {
   return reaction?.state === "done" ? reaction.verdict : null;
 }
 
-/** A finding: nobody read the error, or reading it had no effect. */
-export const isFinding = (verdict: Verdict | null): boolean =>
-  verdict !== null && verdict !== "reacted" && verdict !== "stopped";
+/** What is no finding: the error acted or decided, or no program could react. */
+const HANDLED: readonly Verdict[] = ["acted", "decided", "reacted", "stopped"];
+
+/** A finding: nobody read the error, or it was read, kept or displayed, and decided nothing. */
+export const isFinding = (
+  verdict: Verdict | null,
+): verdict is Exclude<Verdict, "acted" | "decided" | "reacted" | "stopped"> =>
+  verdict !== null && !HANDLED.includes(verdict);
 
 function statusOf(id: string, view: CatalogueView): ErrorStatus {
   return view.history.get(id)?.status ?? "never";

@@ -21,7 +21,7 @@ const line = (id: string, more: Partial<HistoryLine> = {}): HistoryLine => ({
   ...more,
 });
 
-const done = (verdict: "reacted" | "never_read", scans: number | null = null): HistoryLine["reaction"] => ({
+const done = (verdict: "acted" | "never_read", scans: number | null = null): HistoryLine["reaction"] => ({
   state: "done",
   verdict,
   scans,
@@ -30,13 +30,13 @@ const done = (verdict: "reacted" | "never_read", scans: number | null = null): H
 
 const LINES = [
   line("a", { status: "cleared", by: "Mika", count: 2, reaction: done("never_read") }),
-  line("b", { severity: "fatal", status: "generated", code: "80F1", details: "rack=2", reaction: done("reacted", 3) }),
+  line("b", { severity: "fatal", status: "generated", code: "80F1", details: "rack=2", reaction: done("acted", 3) }),
   line("c"),
   line("d", {
     status: "generated",
     by: "Ada",
     count: 1,
-    reaction: { ...done("reacted", 1), state: "recording", verdict: null } as HistoryLine["reaction"],
+    reaction: { ...done("acted", 1), state: "recording", verdict: null } as HistoryLine["reaction"],
   }),
 ];
 const ids = (lines: HistoryLine[]) => lines.map(({ id }) => id).join("");
@@ -47,7 +47,7 @@ describe("the history", () => {
     expect(ids(historyLines(LINES, { ...everything, status: "generated" }))).toBe("bd");
     expect(ids(historyLines(LINES, { ...everything, severity: "fatal" }))).toBe("b");
     expect(ids(historyLines(LINES, { ...everything, reaction: "findings" }))).toBe("a");
-    expect(ids(historyLines(LINES, { ...everything, reaction: "reacted" }))).toBe("b");
+    expect(ids(historyLines(LINES, { ...everything, reaction: "acted" }))).toBe("b");
     expect(ids(historyLines(LINES, { ...everything, reaction: "unknown" }))).toBe("cd");
     expect(ids(historyLines(LINES, { ...everything, text: " MIKA" }))).toBe("a");
     expect(ids(historyLines(LINES, { ...everything, text: "rack" }))).toBe("b");

@@ -1,5 +1,5 @@
 /** The error history as a table, filtered and sorted: of this PLC, of an earlier program version, or of an imported record. */
-import type { ErrorHistoryRow, TestRecord } from "../../wire/types";
+import type { ErrorHistoryRow, TestRecord, Verdict } from "../../wire/types";
 import { isFinding, type ReactionFilter, reactionOf, verdictOf } from "./catalogue";
 
 /** A row, from any of these sources. */
@@ -64,7 +64,19 @@ function passes(line: HistoryLine, view: HistoryView): boolean {
 
 const STATUS = { generated: 0, cleared: 1, never: 2 };
 const SEVERITY = { fatal: 0, nonfatal: 1 };
-const VERDICT = { never_read: 0, not_reached: 1, no_effect: 2, stored_only: 3, stopped: 4, reacted: 5 };
+/** The worst first; those of before there were grades come beside what they may be. */
+const VERDICT: Record<Verdict, number> = {
+  never_read: 0,
+  not_reached: 1,
+  no_effect: 2,
+  stored: 3,
+  stored_only: 4,
+  displayed: 5,
+  stopped: 6,
+  decided: 7,
+  reacted: 8,
+  acted: 9,
+};
 
 function keyOf(line: HistoryLine, column: Column): string | number | null {
   const verdict = verdictOf(line);

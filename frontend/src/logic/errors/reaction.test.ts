@@ -3,7 +3,12 @@ import type { Reaction } from "../../wire/types";
 import { nextStep, readersOf, sentenceOf, stretchesOf } from "./reaction";
 
 const reaction = (over: Partial<Reaction>): Reaction => ({
-  verdict: "reacted",
+  verdict: "acted",
+  basis: "exact",
+  carried: [],
+  decided_by: [],
+  displayed: [],
+  unreached: [],
   window: 200,
   first_read: 1,
   first_effect: 1,
@@ -22,12 +27,13 @@ describe("a reaction", () => {
     expect(sentenceOf(reaction({ verdict: "never_read" }), "A402.12")).toContain("A402.12");
     expect(sentenceOf(reaction({ verdict: "no_effect", first_read: 2 }), "A402.12")).toContain("scan 2");
     expect(nextStep("never_read", "A402.12")).toContain("evaluate A402.12");
-    for (const verdict of ["no_effect", "stored_only", "not_reached"] as const) {
+    for (const verdict of ["no_effect", "stored", "stored_only", "displayed", "not_reached"] as const) {
       expect(nextStep(verdict, "A402.12")).not.toBe("");
     }
-    expect(sentenceOf(reaction({ verdict: "stored_only", first_read: 2 }), "A402.12")).toContain("only stored");
+    expect(sentenceOf(reaction({ verdict: "stored", first_read: 2 }), "A402.12")).toContain("only stored");
     expect(sentenceOf(reaction({ verdict: "not_reached" }), "A402.12")).toContain("not executed");
-    expect(nextStep("reacted", "A402.12")).toBe("");
+    for (const verdict of ["acted", "decided", "reacted", "stopped"] as const)
+      expect(nextStep(verdict, "A402.12")).toBe("");
   });
 
   it("lists each line that read the error once, with everything it read", () => {

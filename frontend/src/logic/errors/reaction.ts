@@ -2,6 +2,7 @@
 
 import { t } from "../../text";
 import type { Reaction, Verdict } from "../../wire/types";
+import { isFinding } from "./catalogue";
 
 /** A line of the program that took part in the reaction. */
 interface Place {
@@ -55,12 +56,13 @@ export function sentenceOf(reaction: Reaction, flag: string): string {
   const { verdict, window, first_read, first_effect } = reaction;
   const scans = first_effect ?? 0;
   const values = { flag, window, scans, read: first_read ?? 0 };
-  if (verdict === "reacted") return t(scans === 1 ? "reaction.says.reacted.one" : "reaction.says.reacted", values);
+  if (verdict === "acted" || verdict === "reacted")
+    return t(scans === 1 ? "reaction.says.reacted.one" : "reaction.says.reacted", values);
   return t(`reaction.says.${verdict}`, values);
 }
 
 /** What to do about a finding; empty when the program missed nothing. */
 export function nextStep(verdict: Verdict, flag: string): string {
-  if (verdict === "reacted" || verdict === "stopped") return "";
+  if (!isFinding(verdict)) return "";
   return t(`reaction.next.${verdict}`, { flag });
 }

@@ -77,7 +77,7 @@ describe("matrixRows", () => {
     cell("memory", "Idle", "stopped"),
     cell("memory", "Running", "stopped"),
     cell("battery", "Idle", "never_read"),
-    cell("battery", "Running", "reacted", { first_read: 1, first_effect: 2 }),
+    cell("battery", "Running", "acted", { first_read: 1, first_effect: 2 }),
     cell("setup", "Idle", null, { note: "Not on this model" }),
     cell("setup", "Running", null, { note: "Not on this model" }),
   ]);
@@ -140,7 +140,7 @@ describe("matrixRows", () => {
   });
 
   it("shows the rows with one verdict", () => {
-    expect(errorsIn(matrixRows(full, { findings: false, verdict: "reacted" }))).toEqual(["battery"]);
+    expect(errorsIn(matrixRows(full, { findings: false, verdict: "acted" }))).toEqual(["battery"]);
     expect(errorsIn(matrixRows(full, { findings: false, verdict: "none" }))).toEqual(["setup"]);
   });
 
@@ -159,7 +159,18 @@ describe("countCells", () => {
       cell("setup", "Idle", null),
     ]);
     expect(countCells(found)).toEqual({
-      verdicts: { reacted: 0, stopped: 1, stored_only: 0, no_effect: 1, not_reached: 0, never_read: 0 },
+      verdicts: {
+        acted: 0,
+        decided: 0,
+        stopped: 1,
+        displayed: 0,
+        stored: 0,
+        no_effect: 1,
+        not_reached: 0,
+        never_read: 0,
+        reacted: 0,
+        stored_only: 0,
+      },
       accepted: 1,
       none: 1,
       left: 2,
@@ -207,13 +218,13 @@ describe("merged", () => {
   it("replaces cells that have a new result, and keeps the others as they are", () => {
     const before = sweep([cell("memory", "Idle", "stopped"), cell("battery", "Idle", "never_read")]);
     const after = merged(before, told({ done: 3 }), [
-      cell("battery", "Idle", "reacted"),
+      cell("battery", "Idle", "acted"),
       cell("setup", "Idle", "no_effect"),
     ]);
     expect(after.done).toBe(3);
     expect(after.cells.map(({ error, verdict }) => `${error} ${verdict}`)).toEqual([
       "memory stopped",
-      "battery reacted",
+      "battery acted",
       "setup no_effect",
     ]);
     expect(after.cells[0]).toBe(before.cells[0]);

@@ -17,16 +17,24 @@ import { duration } from "../format/numbers";
 import { isFinding } from "./catalogue";
 
 export const VERDICTS = [
-  "reacted",
+  "acted",
+  "decided",
   "stopped",
-  "stored_only",
+  "displayed",
+  "stored",
   "no_effect",
   "not_reached",
   "never_read",
 ] as const satisfies readonly Verdict[];
 
+/** Verdicts that only sweeps and records of before there were grades have. */
+export const UNGRADED = ["reacted", "stored_only"] as const satisfies readonly Verdict[];
+
 /** The server's name for the state of the PLC at the begin of the sweep. */
 export const NOW = "Now";
+
+/** The id of a row without the details that it was raised with: `unit-error:unit=3` is `unit-error`. */
+export const errorOf = (id: string): string => id.split(":", 1)[0] ?? id;
 
 /** The name of a state; "Now" in the language of the page. */
 export const stateWord = (state: string): string => (state === NOW ? t("sweep.state.now") : state);
@@ -104,7 +112,14 @@ export function inWordsOf(sweep: Sweep, catalogue: readonly ErrorGroup[]): Sweep
     }
   };
   collect(catalogue, "");
-  return { ...sweep, errors: sweep.errors.map((error) => ({ ...error, ...words.get(error.id) })) };
+  return { ...sweep, errors: sweep.errors.map((error) => ({ ...error, ...inWords(error, words) })) };
+}
+
+/** In the words of the catalogue; the details stay as they are. */
+function inWords({ id }: SweepError, words: ReadonlyMap<string, { name: string; group: string }>) {
+  const known = words.get(errorOf(id));
+  const details = id.slice(errorOf(id).length + 1);
+  return known && details ? { ...known, name: `${known.name} (${details})` } : known;
 }
 
 function passes(slots: readonly Slot[], { findings, verdict }: MatrixView): boolean {
@@ -137,12 +152,16 @@ interface Counts {
 /** The number of cells of each kind; an accepted finding counts as accepted and not under its verdict. */
 export function countCells(sweep: Sweep): Counts {
   const verdicts: Record<Verdict, number> = {
-    reacted: 0,
+    acted: 0,
+    decided: 0,
     stopped: 0,
-    stored_only: 0,
+    displayed: 0,
+    stored: 0,
     no_effect: 0,
     not_reached: 0,
     never_read: 0,
+    reacted: 0,
+    stored_only: 0,
   };
   let accepted = 0;
   let none = 0;
@@ -253,6 +272,7 @@ export function countReaders(reaction: Reaction, what: Reaction["readers"][numbe
 
 export const CHANGES = [
   "worse",
+  "fewer",
   "better",
   "slower",
   "faster",

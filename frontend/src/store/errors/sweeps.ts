@@ -165,11 +165,14 @@ export function onSweepHello(): void {
 /** A sweep of this project began, continued or ended. */
 export function onSweep({ sweep, now, cells }: SweepProgress): void {
   if (get().project !== sweep.project) return;
+  const known = get().sweep;
+  const grown = known?.id === sweep.id && known.total !== sweep.total; // details that the program tells apart have rows of their own
   noteSummary(sweep);
   set((state) => ({
     now: { ...state.now, [sweep.id]: now },
     sweep: state.sweep?.id === sweep.id ? merged(state.sweep, sweep, cells) : state.sweep,
   }));
+  if (grown) void loadShown();
 }
 
 function noteSummary(summary: SweepSummary): void {

@@ -137,7 +137,14 @@ export const errors = {
   "preview.which": "Preview of",
   "preview.words": "{count} words",
   "preview.words.one": "1 word",
+  "reaction.basis.exact": "Exact: the runs with and without the error were compared.",
+  "reaction.basis.static": "Static: the program text says it, as it did not happen within the window.",
+  "reaction.carried": "Still different when the window ended, and decides an output",
+  "reaction.carried.since": "since scan {scan}, read at",
+  "reaction.carried.unread": "since scan {scan}",
+  "reaction.decidedby": "Executed in one of the two runs only",
   "reaction.differences": "Variables changed by the error",
+  "reaction.displayed": "Displayed in",
   "reaction.failed": "Not compared",
   "reaction.handler": "Executed only with {error}",
   "reaction.handlers": "Executed only with the error",
@@ -145,9 +152,11 @@ export const errors = {
   "reaction.loading": "Loading the reaction of the program…",
   "reaction.more": "{count} more",
   "reaction.next": "Next:",
+  "reaction.next.displayed": "make the program act on the error, or accept the finding in a sweep with a reason.",
   "reaction.next.never_read": "evaluate {flag} in the program, or accept the finding in a sweep with a reason.",
   "reaction.next.not_reached":
     "use a longer window or a different state, or accept the finding in a sweep with a reason.",
+  "reaction.next.stored": "make the program act on the stored value, or accept the finding in a sweep with a reason.",
   "reaction.next.stored_only":
     "make the program act on the stored value, or accept the finding in a sweep with a reason.",
   "reaction.next.no_effect":
@@ -158,8 +167,14 @@ export const errors = {
   "reaction.recording": "Recording",
   "reaction.recording.about":
     "The program also runs without the error, for comparison. The result is shown when the window is over.",
+  "reaction.says.decided":
+    "No output changed in {window} scans, but state that an output depends on did, or a statement that writes an output ran because of the error.",
+  "reaction.says.displayed":
+    "The error reached memory that only panels and other tools read: no decision used it in {window} scans.",
   "reaction.says.never_read": "No statement read {flag}, its code or its details in {window} scans.",
   "reaction.says.not_reached": "A statement reads the error, but it was not executed in {window} scans.",
+  "reaction.says.stored":
+    "The error was first read in scan {read}, but only stored: no decision used it in {window} scans.",
   "reaction.says.stored_only":
     "The error was first read in scan {read}, but only stored: no decision used it in {window} scans.",
   "reaction.says.no_effect": "The error was first read in scan {read}, but nothing else changed in {window} scans.",
@@ -169,10 +184,16 @@ export const errors = {
   "reaction.scans": "first change after {scans} scans",
   "reaction.swept": "found by a sweep; the error was not raised here.",
   "reaction.swept.word": "sweep",
+  "reaction.unreached": "Would read it, not executed",
+  "reaction.unreached.on": "{first} and {count} more",
   "reaction.what.code": "the code",
   "reaction.what.detail": "a detail",
   "reaction.what.flag": "the flag",
   "reaction.what.log": "the error log",
+  "reaction.why.body": "its program or block was not executed",
+  "reaction.why.condition": "the condition at {at} was not met",
+  "reaction.why.left": "its program or block was left before it",
+  "reaction.why.task": "task {at} had no turn",
   "reaction.with": "with",
   "reaction.without": "without",
   "shape.bad.count": "Enter a whole number.",

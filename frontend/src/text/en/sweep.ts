@@ -36,6 +36,7 @@ export const sweep = {
   "sweep.asitwas": "{error}, state of the PLC when the sweep began",
   "sweep.change.better": "Better",
   "sweep.change.faster": "Faster",
+  "sweep.change.fewer": "Less differs",
   "sweep.change.gone": "Gone",
   "sweep.change.new": "New",
   "sweep.change.same": "Same",
@@ -64,11 +65,15 @@ export const sweep = {
   "sweep.compare.state": "While",
   "sweep.compare.tab": "Sweeps compared",
   "sweep.compare.table": "Changes from one sweep to the other",
+  "sweep.count.acted": "Acted",
+  "sweep.count.decided": "Decided",
+  "sweep.count.displayed": "Displayed only",
   "sweep.count.never_read": "Never read",
   "sweep.count.not_reached": "Not reached",
-  "sweep.count.stored_only": "Stored only",
+  "sweep.count.stored": "Stored",
+  "sweep.count.stored_only": "Stored only, without a grade",
   "sweep.count.no_effect": "Read, no effect",
-  "sweep.count.reacted": "Reacted",
+  "sweep.count.reacted": "Reacted, without a grade",
   "sweep.count.stopped": "Stopped, as specified by the model",
   "sweep.counts": "Results, as a filter",
   "sweep.delete.about": "The sweep is deleted for everybody. You cannot undo this.",
@@ -107,6 +112,7 @@ export const sweep = {
   "sweep.list.readers": "Read by",
   "sweep.loading": "Loading…",
   "sweep.matrix": "Errors by program state",
+  "sweep.lost": "Differs no longer because of the error: {paths}",
   "sweep.menu": "Sweep of {at}",
   "sweep.missing": "Not run",
   "sweep.more": "and {count} more",
@@ -114,10 +120,14 @@ export const sweep = {
   "sweep.none": "Not raised",
   "sweep.none.about": "The error could not be raised.",
   "sweep.noplc": "No virtual PLC is selected. Select one at the top left.",
+  "sweep.next.displayed":
+    "Next: make the program act on the error, or accept the finding with a reason, which the test record then shows.",
   "sweep.next.never_read":
     "Next: evaluate {flag} in a task that runs in every state, or accept the finding with a reason, which the test record then shows.",
   "sweep.next.not_reached":
     "Next: sweep with a longer window or from a different state, or accept the finding with a reason, which the test record then shows.",
+  "sweep.next.stored":
+    "Next: make the program act on the stored value, or accept the finding with a reason, which the test record then shows.",
   "sweep.next.stored_only":
     "Next: make the program act on the stored value, or accept the finding with a reason, which the test record then shows.",
   "sweep.next.no_effect":
@@ -165,9 +175,15 @@ export const sweep = {
   "sweep.run.window.bad": "Enter a whole number from 1 to {most}.",
   "sweep.running": "Running",
   "sweep.runs": "{done} of {total} runs",
+  "sweep.says.decided":
+    "No output changed in {window} scans, but state that an output depends on did, or a statement that writes an output ran because of the error.",
+  "sweep.says.displayed":
+    "The error reached memory that only panels and other tools read: no decision used it in {window} scans.",
   "sweep.says.never_read":
     "The program ran {window} scans with this error, and no statement read its flag, its code or its details.",
   "sweep.says.not_reached": "A statement reads the error, but it was not executed in {window} scans.",
+  "sweep.says.stored":
+    "The error was first read in scan {read}, but only stored: no decision used it in {window} scans.",
   "sweep.says.stored_only":
     "The error was first read in scan {read}, but only stored: no decision used it in {window} scans.",
   "sweep.says.no_effect": "The error was first read in scan {read}, but nothing else changed in {window} scans.",
@@ -195,8 +211,12 @@ export const sweep = {
   "sweep.narrow.word": "Other panels",
   "sweep.present": "Already present",
   "sweep.withdraw": "Withdraw",
+  "verdict.acted": "Acted",
+  "verdict.decided": "Decided",
+  "verdict.displayed": "Displayed",
   "verdict.never_read": "Never read",
   "verdict.not_reached": "Not reached",
+  "verdict.stored": "Stored",
   "verdict.stored_only": "Stored only",
   "verdict.no_effect": "No effect",
   "verdict.reacted": "Reacted",

@@ -13,7 +13,7 @@ const VERSIONS: HistoryVersion[] = [
   { version: 2, at: null, author: "Mika", raised: 0, running: true },
   { version: 1, at: null, author: "Mika", raised: 1, running: false },
 ];
-const TESTED = row(BATTERY, { ...CLEARED, reaction: verdict("reacted", 1) });
+const TESTED = row(BATTERY, { ...CLEARED, reaction: verdict("acted", 1) });
 
 async function openHistory(prepare: (server: FakeServer) => void = () => undefined) {
   const page = await openPage((server) => {
@@ -35,7 +35,7 @@ const filter = (name: string, now: string) => t("history.filter.of", { name, fil
 
 test("a row tells what was done with an error, by whom, and what the program did", async () => {
   await openHistory();
-  for (const said of [t("errors.status.cleared"), "Mika", t("verdict.reacted")])
+  for (const said of [t("errors.status.cleared"), "Mika", t("verdict.acted")])
     expect(textOf(line(BATTERY.name) ?? null)).toContain(said);
   expect(textOf(line(BASIC.name) ?? null)).toContain(t("errors.status.never"));
 });

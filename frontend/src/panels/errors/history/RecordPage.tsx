@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useState } from "react";
 import { everything, type HistoryView, recordLines } from "../../../logic/errors/history";
-import { VERDICTS } from "../../../logic/errors/sweep";
+import { UNGRADED, VERDICTS } from "../../../logic/errors/sweep";
 import { dayTime } from "../../../logic/format/numbers";
 import { useCatalogueOf } from "../../../store/errors/catalogue";
 import { deleteRecord, importedAddress, loadRecord, showRecord, useRecords } from "../../../store/errors/records";
@@ -145,12 +145,14 @@ function Counts({ record }: { record: TestRecord }) {
   return (
     <p className="reccounts">
       <span>{t("record.tested", { tested: summary.tested, errors: summary.errors })}</span>
-      {VERDICTS.map((verdict) => (
-        <span key={verdict}>
-          <StateWord tone={verdict} icon={VERDICT_ICONS[verdict]} word={t(`verdict.${verdict}`)} />{" "}
-          <b>{summary.verdicts[verdict] ?? 0}</b>
-        </span>
-      ))}
+      {[...VERDICTS, ...UNGRADED]
+        .filter((verdict) => summary.verdicts[verdict])
+        .map((verdict) => (
+          <span key={verdict}>
+            <StateWord tone={verdict} icon={VERDICT_ICONS[verdict]} word={t(`verdict.${verdict}`)} />{" "}
+            <b>{summary.verdicts[verdict] ?? 0}</b>
+          </span>
+        ))}
       {summary.accepted > 0 && <span>{t("record.accepted", { count: summary.accepted })}</span>}
       {sweeps.length + log.length > 0 && (
         <span className="faint">{t("record.more", { sweeps: sweeps.length, lines: log.length })}</span>

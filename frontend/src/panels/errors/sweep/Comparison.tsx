@@ -13,6 +13,7 @@ import type { SweepChange, SweepComparison, SweepSummary, Verdict } from "../../
 
 const LOOK: Record<SweepChange["change"], { icon: IconName; tone: string }> = {
   worse: { icon: "chev-d", tone: "fatal" },
+  fewer: { icon: "minus", tone: "warning" },
   better: { icon: "chev-u", tone: "running" },
   slower: { icon: "clock", tone: "warning" },
   faster: { icon: "clock", tone: "running" },
@@ -102,7 +103,11 @@ function Line({ row, name }: { row: SweepChange; name: string }) {
         <Outcome verdict={row.after} scans={row.scans_after} missing={row.change === "gone"} />
       </span>
       <span role="cell">
-        <StateWord {...LOOK[row.change]} word={t(`sweep.change.${row.change}`)} />
+        <StateWord
+          {...LOOK[row.change]}
+          word={t(`sweep.change.${row.change}`)}
+          title={row.lost?.length ? t("sweep.lost", { paths: row.lost.join(", ") }) : undefined}
+        />
       </span>
     </div>
   );
@@ -111,11 +116,6 @@ function Line({ row, name }: { row: SweepChange; name: string }) {
 function Outcome({ verdict, scans, missing }: { verdict: Verdict | null; scans: number | null; missing: boolean }) {
   if (missing) return <span className="faint">–</span>;
   if (verdict === null) return <span className="faint">{t("sweep.none")}</span>;
-  const word =
-    verdict === "reacted" && scans !== null
-      ? scans === 1
-        ? t("sweep.scan")
-        : t("sweep.scans", { count: scans })
-      : t(`verdict.${verdict}`);
-  return <StateWord tone={verdict} icon={VERDICT_ICONS[verdict]} word={word} />;
+  const after = scans === null ? "" : ` · ${scans === 1 ? t("sweep.scan") : t("sweep.scans", { count: scans })}`;
+  return <StateWord tone={verdict} icon={VERDICT_ICONS[verdict]} word={`${t(`verdict.${verdict}`)}${after}`} />;
 }

@@ -1,4 +1,4 @@
-import { countCells, type MatrixView, VERDICTS } from "../../../logic/errors/sweep";
+import { countCells, type MatrixView, UNGRADED, VERDICTS } from "../../../logic/errors/sweep";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { Switch } from "../../../ui/Switch";
@@ -34,9 +34,11 @@ export function Counts({ sweep, view, onView }: Props) {
   );
   return (
     <div className="sub tall swcounts" role="toolbar" aria-label={t("sweep.counts")}>
-      {VERDICTS.map((verdict) =>
-        filter(verdict, VERDICT_ICONS[verdict], verdict, t(`sweep.count.${verdict}`), counts.verdicts[verdict]),
-      )}
+      {[...VERDICTS, ...UNGRADED]
+        .filter((verdict) => counts.verdicts[verdict] > 0 || view.verdict === verdict)
+        .map((verdict) =>
+          filter(verdict, VERDICT_ICONS[verdict], verdict, t(`sweep.count.${verdict}`), counts.verdicts[verdict]),
+        )}
       {counts.accepted > 0 && filter("accepted", "check", "never", t("sweep.accepted"), counts.accepted)}
       {counts.none > 0 && filter("none", "never", "never", t("sweep.none"), counts.none)}
       {counts.left > 0 && (

@@ -1,12 +1,14 @@
 import { useEffect, useState } from "react";
 import { inNames, isFinding } from "../../../logic/errors/catalogue";
-import { isOpen, NOW } from "../../../logic/errors/sweep";
+import { errorOf, isOpen, NOW } from "../../../logic/errors/sweep";
 import { messageOf } from "../../../logic/format/messageOf";
 import { grouped } from "../../../logic/format/numbers";
 import { useCatalogueOf } from "../../../store/errors/catalogue";
 import { openCell, reactionOf, withdrawFinding } from "../../../store/errors/sweeps";
+import { openFile } from "../../../store/page/navigate";
 import { useBench } from "../../../store/plc/bench";
 import { t } from "../../../text";
+import { Evidence } from "../../../ui/Evidence";
 import { Icon } from "../../../ui/Icon";
 import { StateWord } from "../../../ui/StateWord";
 import { VERDICT_ICONS } from "../../../ui/statuses";
@@ -50,7 +52,7 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
   const [reaction, refused] = useReaction(sweep.id, cell);
   const codeWord = useBench((bench) => bench.model?.code_word ?? "");
   const { byId, errors } = useCatalogueOf(sweep.model);
-  const flag = byId.get(error.id)?.flag ?? "";
+  const flag = byId.get(errorOf(error.id))?.flag ?? "";
   if (cell.verdict === null) return <p className="muted">{inNames(errors, cell.note) || t("sweep.none.about")}</p>;
   return (
     <>
@@ -62,13 +64,14 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
         <p className="hint">{refused ?? t("sweep.loading")}</p>
       )}
       <Deeds sweep={sweep} error={error} cell={cell} />
-      {isOpen(cell) && cell.verdict !== null && cell.verdict !== "reacted" && cell.verdict !== "stopped" && (
+      {isOpen(cell) && isFinding(cell.verdict) && (
         <p className="hint">
           {t(`sweep.next.${cell.verdict}`, {
             flag: flag || t("errors.flag"),
           })}
         </p>
       )}
+      {reaction && <Evidence reaction={reaction} onOpen={openFile} />}
       {reaction && <Found reaction={reaction} />}
     </>
   );
@@ -76,9 +79,10 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
 
 /** What the program did, in one sentence. */
 function sentence({ first_read: read, first_effect: scans }: SweepCell, verdict: Verdict, window: number): string {
-  if (verdict === "reacted" && scans === 1) return t("sweep.says.reacted.one");
-  if (verdict === "reacted" && read === null) return t("sweep.says.reacted.unread", { scans });
-  return t(`sweep.says.${verdict}`, { read, scans, window: grouped(window) });
+  const acted = verdict === "acted" || verdict === "reacted";
+  if (acted && scans === 1) return t("sweep.says.reacted.one");
+  if (acted && read === null) return t("sweep.says.reacted.unread", { scans });
+  return t(`sweep.says.${acted ? "reacted" : verdict}`, { read, scans, window: grouped(window) });
 }
 
 function Deeds({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: SweepCell }) {

@@ -136,9 +136,9 @@ function lookOf(slot: Slot): Look {
 }
 
 function wordOf({ verdict, first_effect: effect }: SweepCell): string {
-  if (verdict === "reacted" && effect !== null)
-    return effect === 1 ? t("sweep.scan") : t("sweep.scans", { count: effect });
-  return verdict === null ? "" : t(`verdict.${verdict}`);
+  if (verdict === null) return "";
+  const word = t(`verdict.${verdict}`);
+  return effect === null ? word : `${word} · ${effect === 1 ? t("sweep.scan") : t("sweep.scans", { count: effect })}`;
 }
 
 /** Why an error could not be raised, in the server's words, where there is room. */

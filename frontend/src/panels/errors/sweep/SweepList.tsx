@@ -1,5 +1,5 @@
 import { useState } from "react";
-import { stateWord, VERDICTS } from "../../../logic/errors/sweep";
+import { stateWord, UNGRADED, VERDICTS } from "../../../logic/errors/sweep";
 import { dayTime, percent } from "../../../logic/format/numbers";
 import { compareSweeps, deleteSweep, keepState, openSweep, showSweep } from "../../../store/errors/sweeps";
 import { useBench } from "../../../store/plc/bench";
@@ -121,13 +121,15 @@ function Line({ sweep, onMenu }: { sweep: SweepSummary; onMenu: (at: { x: number
         className="swsum"
         title={t("sweep.column.counts.about", { done, total, states: states.map(stateWord).join(", ") })}
       >
-        {VERDICTS.map((verdict) => (
-          <span key={verdict} className={`st ${verdict}`} title={t(`sweep.count.${verdict}`)}>
-            <Icon name={VERDICT_ICONS[verdict]} small />
-            {sweep.counts[verdict] ?? 0}
-            <span className="word"> {t(`verdict.${verdict}`)}</span>
-          </span>
-        ))}
+        {[...VERDICTS, ...UNGRADED]
+          .filter((verdict) => sweep.counts[verdict])
+          .map((verdict) => (
+            <span key={verdict} className={`st ${verdict}`} title={t(`sweep.count.${verdict}`)}>
+              <Icon name={VERDICT_ICONS[verdict]} small />
+              {sweep.counts[verdict] ?? 0}
+              <span className="word"> {t(`verdict.${verdict}`)}</span>
+            </span>
+          ))}
         <span className="faint cut">{t("sweep.runs", { done, total })}</span>
       </span>
       <span role="cell" className="gut end">

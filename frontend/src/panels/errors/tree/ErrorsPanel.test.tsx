@@ -154,7 +154,12 @@ test("a condition with an unknown name is refused below the row, corrected with 
 });
 
 const REACTED: Reaction = {
-  verdict: "reacted",
+  verdict: "acted",
+  basis: "exact",
+  carried: [],
+  decided_by: [],
+  displayed: [],
+  unreached: [],
   window: 100,
   first_read: 1234,
   first_effect: 1,
@@ -177,9 +182,9 @@ test("the reaction is shown in the tree and in words; its readers are links; a f
     };
     server.on("GET", "/instances/*/errors/*/reaction", (_, [, , error]) => (error === BASIC.id ? REACTED : unread));
   });
-  const rows = [row(BASIC, { ...RAISED, reaction: verdict("reacted", 1) })];
+  const rows = [row(BASIC, { ...RAISED, reaction: verdict("acted", 1) })];
   server.say({ type: "errors", rows: [...rows, row(BATTERY, { ...RAISED, reaction: verdict("never_read") })] });
-  await shows(BASIC.name, t("verdict.reacted"));
+  await shows(BASIC.name, t("verdict.acted"));
   expect(textOf(line("Units"))).toContain(t("errors.tested", { tested: 1, total: 1 }));
 
   await user.click(line(BASIC.name));

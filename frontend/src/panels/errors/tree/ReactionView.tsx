@@ -5,6 +5,7 @@ import { useCatalogue } from "../../../store/errors/catalogue";
 import { useReaction } from "../../../store/errors/reaction";
 import { openFile } from "../../../store/page/navigate";
 import { t } from "../../../text";
+import { Evidence } from "../../../ui/Evidence";
 import { ReactionWord } from "../../../ui/ReactionWord";
 import type { ErrorInfo, Reaction, ReactionState } from "../../../wire/types";
 
@@ -39,6 +40,7 @@ function Facts({ error, reaction }: { error: ErrorInfo; reaction: Reaction }) {
   return (
     <>
       {reaction.note && <p className="muted">{inNames(errors, reaction.note)}</p>}
+      <Evidence reaction={reaction} onOpen={openFile} />
       {next && (
         <p>
           <b>{t("reaction.next")}</b> {next}

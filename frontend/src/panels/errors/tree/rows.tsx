@@ -115,7 +115,7 @@ function Reacted({ reaction, swept }: { reaction: ReactionState; swept: boolean 
     <>
       <ReactionWord reaction={reaction} title={title} />
       {swept && <Icon name="refresh" small className="faint" />}
-      {verdict === "reacted" && scans !== null && (
+      {(verdict === "acted" || verdict === "reacted") && scans !== null && (
         <span className="scans num" title={t("reaction.scans", { scans })}>
           {scans}
         </span>
