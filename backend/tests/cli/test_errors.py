@@ -88,6 +88,50 @@ def test_a_copy_of_error_memory_fails_a_build(project: Path) -> None:
     assert failures == {"displayed"}
 
 
+@pytest.mark.parametrize(
+    ("options", "told", "code"),
+    [
+        (("--require", "acted"), None, 1),
+        (("--require", "displayed"), None, 0),
+        (("--require", "none"), None, 0),
+        ((), {"battery-error": "displayed"}, 0),
+        ((), {"battery-error": "none"}, 0),
+        (("--require", "displayed"), {"battery-error": "acted"}, 1),
+    ],
+)
+def test_what_is_required_decides_the_exit_code(
+    project: Path, options: tuple[str, ...], told: dict[str, str] | None, code: int
+) -> None:
+    copy = "PROGRAM Main\nVAR battery AT A402.04 : BOOL; d AT D100.00 : BOOL; END_VAR\n  d := battery;\nEND_PROGRAM\n"
+    (project / "main.st").write_text(copy, "utf-8")
+    if told is not None:
+        (project.parent / "required.json").write_text(json.dumps(told), "utf-8")
+        options = (*options, "--requirements", str(project.parent / "required.json"))
+    junit = project.parent / "junit.xml"
+    one = ("--only", "battery-error", "--window", "20", "--junit", str(junit))
+    result = scanbench("errors", "sweep", str(project), *one, *options)
+    assert result.returncode == code, result.stderr
+    messages = [each.get("message") for each in ElementTree.parse(junit).iter("failure")]
+    assert messages == (["nonfatal error: displayed; required: acted"] if code else [])
+
+
+@pytest.mark.parametrize(
+    ("told", "says"),
+    [
+        ([], "it has to be one object"),
+        ({"battery-eror": "acted"}, "battery-error"),
+        ({"battery-error": "fine"}, 'battery-error: "fine" is no grade; there are acted, decided, displayed'),
+    ],
+)
+def test_a_file_of_requirements_with_a_typing_error(project: Path, told: object, says: str) -> None:
+    path = project.parent / "required.json"
+    path.write_text(json.dumps(told), "utf-8")
+    result = scanbench("errors", "sweep", str(project), "--requirements", str(path))
+    assert result.returncode == 2
+    assert f"--requirements {path}: " in result.stderr
+    assert says in result.stderr
+
+
 def test_both_engines_say_the_same(project: Path) -> None:
     native, reference = (
         scanbench("errors", "sweep", str(project), *FEW, "--json", "--window", "30", "--engine", engine).stdout

@@ -163,6 +163,42 @@ def _done(browser: Browser, sweep: int) -> int:
     return max((int(each["done"]) for each in told if each["id"] == sweep), default=0)
 
 
+UNITS = """PROGRAM Main
+VAR three AT A418.03 : BOOL; five AT A418.05 : BOOL; lamp AT CIO 100.00 : BOOL; copy : BOOL; END_VAR
+  lamp := three; copy := five;
+END_PROGRAM
+"""
+ERROR = "special-io-unit-error"
+
+
+def test_details_that_the_program_tells_apart_have_rows_of_their_own(server: Server) -> None:
+    instance = server.instance("units", MODEL, main=UNITS)
+    with server.browser(instance) as browser:
+        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"errors": [ERROR, "battery-error"]}).json()
+        end = finished(browser, begun["id"])
+        assert (begun["total"], end["total"], end["done"]) == (2, 3, 3)
+        whole = server.http.get(f"/api/sweeps/{begun['id']}").json()
+        names = {error["id"]: error["name"] for error in whole["errors"]}
+        assert names[f"{ERROR}:unit=3"] == "Special I/O Unit error (unit=3)"
+        found = {cell["error"]: cell["verdict"] for cell in whole["cells"]}
+        assert found == {
+            "battery-error": "never_read", f"{ERROR}:unit=3": "acted", f"{ERROR}:unit=5": "stored",
+        }  # fmt: skip
+        rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}
+        assert rows[ERROR]["swept"]["verdict"] == "stored"  # the worst of them
+        cell = {"error": f"{ERROR}:unit=5", "state": "Now"}
+        record = server.http.get(f"/api/instances/{instance}/record").json()
+        assert [(each["error"], each["verdict"], each["note"]) for each in record["sweeps"][0]["cells"]] == [
+            ("battery-error", "never_read", ""), (ERROR, "stored", "unit=5"),
+        ]  # fmt: skip
+        accepted = {**cell, "reason": "a spare one"}
+        assert server.http.post(f"/api/sweeps/{begun['id']}/accept", json=accepted).status_code < 300
+        opened = server.http.post(f"/api/sweeps/{begun['id']}/open", json={**cell, "name": "unit five"})
+        assert opened.status_code == 201, opened.text
+        history = server.http.get(f"/api/instances/{opened.json()['id']}/errors").json()
+        assert [row["details"] for row in history if row["id"] == ERROR] == ["unit=5"]
+
+
 def test_a_version_that_was_only_swept_has_a_record(server: Server) -> None:
     instance = server.instance("only swept", MODEL, main=PROGRAM)
     project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]

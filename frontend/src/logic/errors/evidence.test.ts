@@ -46,8 +46,8 @@ describe("what a grade is about", () => {
         { ...task, paths: ["Slow"] },
       ],
     });
-    expect(first).toBe("main.st:7 (Main.a and 1 more) the condition at main.st:6 was not met");
-    expect(second).toBe("slow.st:8 (Slow) task Seldom had no turn");
+    expect(first).toBe("main.st:7 (Main.a and 1 more): the condition at main.st:6 was not met");
+    expect(second).toBe("slow.st:8 (Slow): task Seldom had no turn");
   });
 
   it("says whether the runs or the text of the program say so", () => {

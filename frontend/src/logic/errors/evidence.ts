@@ -62,7 +62,7 @@ function itemOf({ file, line, paths, why, at }: Reaction["unreached"][number]): 
       : paths.length === 1
         ? first
         : t("reaction.unreached.on", { first, count: paths.length - 1 });
-  const says = [on && `(${on})`, t(`reaction.why.${why}`, { at })].filter(Boolean).join(" ");
+  const says = [on && `(${on}):`, t(`reaction.why.${why}`, { at })].filter(Boolean).join(" ");
   return { text: `${file}:${line}`, place: { file, line }, says, readers: [] };
 }
 

@@ -58,6 +58,7 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
     <>
       <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>
       {cell.note && <p className="muted">{inNames(errors, cell.note)}</p>}
+      {reaction && <Evidence reaction={reaction} onOpen={openFile} />}
       {reaction ? (
         <Facts reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
       ) : (
@@ -71,7 +72,6 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
           })}
         </p>
       )}
-      {reaction && <Evidence reaction={reaction} onOpen={openFile} />}
       {reaction && <Found reaction={reaction} />}
     </>
   );
