@@ -156,15 +156,15 @@ def _reaction(node: etree._Element) -> Reaction:
         note=_text(node, "Note"),
         basis=cast(Basis, _text(node, "Basis")),
         carried=tuple(
-            Carried(_text(one, "Path"), _count(one, "Scan"), tuple(_text(by, "At") for by in one.findall("By")))
+            Carried(_text(one, "Path"), _count(one, "Scan"), tuple(_text(by, "Place") for by in one.findall("By")))
             for one in node.findall("Carried")
         ),
-        decided_by=tuple(_text(one, "At") for one in node.findall("DecidedBy")),
+        decided_by=tuple(_text(one, "Place") for one in node.findall("DecidedBy")),
         displayed=tuple(_text(one, "Path") for one in node.findall("Displayed")),
         unreached=tuple(
             Unreached(
                 _text(one, "File"), _count(one, "Line"), tuple(_text(on, "Path") for on in one.findall("On")),
-                cast(Obstacle, _text(one, "Why")), _text(one, "At"),
+                cast(Obstacle, _text(one, "Why")), _text(one, "Around"),
             )
             for one in node.findall("Unreached")
         ),

@@ -66,13 +66,13 @@ def _reaction(error: etree._Element, reaction: Reaction) -> None:
     for state in reaction.carried:
         carried = _add(node, "Carried", Path=state.path, Scan=state.scan)
         for at in state.readers:
-            _add(carried, "By", At=at)
+            _add(carried, "By", Place=at)
     for at in reaction.decided_by:
-        _add(node, "DecidedBy", At=at)
+        _add(node, "DecidedBy", Place=at)
     for path in reaction.displayed:
         _add(node, "Displayed", Path=path)
     for one in reaction.unreached:
-        missed = _add(node, "Unreached", File=one.file, Line=one.line, Why=one.why, At=one.at or None)
+        missed = _add(node, "Unreached", File=one.file, Line=one.line, Why=one.why, Around=one.at or None)
         for path in one.paths:
             _add(missed, "On", Path=path)
 

@@ -6,11 +6,15 @@ They are made once for each number of a format: later versions read them again, 
 import asyncio
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeVar
 
+from scanbench.faults.reaction.reaction import Carried, Line, Reaction, Reader, Unreached
+from scanbench.reports.record import TestRecord
 from scanbench.reports.record_read import from_xml
+from scanbench.reports.record_xml import to_xml
 from scanbench.server.verifications import Format, Verifications
 from scanbench.store.store import Store
 from tests.cli.calling import scanbench
@@ -46,8 +50,36 @@ def _sweep(folder: Path) -> str:
     return scanbench("errors", "sweep", str(folder), *only, "--window", "20", "--json").stdout
 
 
+def graded(xml: str) -> str:
+    """A record of version 1 with a reaction that has a grade and all that belongs to one."""
+    record = from_xml(xml)
+    assert isinstance(record, TestRecord)
+    (first, *others) = record.errors
+    reaction = Reaction(
+        "decided", 50, 1, None, (Reader("main.st", 4, "Main", "flag", 1),), (), 0, (Line("main.st", 5),), "", "static",
+        (Carried("Main.cnt", 1, ("main.st:4", "main.st:5")),), ("main.st:8",), ("D100",),
+        (Unreached("main.st", 7, ("Main.one", "Main.two"), "condition", "main.st:6"),),
+    )  # fmt: skip
+    return to_xml(replace(record, errors=(replace(first, reaction=reaction, reaction_note=""), *others)))
+
+
+def graded_exports() -> None:
+    """Makes those that have grades: version 2 of records, format 2 of sweeps."""
+    with TemporaryDirectory() as directory:
+        sweep = _sweep(Path(directory) / "line")
+    xml = graded((GOLDEN / "record-1.xml").read_text("utf-8"))
+    (GOLDEN / "record-2.xml").write_text(xml, "utf-8")
+    (GOLDEN / "record-2.json").write_text(
+        json.dumps(plain(from_xml(xml)), indent=1, ensure_ascii=False) + "\n", "utf-8"
+    )
+    (GOLDEN / "sweep-2.json").write_text(sweep, "utf-8")
+
+
 def main() -> None:
-    """Makes all of them."""
+    """Makes all that are not there yet."""
+    if (GOLDEN / "record-1.xml").exists():
+        graded_exports()
+        return
     with TemporaryDirectory() as directory:
         data = Path(directory) / "data"
 

@@ -12,7 +12,18 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from scanbench.faults.history import ErrorRow, RowReaction
-from scanbench.faults.reaction.reaction import WORST_FIRST, Difference, Line, Reaction, Reader, Verdict
+from scanbench.faults.reaction.reaction import (
+    WORST_FIRST,
+    Basis,
+    Carried,
+    Difference,
+    Line,
+    Obstacle,
+    Reaction,
+    Reader,
+    Unreached,
+    Verdict,
+)
 from scanbench.plcmodel.document import TOLD
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.reports.record import (
@@ -285,10 +296,13 @@ AT = st.datetimes(
 VERDICT: st.SearchStrategy[Verdict] = st.sampled_from(WORST_FIRST)
 SWEEP_STATUS: tuple[SweepStatus, ...] = ("running", "done", "cancelled", "interrupted", "failed")
 READERS = st.builds(Reader, TEXT, COUNT, TEXT, st.sampled_from(["flag", "code", "detail", "log"]), COUNT)
+TEXTS = st.lists(TEXT, max_size=2).map(tuple)
 REACTIONS = st.builds(
     Reaction, VERDICT, COUNT, SCAN, SCAN, st.lists(READERS, max_size=3).map(tuple),
     st.lists(st.builds(Difference, TEXT, TEXT, TEXT, st.just(True), COUNT), max_size=3).map(tuple), COUNT,
     st.lists(st.builds(Line, TEXT, COUNT), max_size=3).map(tuple), TEXT,
+    st.sampled_from(["", *get_args(Basis)]), st.lists(st.builds(Carried, TEXT, COUNT, TEXTS), max_size=2).map(tuple), TEXTS, TEXTS,
+    st.lists(st.builds(Unreached, TEXT, COUNT, TEXTS, st.sampled_from(get_args(Obstacle)), TEXT), max_size=2).map(tuple),
 )  # fmt: skip
 ERRORS = st.builds(
     RecordError, NAME, TEXT, TEXT, TEXT, TEXT, st.sampled_from(["fatal", "nonfatal"]),
