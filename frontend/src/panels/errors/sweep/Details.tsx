@@ -8,11 +8,11 @@ import { openCell, reactionOf, withdrawFinding } from "../../../store/errors/swe
 import { openFile } from "../../../store/page/navigate";
 import { useBench } from "../../../store/plc/bench";
 import { t } from "../../../text";
-import { Evidence } from "../../../ui/Evidence";
 import { Icon } from "../../../ui/Icon";
 import { StateWord } from "../../../ui/StateWord";
 import { VERDICT_ICONS } from "../../../ui/statuses";
 import type { CellRef, Reaction, Sweep, SweepCell, SweepError, Verdict } from "../../../wire/types";
+import { Evidence } from "../Evidence";
 import { Accept } from "./Accept";
 import { Facts, Found } from "./Found";
 

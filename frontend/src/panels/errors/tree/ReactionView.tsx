@@ -5,9 +5,9 @@ import { useCatalogue } from "../../../store/errors/catalogue";
 import { useReaction } from "../../../store/errors/reaction";
 import { openFile } from "../../../store/page/navigate";
 import { t } from "../../../text";
-import { Evidence } from "../../../ui/Evidence";
 import { ReactionWord } from "../../../ui/ReactionWord";
 import type { ErrorInfo, Reaction, ReactionState } from "../../../wire/types";
+import { Evidence } from "../Evidence";
 
 const FIRST = 20;
 

@@ -1,7 +1,7 @@
 import { useState } from "react";
-import { basisOf, evidenceOf, placeOf } from "../logic/errors/evidence";
-import { t } from "../text";
-import type { Reaction } from "../wire/types";
+import { basisOf, evidenceOf, placeOf } from "../../logic/errors/evidence";
+import { t } from "../../text";
+import type { Reaction } from "../../wire/types";
 
 const FIRST = 10;
 
