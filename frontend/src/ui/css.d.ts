@@ -7,10 +7,5 @@ declare module "react" {
     "--rows"?: number;
     "--cols"?: string;
     "--states"?: number;
-    "--c-current"?: string;
-    "--c-change"?: string;
-    "--c-type"?: string;
-    "--c-address"?: string;
-    "--c-bound"?: string;
   }
 }

@@ -114,11 +114,17 @@ interface TableKind {
   steps: boolean;
 }
 
-/** The columns that identify a row stay visible on the left, followed by the pinned units. */
-export function tracksOf(units: readonly Unit[], pinned: readonly string[], kind: TableKind): Track[] {
+/** The columns that identify a row stay visible on the left, followed by the pinned units. `widths` are those that somebody chose. */
+export function tracksOf(
+  units: readonly Unit[],
+  pinned: readonly string[],
+  kind: TableKind,
+  widths: Readonly<Record<string, number>> = {},
+): Track[] {
   const tracks: Track[] = [];
   let left = 0;
-  const add = (key: string, of: Track["kind"], width: number, sticky: boolean, unit: Unit | null = null) => {
+  const add = (key: string, of: Track["kind"], usual: number, sticky: boolean, unit: Unit | null = null) => {
+    const width = widths[key] ?? usual;
     tracks.push({ key, kind: of, width, left, sticky, unit });
     left += width;
   };

@@ -2,11 +2,13 @@ import { useEffect, useState } from "react";
 import { grouped, plcTime } from "../../logic/format/numbers";
 import { axisText, layoutOf, spanText, unitOf } from "../../logic/trace/plots";
 import { decode, rowAt, type Samples, textAt } from "../../logic/trace/samples";
+import { useWidths } from "../../store/page/columns";
 import { moveTo, readSamples, removeSignal, type Shown, setCursor, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { Menu } from "../../ui/Menu";
+import { useColumns } from "../../ui/useColumns";
 import type { TraceSignal } from "../../wire/types";
 import { AddSignal } from "./AddSignal";
 
@@ -20,6 +22,7 @@ export function CursorTable({ shown, samples }: Props) {
   const a = useTraces((traces) => traces.a);
   const b = useTraces((traces) => traces.b);
   const moved = useTraces((traces) => traces.moved);
+  const { style, grip, head } = useColumns(useWidths("cursors"));
   const newest = samples?.scans.at(-1) ?? null;
   const atA = useRow(shown, samples, a ?? newest);
   const atB = useRow(shown, samples, b);
@@ -29,11 +32,12 @@ export function CursorTable({ shown, samples }: Props) {
   const time = (scan: number | null) => (scan === null ? "" : plcTime(scan * shown.interval).replace(/^00:/, ""));
   return (
     <>
-      <div className="grid trtable" role="grid" aria-label={t("trace.table")}>
+      <div className="grid trtable" role="grid" aria-label={t("trace.table")} style={style}>
         <div className="gr h" role="row">
-          <span role="columnheader">{t("trace.signal")}</span>
+          {head("signal", t("trace.signal"))}
           <span role="columnheader" className="num">
             {a === null ? t("trace.newest") : <Head name="A" onDrop={() => setCursor("a", null)} />}
+            {grip("a", "A")}
           </span>
           <span role="columnheader" className="num">
             {b === null ? (
@@ -48,6 +52,7 @@ export function CursorTable({ shown, samples }: Props) {
             ) : (
               <Head name="B" onDrop={() => setCursor("b", null)} />
             )}
+            {grip("b", "B")}
           </span>
           <span role="columnheader" className="num">
             B − A

@@ -1,6 +1,10 @@
 /** English: texts of several panels, and of the frame of the page. */
 export const common = {
   cancel: "Cancel",
+  "column.width": "Width of the column {column}",
+  "column.width.about":
+    "{column}: drag, or press Left or Right, to change the width. Double click or Enter fits the content, Delete restores the usual width.",
+  "column.width.usual": "as usual",
   "copy.path": "Copy path",
   "copy.value": "Copy value",
   create: "Create",

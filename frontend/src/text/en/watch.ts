@@ -78,7 +78,6 @@ export const watch = {
   "watch.target": "Target variable",
   "watch.type": "Type",
   "watch.unfold": "Unfold {path}",
-  "watch.width": "Width of the column {column}",
   "watch.writtenby": "Written by {author} before scan {scan}",
   "watch.locked": "look only",
   "binding.call": "call",

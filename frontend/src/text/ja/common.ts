@@ -3,6 +3,10 @@ import type { common as english } from "../en/common";
 
 export const common: Record<keyof typeof english, string> = {
   cancel: "キャンセル",
+  "column.width": "列「{column}」の幅",
+  "column.width.about":
+    "{column}: ドラッグ、または ← → キーで幅を変えます。ダブルクリックか Enter で内容に合わせ、Delete で元の幅に戻します。",
+  "column.width.usual": "標準",
   "copy.path": "パスをコピー",
   "copy.value": "値をコピー",
   create: "作成",

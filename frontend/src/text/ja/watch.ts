@@ -80,7 +80,6 @@ export const watch: Record<keyof typeof english, string> = {
   "watch.target": "対象変数",
   "watch.type": "データ型",
   "watch.unfold": "{path} を開く",
-  "watch.width": "列「{column}」の幅",
   "watch.writtenby": "{author} がスキャン {scan} の前に書込み",
   "watch.locked": "表示のみ",
   "binding.call": "呼び出し",

@@ -1,4 +1,4 @@
-import { useMemo } from "react";
+import { type ReactNode, useMemo } from "react";
 import {
   type Column,
   type HistoryLine,
@@ -7,8 +7,10 @@ import {
   isFiltered,
   sortedBy,
 } from "../../../logic/errors/history";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { useColumns } from "../../../ui/useColumns";
 import { Line } from "./Line";
 
 interface Props {
@@ -36,12 +38,13 @@ const COLUMNS: readonly { column: Column | "details"; word: () => string; classN
 
 /** One row for each error; a click on a column head sorts, a second one reverses the order, a third one restores the order of the catalogue. */
 export function HistoryTable({ lines, view, onView, label, dated }: Props) {
+  const { style, grip } = useColumns(useWidths("history"));
   const shown = useMemo(() => historyLines(lines, view), [lines, view]);
   if (shown.length === 0 && isFiltered(view)) return <p className="lonely faint">{t("history.nomatch")}</p>;
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
     <div className="scroll both hscroll" tabIndex={0}>
-      <table className="htable" aria-label={label}>
+      <table className="htable" aria-label={label} style={style}>
         <thead>
           <tr>
             {COLUMNS.map(({ column, word, className }) =>
@@ -50,7 +53,9 @@ export function HistoryTable({ lines, view, onView, label, dated }: Props) {
                   {word()}
                 </th>
               ) : (
-                <Head key={column} column={column} word={word()} className={className} view={view} onView={onView} />
+                <Head key={column} column={column} word={word()} className={className} view={view} onView={onView}>
+                  {column !== "count" && grip(column, word())}
+                </Head>
               ),
             )}
           </tr>
@@ -71,12 +76,18 @@ interface HeadProps {
   className: string | undefined;
   view: HistoryView;
   onView: Props["onView"];
+  children: ReactNode;
 }
 
-function Head({ column, word, className, view, onView }: HeadProps) {
+function Head({ column, word, className, view, onView, children }: HeadProps) {
   const down = view.sort?.column === column ? view.sort.down : null;
   return (
-    <th scope="col" className={className} aria-sort={down === null ? undefined : down ? "descending" : "ascending"}>
+    <th
+      scope="col"
+      aria-label={word}
+      className={className}
+      aria-sort={down === null ? undefined : down ? "descending" : "ascending"}
+    >
       <button
         type="button"
         className="headsort"
@@ -86,6 +97,7 @@ function Head({ column, word, className, view, onView }: HeadProps) {
         {word}
         {down !== null && <Icon name={down ? "chev-d" : "chev-u"} small />}
       </button>
+      {children}
     </th>
   );
 }

@@ -3,12 +3,14 @@ import { CHANGES, sortedChanges, stateWord } from "../../../logic/errors/sweep";
 import { dayTime } from "../../../logic/format/numbers";
 import { useCatalogueOf } from "../../../store/errors/catalogue";
 import { showSweep, showSweeps } from "../../../store/errors/sweeps";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { StateWord } from "../../../ui/StateWord";
 import { Switch } from "../../../ui/Switch";
 import { VERDICT_ICONS } from "../../../ui/statuses";
+import { useColumns } from "../../../ui/useColumns";
 import type { SweepChange, SweepComparison, SweepSummary, Verdict } from "../../../wire/types";
 
 const LOOK: Record<SweepChange["change"], { icon: IconName; tone: string }> = {
@@ -27,6 +29,7 @@ export function Comparison({ comparison }: { comparison: SweepComparison }) {
   const { before, after, changes } = comparison;
   const [only, setOnly] = useState(true);
   const { byId } = useCatalogueOf(after.model);
+  const { style, head } = useColumns(useWidths("sweepchanges"));
   const rows = useMemo(() => sortedChanges(changes, only), [changes, only]);
   return (
     <>
@@ -56,14 +59,19 @@ export function Comparison({ comparison }: { comparison: SweepComparison }) {
       {rows.length === 0 ? (
         <p className="lonely faint">{t("sweep.compare.same")}</p>
       ) : (
-        // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
-        <div className="grid scroll swcmp" role="table" aria-label={t("sweep.compare.table")} tabIndex={0}>
+        <div
+          className="grid scroll swcmp"
+          role="table"
+          aria-label={t("sweep.compare.table")}
+          style={style}
+          // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
+          tabIndex={0}
+        >
           <div className="gr h" role="row">
-            {(["error", "state", "before", "after", "change"] as const).map((column) => (
-              <span key={column} role="columnheader">
-                {t(`sweep.compare.${column}`)}
-              </span>
-            ))}
+            {(["error", "state", "before", "after"] as const).map((column) =>
+              head(column, t(`sweep.compare.${column}`)),
+            )}
+            <span role="columnheader">{t("sweep.compare.change")}</span>
           </div>
           {rows.map((row) => (
             <Line key={`${row.error} ${row.state}`} row={row} name={byId.get(row.error)?.name ?? row.name} />

@@ -1,6 +1,8 @@
 import { type KeyboardEvent, useEffect } from "react";
 import { type MatrixRow, type Place, stateWord, stepIn } from "../../../logic/errors/sweep";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
+import { useColumns } from "../../../ui/useColumns";
 import { ROW, useGrid } from "../../../ui/useGrid";
 import type { CellRef, Sweep } from "../../../wire/types";
 import { cellId, Row } from "./Row";
@@ -22,6 +24,7 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
   const row = rows.findIndex((known) => known.kind === "error" && known.error.id === selected?.error);
   const column = selected ? states.indexOf(selected.state) : -1;
   const place = row >= 0 && column >= 0 ? { row, column } : null;
+  const { style, grip, head } = useColumns(useWidths("matrix"));
   const { virtual, ...lines } = useGrid({
     count: rows.length,
     heightOf: (index) => (rows[index]?.kind === "group" ? GROUP : ROW),
@@ -72,7 +75,7 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
     <div
       ref={grid}
       className="grid scroll both sw"
-      style={{ "--states": states.length }}
+      style={{ ...style, "--states": states.length }}
       role="grid"
       aria-label={t("sweep.matrix")}
       aria-rowcount={rows.length + 1}
@@ -82,15 +85,12 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
       onKeyDown={onKeyDown}
     >
       <div className="gr h" role="row" aria-rowindex={1}>
-        <span role="columnheader" className="swname">
-          {t("errors.error")}
-        </span>
-        <span role="columnheader" className="swcode">
-          {t("errors.code")}
-        </span>
+        {head("name", t("errors.error"), "swname")}
+        {head("code", t("errors.code"), "swcode")}
         {states.map((state) => (
-          <span key={state} role="columnheader" className="colh" title={stateWord(state)}>
+          <span key={state} role="columnheader" aria-label={stateWord(state)} className="colh" title={stateWord(state)}>
             {stateWord(state)}
+            {grip("state", stateWord(state))}
           </span>
         ))}
       </div>

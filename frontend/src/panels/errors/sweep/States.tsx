@@ -1,14 +1,17 @@
 import { useState } from "react";
 import { dayTime, grouped } from "../../../logic/format/numbers";
 import { deleteState, useSweeps } from "../../../store/errors/sweeps";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Confirm } from "../../../ui/Confirm";
 import { IconButton } from "../../../ui/IconButton";
+import { useColumns } from "../../../ui/useColumns";
 import type { ProgramState } from "../../../wire/types";
 
 /** The kept states of the project: where sweeps can begin. */
 export function States() {
   const states = useSweeps((sweeps) => sweeps.states);
+  const { style, head } = useColumns(useWidths("states"));
   const [doomed, setDoomed] = useState<ProgramState | null>(null);
   return (
     <section className="swstates" aria-label={t("states.title")}>
@@ -16,13 +19,11 @@ export function States() {
       {states.length === 0 ? (
         <p className="faint">{t("states.none")}</p>
       ) : (
-        <div className="grid swlist" role="table" aria-label={t("states.title")}>
+        <div className="grid swlist" role="table" aria-label={t("states.title")} style={style}>
           <div className="gr h" role="row">
-            {(["name", "scan", "of", "version", "by", "at"] as const).map((column) => (
-              <span key={column} role="columnheader" className={column === "scan" || column === "version" ? "num" : ""}>
-                {t(`states.column.${column}`)}
-              </span>
-            ))}
+            {(["name", "scan", "of", "version", "by", "at"] as const).map((column) =>
+              head(column, t(`states.column.${column}`), column === "scan" || column === "version" ? "num" : ""),
+            )}
             <span role="columnheader">
               <span className="sr">{t("menu.label")}</span>
             </span>

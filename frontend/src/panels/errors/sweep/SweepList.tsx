@@ -2,6 +2,7 @@ import { useState } from "react";
 import { stateWord, UNGRADED, VERDICTS } from "../../../logic/errors/sweep";
 import { dayTime, percent } from "../../../logic/format/numbers";
 import { compareSweeps, deleteSweep, keepState, openSweep, showSweep } from "../../../store/errors/sweeps";
+import { useWidths } from "../../../store/page/columns";
 import { useBench } from "../../../store/plc/bench";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
@@ -11,6 +12,7 @@ import { IconButton } from "../../../ui/IconButton";
 import { Menu } from "../../../ui/Menu";
 import { StateWord } from "../../../ui/StateWord";
 import { VERDICT_ICONS } from "../../../ui/statuses";
+import { useColumns } from "../../../ui/useColumns";
 import type { SweepSummary } from "../../../wire/types";
 import { NoSweeps } from "./NoSweeps";
 import { States } from "./States";
@@ -19,6 +21,7 @@ import { STATUS } from "./statusWords";
 /** Every sweep of the project, the newest first, and the kept states. */
 export function SweepList({ list }: { list: readonly SweepSummary[] }) {
   const instance = useBench((bench) => bench.instance);
+  const { style, head } = useColumns(useWidths("sweeps"));
   const [doomed, setDoomed] = useState<SweepSummary | null>(null);
   const [menu, setMenu] = useState<{ of: SweepSummary; at: { x: number; y: number } } | null>(null);
   return (
@@ -50,13 +53,14 @@ export function SweepList({ list }: { list: readonly SweepSummary[] }) {
         {list.length === 0 ? (
           <NoSweeps />
         ) : (
-          <div className="grid swlist" role="table" aria-label={t("sweep.tab.list")}>
+          <div className="grid swlist" role="table" aria-label={t("sweep.tab.list")} style={style}>
             <div className="gr h" role="row">
-              {(["at", "by", "of", "version", "status", "counts"] as const).map((column) => (
-                <span key={column} role="columnheader" className={`c-${column}`}>
-                  {t(`sweep.column.${column}`)}
-                </span>
-              ))}
+              {(["at", "by", "of", "version", "status"] as const).map((column) =>
+                head(column, t(`sweep.column.${column}`), `c-${column}`),
+              )}
+              <span role="columnheader" className="c-counts">
+                {t("sweep.column.counts")}
+              </span>
               <span role="columnheader">
                 <span className="sr">{t("menu.label")}</span>
               </span>

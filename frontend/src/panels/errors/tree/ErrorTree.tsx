@@ -2,8 +2,10 @@ import { type KeyboardEvent, type MouseEvent, useEffect, useRef } from "react";
 import { type CatalogueRow, rowFor } from "../../../logic/errors/catalogue";
 import { addErrorBreakpoint } from "../../../store/debug/debug";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../../store/errors/simulator";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { type MenuItem, useMenu } from "../../../ui/Menu";
+import { type Columns, useColumns } from "../../../ui/useColumns";
 import { Group, Leaf, RefusalRow } from "./rows";
 
 interface Props {
@@ -24,6 +26,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
   const selected = useSimulator((state) => state.selected);
   const now = rows.findIndex((row) => row.key === selected);
   const { open, menu } = useMenu();
+  const columns = useColumns(useWidths("errors"));
   useRowInSight(grid, selected);
 
   /** A right-click opens the menu for the row below the pointer, the menu key opens it for the selected row. */
@@ -88,6 +91,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
       role="treegrid"
       aria-label={label}
       aria-activedescendant={now >= 0 ? `error-${now}` : undefined}
+      style={columns.style}
       tabIndex={0}
       onKeyDown={onKeyDown}
       onContextMenu={onContextMenu}
@@ -96,7 +100,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
         if (now < 0 && event.currentTarget.matches(":focus-visible")) move(0);
       }}
     >
-      <Head />
+      <Head {...columns} />
       {rows.map((row, index) =>
         row.kind === "group" ? (
           <Group key={row.key} row={row} index={index} selected={row.key === selected} />
@@ -112,24 +116,14 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
   );
 }
 
-function Head() {
+function Head({ head }: Columns) {
   return (
     <div className="gr h" role="row">
-      <span role="columnheader" className="first">
-        {t("errors.error")}
-      </span>
-      <span role="columnheader" className="c-code">
-        {t("errors.code")}
-      </span>
-      <span role="columnheader" className="c-flag">
-        {t("errors.flag")}
-      </span>
-      <span role="columnheader" className="c-severity">
-        {t("errors.severity")}
-      </span>
-      <span role="columnheader" className="c-state">
-        {t("errors.state")}
-      </span>
+      {head("name", t("errors.error"), "first")}
+      {head("code", t("errors.code"), "c-code")}
+      {head("flag", t("errors.flag"), "c-flag")}
+      {head("severity", t("errors.severity"), "c-severity")}
+      {head("state", t("errors.state"), "c-state")}
       <span role="columnheader" className="c-reaction">
         {t("errors.reaction")}
         <span className="scans">{t("errors.reaction.scans")}</span>

@@ -3,9 +3,11 @@ import { inNames } from "../../../logic/errors/catalogue";
 import { nextStep, readersOf, sentenceOf, stretchesOf } from "../../../logic/errors/reaction";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { useReaction } from "../../../store/errors/reaction";
+import { useWidths } from "../../../store/page/columns";
 import { openFile } from "../../../store/page/navigate";
 import { t } from "../../../text";
 import { ReactionWord } from "../../../ui/ReactionWord";
+import { useColumns } from "../../../ui/useColumns";
 import type { ErrorInfo, Reaction, ReactionState } from "../../../wire/types";
 import { Evidence } from "../Evidence";
 
@@ -100,6 +102,7 @@ function Places({ label, places }: { label: string; places: readonly PlaceLink[]
 
 function Differences({ reaction }: { reaction: Reaction }) {
   const [all, setAll] = useState(false);
+  const { th } = useColumns(useWidths("reaction"));
   const { differences, difference_count: count } = reaction;
   if (differences.length === 0) return null;
   const shown = all ? differences : differences.slice(0, FIRST);
@@ -107,13 +110,9 @@ function Differences({ reaction }: { reaction: Reaction }) {
     <table className="differences" aria-label={t("reaction.differences")}>
       <thead>
         <tr>
-          <th scope="col">{t("reaction.differences")}</th>
-          <th scope="col" className="num">
-            {t("reaction.without")}
-          </th>
-          <th scope="col" className="num">
-            {t("reaction.with")}
-          </th>
+          {th("variable", t("reaction.differences"))}
+          {th("without", t("reaction.without"), "num")}
+          {th("with", t("reaction.with"), "num")}
           <th scope="col" className="num">
             {t("log.scan")}
           </th>

@@ -1,7 +1,9 @@
 import { freeId, newChoice, textOf, withText } from "../../../logic/errors/userErrors";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
+import { useColumns } from "../../../ui/useColumns";
 import type { UserAddress, UserDetail } from "../../../wire/types";
 import { Choose, Wrong } from "./Entry";
 
@@ -16,6 +18,7 @@ const TYPES = ["Bit", "Word", "Byte", "BCD", "Nibble", "BitArray"];
 /** The choices of a List, each with the bit or number that it writes. */
 export function Choices({ detail, found, onChange }: Props) {
   const { name, addresses } = detail;
+  const { th } = useColumns(useWidths("choices"));
   const ids = addresses.map(({ id }) => id);
   const set = (index: number, changed: Partial<UserAddress>) =>
     onChange({ ...detail, addresses: addresses.map((each, at) => (at === index ? { ...each, ...changed } : each)) });
@@ -26,11 +29,9 @@ export function Choices({ detail, found, onChange }: Props) {
       <table className="uechoices" aria-label={t("usererrors.choices", { name })}>
         <thead>
           <tr>
-            {(["choice.id", "description", "address", "type", "value", "adds.choice"] as const).map((column) => (
-              <th key={column} scope="col">
-                {t(`usererrors.${column}`)}
-              </th>
-            ))}
+            {(["choice.id", "description", "address", "type", "value", "adds.choice"] as const).map((column) =>
+              th(column, t(`usererrors.${column}`)),
+            )}
             <td />
           </tr>
         </thead>

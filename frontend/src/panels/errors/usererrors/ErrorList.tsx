@@ -1,8 +1,10 @@
 import type { KeyboardEvent } from "react";
 import { groupText, problemsOf, textOf } from "../../../logic/errors/userErrors";
 import { deleteError, selectUserError } from "../../../store/errors/userErrors";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { useColumns } from "../../../ui/useColumns";
 import type { UserError, UserProblem } from "../../../wire/types";
 
 interface Props {
@@ -13,6 +15,8 @@ interface Props {
 
 /** The errors, one a row. The list has the focus, the selected row is its active descendant. */
 export function ErrorList({ errors, problems, selected }: Props) {
+  const { style, grip } = useColumns(useWidths("usererrors"));
+
   function onKeyDown(event: KeyboardEvent): void {
     const now = selected ?? -1;
     const to = { ArrowDown: now + 1, ArrowUp: now - 1, Home: 0, End: errors.length - 1 }[event.key];
@@ -26,11 +30,20 @@ export function ErrorList({ errors, problems, selected }: Props) {
   }
 
   return (
-    <div className="uelist">
-      <div className="gr h uerow" aria-hidden="true">
-        <span>{t("usererrors.name")}</span>
-        <span>{t("errors.code")}</span>
-        <span>{t("errors.flag")}</span>
+    <div className="uelist" data-columns style={style}>
+      <div className="gr h uerow">
+        <span>
+          {t("usererrors.name")}
+          {grip("name", t("usererrors.name"))}
+        </span>
+        <span>
+          {t("errors.code")}
+          {grip("code", t("errors.code"))}
+        </span>
+        <span>
+          {t("errors.flag")}
+          {grip("flag", t("errors.flag"))}
+        </span>
         <span>{t("usererrors.severity")}</span>
       </div>
       <div

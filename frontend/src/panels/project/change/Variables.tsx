@@ -1,5 +1,7 @@
 import type { Fate } from "../../../logic/project/change";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
+import { useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
 import type { LostVariable } from "../../../wire/types";
 
@@ -12,6 +14,7 @@ interface Props {
 /** The variables with the same change; reinitialized ones with the reason. Only the visible rows are in the page. */
 export function Variables({ plc, fate, variables }: Props) {
   const grid = useGrid({ count: variables.length });
+  const { style, head } = useColumns(useWidths("fates"));
   const reasons = fate === "reinitialized";
   return (
     <div
@@ -20,11 +23,16 @@ export function Variables({ plc, fate, variables }: Props) {
       role="table"
       aria-label={`${plc}: ${t(`change.fate.${fate}`)}`}
       aria-rowcount={variables.length + 1}
+      style={style}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
       tabIndex={0}
     >
       <div className="gr h" role="row">
-        <span role="columnheader">{t(`change.fate.${fate}`)}</span>
+        {reasons ? (
+          head("variable", t(`change.fate.${fate}`))
+        ) : (
+          <span role="columnheader">{t(`change.fate.${fate}`)}</span>
+        )}
         {reasons && <span role="columnheader">{t("change.why")}</span>}
       </div>
       <div {...grid.body}>

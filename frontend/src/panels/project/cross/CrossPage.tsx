@@ -1,10 +1,12 @@
 /** Who reads and who writes a variable, line by line; or which variables nobody reads. */
 import { useEffect } from "react";
+import { useWidths } from "../../../store/page/columns";
 import { openFile } from "../../../store/page/navigate";
 import { showWriter } from "../../../store/past/writer";
 import { type CrossReference, followTexts, showUnused, type Unused, useCross } from "../../../store/project/cross";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
+import { useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
 import { PastNote } from "../PastNote";
 import "./cross.css";
@@ -91,6 +93,7 @@ const ofUnused = ({ name, written, pou, ...place }: Unused): Row => ({
 
 function Rows({ what, rows }: { what: string; rows: readonly Row[] }) {
   const grid = useGrid({ count: rows.length });
+  const { style, head } = useColumns(useWidths("cross"));
   return (
     <div
       ref={grid.scroll}
@@ -98,11 +101,12 @@ function Rows({ what, rows }: { what: string; rows: readonly Row[] }) {
       role="table"
       aria-label={t("cross.title")}
       aria-rowcount={rows.length + 1}
+      style={style}
     >
       <div className="gr h" role="row">
-        <span role="columnheader">{t("cross.access")}</span>
-        <span role="columnheader">{t("cross.place")}</span>
-        <span role="columnheader">{t("cross.pou")}</span>
+        {head("access", t("cross.access"))}
+        {head("place", t("cross.place"))}
+        {head("pou", t("cross.pou"))}
         <span role="columnheader">{what}</span>
       </div>
       <div {...grid.body}>

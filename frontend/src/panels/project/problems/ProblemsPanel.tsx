@@ -1,7 +1,9 @@
+import { useWidths } from "../../../store/page/columns";
 import { openFile } from "../../../store/page/navigate";
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
+import { useColumns } from "../../../ui/useColumns";
 import type { Problem } from "../../../wire/types";
 import { PastNote } from "../PastNote";
 
@@ -25,14 +27,32 @@ export function ProblemsPanel() {
       {problems.length === 0 && !trouble && !refused ? (
         <p className="lonely faint">{t("problems.none")}</p>
       ) : (
-        <ul className="grid scroll problems" aria-label={t("problems.list")}>
-          {problems.map((problem) => (
-            <li key={`${problem.file}:${problem.line}:${problem.column}:${problem.code}:${problem.message}`}>
-              <Row problem={problem} />
-            </li>
-          ))}
-        </ul>
+        <List problems={problems} />
       )}
+    </div>
+  );
+}
+
+function List({ problems }: { problems: readonly Problem[] }) {
+  const { style, grip } = useColumns(useWidths("problems"));
+  return (
+    <div className="grid scroll problems" data-columns style={style}>
+      <div className="gr h">
+        {(["severity", "message", "code"] as const).map((column) => (
+          <span key={column}>
+            {t(`problems.${column}`)}
+            {grip(column, t(`problems.${column}`))}
+          </span>
+        ))}
+        <span>{t("problems.place")}</span>
+      </div>
+      <ul aria-label={t("problems.list")}>
+        {problems.map((problem) => (
+          <li key={`${problem.file}:${problem.line}:${problem.column}:${problem.code}:${problem.message}`}>
+            <Row problem={problem} />
+          </li>
+        ))}
+      </ul>
     </div>
   );
 }

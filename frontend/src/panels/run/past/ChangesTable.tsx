@@ -1,10 +1,12 @@
 import { useMemo, useState } from "react";
 import { changesAsText, filterChanges, leftOut } from "../../../logic/past/past";
+import { useWidths } from "../../../store/page/columns";
 import { showWriter } from "../../../store/past/writer";
 import { t } from "../../../text";
 import { CopyButton } from "../../../ui/CopyButton";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
+import { useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
 import type { RunChanges, VariableChange } from "../../../wire/types";
 
@@ -66,6 +68,7 @@ interface RowsProps extends Omit<Props, "changes"> {
 
 function Rows({ rows, label, heads, writerBefore }: RowsProps) {
   const grid = useGrid({ count: rows.length, keyOf: (index) => rows[index]?.path ?? index });
+  const { style, head } = useColumns(useWidths("changes"));
   return (
     <div
       ref={grid.scroll}
@@ -73,18 +76,15 @@ function Rows({ rows, label, heads, writerBefore }: RowsProps) {
       role="table"
       aria-label={label}
       aria-rowcount={rows.length + 1}
+      style={style}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
       tabIndex={0}
     >
       <div className="gr h" role="row" aria-rowindex={1}>
-        <span role="columnheader">{t("changes.variable")}</span>
-        <span role="columnheader">{t("changes.type")}</span>
-        <span role="columnheader" className="num">
-          {heads[0]}
-        </span>
-        <span role="columnheader" className="num">
-          {heads[1]}
-        </span>
+        {head("variable", t("changes.variable"))}
+        {head("type", t("changes.type"))}
+        {head("before", heads[0], "num")}
+        {head("after", heads[1], "num")}
         <span role="columnheader">
           <span className="sr">{t("writer.menu")}</span>
         </span>

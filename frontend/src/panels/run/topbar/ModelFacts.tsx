@@ -1,8 +1,10 @@
 import { useEffect, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
 import { percent } from "../../../logic/format/numbers";
+import { useWidths } from "../../../store/page/columns";
 import { modelDetails } from "../../../store/plc/models";
 import { t } from "../../../text";
+import { useColumns } from "../../../ui/useColumns";
 import type { Area, ModelInfo, ModelSummary } from "../../../wire/types";
 
 /** The description of a model: a sentence, how many of its errors were checked against manuals, and its memory with the access rights. */
@@ -37,19 +39,22 @@ export function ModelFacts({ model }: { model: ModelSummary | undefined }) {
 }
 
 function Areas({ info }: { info: ModelInfo }) {
+  const { style, grip, head } = useColumns(useWidths("areas"));
   return (
     <div
       className="grid scroll areas"
       role="table"
       aria-label={t("model.areas", { model: info.name })}
+      style={style}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
       tabIndex={0}
     >
       <div className="gr h" role="row">
-        <span role="columnheader">{t("model.area")}</span>
-        <span role="columnheader">{t("model.address")}</span>
-        <span role="columnheader" title={t("model.access.legend")}>
+        {head("area", t("model.area"))}
+        {head("address", t("model.address"))}
+        <span role="columnheader" aria-label={t("model.access")} title={t("model.access.legend")}>
           {t("model.access")}
+          {grip("access", t("model.access"))}
         </span>
         <span role="columnheader">{t("model.retain")}</span>
       </div>

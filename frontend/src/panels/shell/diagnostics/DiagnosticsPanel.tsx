@@ -1,8 +1,10 @@
 import { grouped } from "../../../logic/format/numbers";
+import { useWidths } from "../../../store/page/columns";
 import { openFile } from "../../../store/page/navigate";
 import { useOnline, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { useColumns } from "../../../ui/useColumns";
 import { send } from "../../../wire/send";
 import type { Violation } from "../../../wire/types";
 
@@ -42,14 +44,19 @@ export function DiagnosticsPanel() {
   );
 }
 
+const LOOK = { what: "", instance: "", times: "num", scans: "num scans" };
+
 function List({ violations }: { violations: readonly Violation[] }) {
+  const { style, grip } = useColumns(useWidths("diagnostics"));
   return (
-    <div className="grid scroll problems violations">
-      <div className="gr h" aria-hidden="true">
-        <span>{t("diagnostics.what")}</span>
-        <span>{t("diagnostics.instance")}</span>
-        <span className="num">{t("diagnostics.times")}</span>
-        <span className="num scans">{t("diagnostics.scans")}</span>
+    <div className="grid scroll problems violations" data-columns style={style}>
+      <div className="gr h">
+        {(["what", "instance", "times", "scans"] as const).map((column) => (
+          <span key={column} className={LOOK[column]}>
+            {t(`diagnostics.${column}`)}
+            {grip(column, t(`diagnostics.${column}`))}
+          </span>
+        ))}
         <span>{t("diagnostics.where")}</span>
       </div>
       <ul aria-label={t("diagnostics.list")}>

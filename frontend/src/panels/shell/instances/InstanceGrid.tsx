@@ -1,7 +1,9 @@
-import type { KeyboardEvent } from "react";
+import type { KeyboardEvent, ReactNode } from "react";
 import { COLUMNS, type Column, type Order } from "../../../logic/plc/instances";
+import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { useColumns } from "../../../ui/useColumns";
 import { useGrid, useReveal } from "../../../ui/useGrid";
 import type { Instance } from "../../../wire/types";
 import { InstanceLine } from "./InstanceLine";
@@ -23,6 +25,7 @@ interface Props {
 export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen, onDelete, onMenu }: Props) {
   const grid = useGrid({ count: rows.length, keyOf: (index) => rows[index]?.id ?? index });
   const now = rows.findIndex(({ id }) => id === selected);
+  const { style, grip } = useColumns(useWidths("instances"));
 
   // A list that was just opened scrolls to the selected instance; later it stays where the user scrolled it.
   useReveal(now, selected, grid.reveal);
@@ -51,12 +54,15 @@ export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen,
       aria-label={t("instances.list")}
       aria-rowcount={rows.length + 1}
       aria-activedescendant={now >= 0 ? `instance-${rows[now]?.id}` : undefined}
+      style={style}
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
       <div className="gr h" role="row" aria-rowindex={1}>
         {COLUMNS.map((column) => (
-          <Head key={column} column={column} order={order} onOrder={onOrder} />
+          <Head key={column} column={column} order={order} onOrder={onOrder}>
+            {grip(column, t(`instances.column.${column}`))}
+          </Head>
         ))}
         <span role="columnheader" className="c-limits">
           {t("instances.column.limits")}
@@ -89,15 +95,17 @@ interface HeadProps {
   column: Column;
   order: Order;
   onOrder: (order: Order) => void;
+  children: ReactNode;
 }
 
 /** A click on a column head sorts by it; a second click reverses the order. Numbers begin with the largest. */
-function Head({ column, order, onOrder }: HeadProps) {
+function Head({ column, order, onOrder, children }: HeadProps) {
   const here = order.by === column;
   const down = here ? !order.down : NUMBERS.has(column);
   return (
     <span
       role="columnheader"
+      aria-label={t(`instances.column.${column}`)}
       className={`c-${column}${NUMBERS.has(column) ? " num" : ""}`}
       aria-sort={here ? (order.down ? "descending" : "ascending") : "none"}
       title={column === "late" ? t("instances.late.about") : undefined}
@@ -106,6 +114,7 @@ function Head({ column, order, onOrder }: HeadProps) {
         {t(`instances.column.${column}`)}
         {here && <Icon name={order.down ? "chev-d" : "chev-u"} small />}
       </button>
+      {children}
     </span>
   );
 }

@@ -2,10 +2,12 @@ import { type RefObject, useCallback, useEffect, useLayoutEffect, useMemo, useRe
 import { inNames } from "../../../logic/errors/catalogue";
 import { grouped, wallTime } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
+import { useWidths } from "../../../store/page/columns";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
+import { useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
 import type { ErrorInfo, LogLine } from "../../../wire/types";
 
@@ -69,6 +71,7 @@ function Lines({ log }: { log: readonly LogLine[] }) {
   const { errors } = useCatalogue();
   const grid = useGrid({ count: log.length });
   const onScroll = useFollow(grid.scroll, log);
+  const { style, head } = useColumns(useWidths("log"));
   return (
     <div
       ref={grid.scroll}
@@ -78,15 +81,14 @@ function Lines({ log }: { log: readonly LogLine[] }) {
       aria-rowcount={log.length + 1}
       // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
       tabIndex={0}
+      style={style}
       onScroll={onScroll}
     >
       <div className="gr h" role="row">
-        <span role="columnheader">{t("log.at")}</span>
-        <span role="columnheader" className="num">
-          {t("log.scan")}
-        </span>
-        <span role="columnheader">{t("log.kind")}</span>
-        <span role="columnheader">{t("log.text")}</span>
+        {head("at", t("log.at"))}
+        {head("scan", t("log.scan"), "num")}
+        {head("kind", t("log.kind"))}
+        {head("text", t("log.text"))}
         <span role="columnheader">{t("log.by")}</span>
       </div>
       <div {...grid.body}>

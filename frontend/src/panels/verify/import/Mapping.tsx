@@ -1,10 +1,12 @@
 import { byColumn, changeColumn, countRoles, firstValues, isProposed, ROLES } from "../../../logic/verify/traceImport";
+import { useWidths } from "../../../store/page/columns";
 import { complete } from "../../../store/plc/completion";
 import { editMapping, forgetMapping, loadMapping, useTraceImport } from "../../../store/verify/traceImport";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { PathField } from "../../../ui/PathField";
+import { useColumns } from "../../../ui/useColumns";
 import type { TraceColumnMap, TraceMapping, TraceProblem, UploadedTrace } from "../../../wire/types";
 import { placeOf } from "./Problems";
 
@@ -17,6 +19,7 @@ interface Props {
 /** The columns: the first values of each, its role, and the variable that it belongs to. */
 export function Mapping({ trace, mapping, onSave }: Props) {
   const problems = useTraceImport((state) => state.checked?.problems);
+  const { style, head } = useColumns(useWidths("mapping"));
   const wrong = byColumn(problems ?? []);
   return (
     <section className="timap" aria-label={t("import.trace.mapping")}>
@@ -31,12 +34,11 @@ export function Mapping({ trace, mapping, onSave }: Props) {
           {t("import.trace.save")}
         </button>
       </div>
-      <div className="titable scroll" role="table" aria-label={t("import.trace.columns")}>
+      <div className="titable scroll" role="table" aria-label={t("import.trace.columns")} style={style}>
         <div className="gr h" role="row">
-          <span role="columnheader">{t("import.trace.column")}</span>
-          <span role="columnheader">{t("import.trace.values")}</span>
-          <span role="columnheader">{t("import.trace.role")}</span>
-          <span role="columnheader">{t("import.trace.variable")}</span>
+          {(["column", "values", "role", "variable"] as const).map((column) =>
+            head(column, t(`import.trace.${column}`)),
+          )}
           <span role="columnheader" aria-label={t("import.trace.proposed")} />
         </div>
         {mapping.axis !== "" && <AxisRow trace={trace} axis={mapping.axis} wrong={wrong.get(mapping.axis)} />}

@@ -1,6 +1,7 @@
 import { type KeyboardEvent, useState } from "react";
 import { dayTime, grouped } from "../../../logic/format/numbers";
 import { titleOf } from "../../../logic/verify/verify";
+import { useWidths } from "../../../store/page/columns";
 import { useBench } from "../../../store/plc/bench";
 import {
   closeVerifyRecords,
@@ -16,6 +17,7 @@ import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import { useColumns } from "../../../ui/useColumns";
 import type { VerificationRecord } from "../../../wire/types";
 import "./verifyrecords.css";
 
@@ -92,6 +94,7 @@ interface RecordsProps {
 
 function Records({ list, onDelete }: RecordsProps) {
   const [filter, setFilter] = useState("");
+  const { th } = useColumns(useWidths("verify.records"));
   const wanted = filter.trim().toLowerCase();
   const shown = list.filter(({ name, by, instance, info }) =>
     [name, by, instance, info.title].some((text) => text.toLowerCase().includes(wanted)),
@@ -115,17 +118,9 @@ function Records({ list, onDelete }: RecordsProps) {
         <table className="vrtable" aria-label={t("verify.records.title")}>
           <thead>
             <tr>
-              <th scope="col">{t("verify.records.name")}</th>
-              <th scope="col">{t("verify.records.range")}</th>
-              <th scope="col">{t("verify.records.program")}</th>
-              <th scope="col" className="num">
-                {t("verify.records.scans")}
-              </th>
-              <th scope="col" className="num">
-                {t("verify.records.differences")}
-              </th>
-              <th scope="col">{t("verify.records.by")}</th>
-              <th scope="col">{t("verify.records.at")}</th>
+              {(["name", "range", "program", "scans", "differences", "by", "at"] as const).map((column) =>
+                th(column, t(`verify.records.${column}`), ["scans", "differences"].includes(column) ? "num" : ""),
+              )}
               <th aria-label={t("verify.records.open.do")} />
             </tr>
           </thead>

@@ -2,6 +2,7 @@ import { type DragEvent, useState } from "react";
 import type { Track, Unit } from "../../../logic/verify/verifyColumns";
 import { dropColumn } from "../../../store/verify/verifyColumns";
 import { t } from "../../../text";
+import type { Columns } from "../../../ui/useColumns";
 import type { VerificationInfo } from "../../../wire/types";
 import { placeOf } from "./cells";
 
@@ -11,11 +12,12 @@ interface Props {
   units: readonly Unit[];
   tracks: readonly Track[];
   drawn: readonly Track[];
+  grip: Columns["grip"];
   onMenu: (unit: Unit, at: { x: number; y: number }) => void;
 }
 
 /** Two lines: the names of variables, which can be dragged to a different place; below them the heading of each column. */
-export function Heads({ range, memory, units, tracks, drawn, onMenu }: Props) {
+export function Heads({ range, memory, units, tracks, drawn, grip, onMenu }: Props) {
   const [over, setOver] = useState<string | null>(null);
   const named = drawn.filter(({ kind }) => kind === "control" || kind === "input");
   const firstInput = tracks.find(({ kind, sticky }) => kind === "input" && !sticky);
@@ -35,6 +37,7 @@ export function Heads({ range, memory, units, tracks, drawn, onMenu }: Props) {
       aria-colindex={tracks.indexOf(track) + 1}
       aria-colspan={track.kind === "control" ? 2 : undefined}
       className={`num vfname${track.kind === "control" ? " vfpair" : ""}${over === unit.key ? " vfover" : ""}${track.sticky ? " vfstick" : ""}`}
+      aria-label={unit.column.name}
       style={placeOf(track, tracks, track.kind === "control" ? 2 : 1)}
       title={`${unit.column.name} : ${unit.column.type}`}
       draggable
@@ -56,6 +59,7 @@ export function Heads({ range, memory, units, tracks, drawn, onMenu }: Props) {
       onDoubleClick={(event) => onMenu(unit, { x: event.clientX, y: event.clientY })}
     >
       <span className="mono cut">{unit.column.name}</span>
+      {track.kind === "input" && grip(track.key, unit.column.name)}
     </span>
   );
 
@@ -83,12 +87,13 @@ export function Heads({ range, memory, units, tracks, drawn, onMenu }: Props) {
               key={track.key}
               role="columnheader"
               aria-colindex={tracks.indexOf(track) + 1}
-              aria-label={labelOf(track)}
+              aria-label={labelOf(track) ?? (wordOf(track) || undefined)}
               className={`${CELLS[track.kind]}${track.sticky ? " vfstick" : ""}`}
               style={placeOf(track, tracks)}
               title={titleOf(track, memory)}
             >
               {track.kind === "mark" ? <span className="sr">{t("verify.differs")}</span> : wordOf(track)}
+              {track.kind !== "mark" && grip(track.key, labelOf(track) ?? wordOf(track))}
             </span>
           ),
         )}

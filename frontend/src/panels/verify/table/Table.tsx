@@ -19,6 +19,7 @@ import {
   unitsOf,
   wholeWidth,
 } from "../../../logic/verify/verifyColumns";
+import { useWidths } from "../../../store/page/columns";
 import type { ShownVerification } from "../../../store/verify/verify";
 import { useArrangement } from "../../../store/verify/verifyColumns";
 import {
@@ -33,6 +34,7 @@ import {
 } from "../../../store/verify/verifyRows";
 import { t } from "../../../text";
 import { useMenu } from "../../../ui/Menu";
+import { useColumns } from "../../../ui/useColumns";
 import { belowRow, ROW, useGrid, useReveal } from "../../../ui/useGrid";
 import { useKeptScroll } from "../../../ui/useKeptScroll";
 import { columnMenu } from "./columnMenu";
@@ -52,9 +54,17 @@ export function Table({ shown }: { shown: ShownVerification }) {
   const arrangement = useArrangement(info.title);
   const units = useMemo(() => unitsOf(rows.columns), [rows.columns]);
   const steps = useMemo(() => [...rows.byIndex.values()].some(({ kind }) => kind === "step"), [rows.byIndex]);
+  const kept = useWidths("verification");
+  const { grip } = useColumns(kept);
   const tracks = useMemo(
-    () => tracksOf(arranged(units, arrangement), arrangement.pinned, { instances: info.instances.length > 1, steps }),
-    [units, arrangement, info.instances.length, steps],
+    () =>
+      tracksOf(
+        arranged(units, arrangement),
+        arrangement.pinned,
+        { instances: info.instances.length > 1, steps },
+        kept.widths,
+      ),
+    [units, arrangement, info.instances.length, steps, kept.widths],
   );
   const { open, menu } = useMenu(t("verify.column"));
   const across = useAcross(grid);
@@ -165,6 +175,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
         units={units}
         tracks={tracks}
         drawn={drawn}
+        grip={grip}
         onMenu={(unit, at) => open(columnMenu(info.title, units, unit), at)}
       />
       <div {...lines.body}>

@@ -1,9 +1,11 @@
 import { useEffect, useRef, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
+import { useWidths } from "../../../store/page/columns";
 import { openFile } from "../../../store/page/navigate";
 import { usesOf } from "../../../store/verify/verifyRows";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { useColumns } from "../../../ui/useColumns";
 import type { VerifyRow, VerifyUse } from "../../../wire/types";
 
 const SHOWN = 500;
@@ -25,6 +27,7 @@ export function Uses({ row }: { row: VerifyRow }) {
       current = false;
     };
   }, [row]);
+  const { style, th } = useColumns(useWidths("uses"));
   // The list is below the earlier content, perhaps not visible.
   useEffect(() => {
     if (uses) table.current?.scrollIntoView({ block: "nearest" });
@@ -38,14 +41,14 @@ export function Uses({ row }: { row: VerifyRow }) {
   if (!uses) return <p className="faint">{t("verify.uses.asked")}</p>;
   if (uses.length === 0) return <p className="faint">{t("verify.uses.none")}</p>;
   return (
-    <table ref={table} className="vfuses">
+    <table ref={table} className="vfuses" style={style}>
       <caption className="sr">{t("verify.uses")}</caption>
       <thead>
         <tr>
-          <th scope="col">{t("verify.uses.line")}</th>
-          <th scope="col">{t("verify.uses.name")}</th>
-          <th scope="col">{t("verify.uses.how")}</th>
-          <th scope="col">A</th>
+          {th("line", t("verify.uses.line"))}
+          {th("name", t("verify.uses.name"))}
+          {th("how", t("verify.uses.how"))}
+          {th("control", "A")}
           <th scope="col">A′</th>
         </tr>
       </thead>

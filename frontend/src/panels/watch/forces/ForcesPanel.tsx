@@ -1,6 +1,7 @@
 import { type CSSProperties, type KeyboardEvent, useEffect, useMemo, useState } from "react";
 import { grouped } from "../../../logic/format/numbers";
 import { splitPath } from "../../../logic/format/paths";
+import { useWidths } from "../../../store/page/columns";
 import { useForbidden } from "../../../store/plc/plc";
 import { watch } from "../../../store/plc/watches";
 import { addToTrace } from "../../../store/trace/traces";
@@ -11,6 +12,7 @@ import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { type MenuItem, useMenu } from "../../../ui/Menu";
+import { useColumns } from "../../../ui/useColumns";
 import { belowRow, useGrid } from "../../../ui/useGrid";
 import type { ForceInfo } from "../../../wire/types";
 import { NowCell } from "./NowCell";
@@ -64,6 +66,7 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
   const [selected, setSelected] = useState(0);
   const { open, menu } = useMenu();
   const grid = useGrid({ count: forces.length });
+  const { style, grip, head } = useColumns(useWidths("forces"));
   const now = Math.min(selected, forces.length - 1);
   useEffect(() => watch(forces.map(({ path }) => path)), [forces]);
 
@@ -90,19 +93,25 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
       aria-label={t("forces.label")}
       aria-rowcount={forces.length + 1}
       aria-activedescendant={grid.isDrawn(now) ? `force-${now}` : undefined}
+      style={style}
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
       <div className="gr h" role="row" aria-rowindex={1}>
-        <span className="first" role="columnheader">
-          {t("forces.variable")}
-        </span>
+        {head("variable", t("forces.variable"), "first")}
         {COLUMNS.map((column) => (
-          <span key={column} className="num" role="columnheader" title={t(`forces.${column}.about`)}>
+          <span
+            key={column}
+            className="num"
+            role="columnheader"
+            aria-label={t(`forces.${column}`)}
+            title={t(`forces.${column}.about`)}
+          >
             {t(`forces.${column}`)}
+            {grip(column, t(`forces.${column}`))}
           </span>
         ))}
-        <span role="columnheader">{t("forces.author")}</span>
+        {head("author", t("forces.author"))}
         <span className="num" role="columnheader">
           {t("forces.since")}
         </span>

@@ -1,11 +1,13 @@
 import { type KeyboardEvent, memo, useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { literalOf } from "../../../logic/format/formats";
 import { columnsOf, type MemoryFormat, movedTo, type WholeArea, WORD } from "../../../logic/watch/memory";
+import { useWidths } from "../../../store/page/columns";
 import { useForbidden } from "../../../store/plc/plc";
 import { currentText, sortKey } from "../../../store/plc/values";
 import { useWatches, watch } from "../../../store/plc/watches";
 import { complain, loadWords, selectWord, useMemory, wordIn, writeWord } from "../../../store/watch/memory";
 import { t } from "../../../text";
+import { useColumns } from "../../../ui/useColumns";
 import { useGrid, useReveal } from "../../../ui/useGrid";
 import type { MemoryWord } from "../../../wire/types";
 import { showLive } from "../live";
@@ -18,6 +20,7 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
   const wordAt = useCallback((index: number) => wordIn(blocks, area.name, index), [blocks, area.name]);
   const columns = columnsOf([wordAt(0)?.address, wordAt(10)?.address], format);
   const grid = useGrid({ count: Math.ceil(area.words / columns) });
+  const { style, grip, head } = useColumns(useWidths(format === "binary" ? "memory.binary" : "memory"));
   const [from, to] = [grid.from * columns, Math.min(grid.to * columns, area.words)];
   useReveal(Math.floor(selected / columns), `${selected} ${columns}`, grid.reveal);
   useWords(area.name, from, to, wordAt);
@@ -56,15 +59,16 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
       aria-rowcount={Math.ceil(area.words / columns) + 1}
       aria-colcount={columns + 1}
       aria-activedescendant={grid.isDrawn(Math.floor(selected / columns)) ? cellId(selected) : undefined}
-      style={{ "--n": columns } as React.CSSProperties}
+      style={{ ...style, "--n": columns } as React.CSSProperties}
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
       <div className="gr h" role="row">
-        <span role="columnheader">{t("memory.address")}</span>
-        {heads.map((head) => (
-          <span key={head} className="num" role="columnheader">
-            {head}
+        {head("address", t("memory.address"))}
+        {heads.map((name) => (
+          <span key={name} className="num" role="columnheader" aria-label={name}>
+            {name}
+            {grip("word", name)}
           </span>
         ))}
       </div>

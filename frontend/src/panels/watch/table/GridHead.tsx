@@ -1,28 +1,34 @@
 import type { Sort, SortColumn } from "../../../logic/watch/watchsort";
-import { setColumn, WATCH_COLUMNS, type WatchColumn } from "../../../store/watch/columns";
 import { sortBy, useWatchList } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
-import { Grip } from "../../../ui/Grip";
 import { Icon } from "../../../ui/Icon";
+import type { Columns } from "../../../ui/useColumns";
+
+const WATCH_COLUMNS = ["current", "change", "type", "address", "bound"] as const;
+type WatchColumn = (typeof WATCH_COLUMNS)[number];
 
 const LOOK: Record<WatchColumn, string> = { current: "num", change: "num", type: "c-type", address: "", bound: "" };
 
 /** The column heads: a click sorts, a second click reverses the order, a third one restores the order of the list. */
-export function GridHead() {
+export function GridHead({ grip }: Pick<Columns, "grip">) {
   const sort = useWatchList((list) => list.sort);
   return (
     <div className="gr h" role="row" aria-rowindex={1}>
       <span className="gut" role="columnheader" aria-label={t("force.column")} />
-      <span role="columnheader" className="first" aria-sort={direction(sort, "target")}>
+      <span role="columnheader" aria-label={t("watch.target")} className="first" aria-sort={direction(sort, "target")}>
         <SortButton column="target" sort={sort} />
+        {grip("target", t("watch.target"))}
       </span>
       {WATCH_COLUMNS.map((column) => (
-        <span key={column} role="columnheader" className={LOOK[column]} aria-sort={direction(sort, column)}>
+        <span
+          key={column}
+          role="columnheader"
+          aria-label={t(`watch.${column}`)}
+          className={LOOK[column]}
+          aria-sort={direction(sort, column)}
+        >
           <SortButton column={column} sort={sort} />
-          <Grip
-            label={t("watch.width", { column: t(`watch.${column}`) })}
-            onWidth={(width) => setColumn(column, width)}
-          />
+          {column !== "bound" && grip(column, t(`watch.${column}`))}
         </span>
       ))}
       <span role="columnheader" aria-label={t("watch.remove")} />

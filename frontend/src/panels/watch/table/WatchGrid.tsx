@@ -2,10 +2,11 @@ import { type ClipboardEvent, type CSSProperties, type KeyboardEvent, type Ref, 
 import { pathsIn } from "../../../logic/format/paths";
 import { fromCsv } from "../../../logic/watch/watchcsv";
 import { pathsToWatch, type WatchRow } from "../../../logic/watch/watchrows";
-import { useColumns } from "../../../store/watch/columns";
+import { useWidths } from "../../../store/page/columns";
 import { addAll, addToWatch, select, useWatchList, watchInSight, watchNothing } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
 import { useMenu } from "../../../ui/Menu";
+import { useColumns } from "../../../ui/useColumns";
 import { belowRow, useGrid, useReveal } from "../../../ui/useGrid";
 import { BindingLine } from "./BindingLine";
 import { GridHead } from "./GridHead";
@@ -27,7 +28,7 @@ interface Props {
 export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
   const { open, menu } = useMenu();
   const selected = useWatchList((list) => list.selected);
-  const columns = useColumnStyle();
+  const columns = useColumns(useWidths("watch"));
   const drop = useRowDrop(rows);
   const grid = useGrid({ count: rows.length, keyOf: (index) => rows[index]?.key ?? index });
   const now = rows.findIndex((row) => selectsAs(row) === selected && selected !== null);
@@ -67,7 +68,7 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
       className="grid wt scroll"
       role="treegrid"
       aria-label={t("watch.table")}
-      style={columns}
+      style={columns.style}
       aria-rowcount={rows.length + 1}
       aria-activedescendant={grid.isDrawn(now) ? `watch-${now}` : undefined}
       tabIndex={0}
@@ -82,7 +83,7 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
         if (now < 0 && event.currentTarget.matches(":focus-visible")) go(0, 1);
       }}
     >
-      <GridHead />
+      <GridHead grip={columns.grip} />
       <div {...grid.body}>
         {grid.items.map((item) => {
           const row = rows[item.index];
@@ -164,17 +165,4 @@ function paste(event: ClipboardEvent): void {
   event.preventDefault();
   if (/^\uFEFF?"?path"?[;,\t]/i.test(text)) addAll(fromCsv(text).entries);
   else addToWatch(pathsIn(text));
-}
-
-/** The dragged widths as custom properties; other columns keep the widths of the style sheet. */
-function useColumnStyle(): CSSProperties {
-  const widths = useColumns();
-  const px = (width: number | undefined) => (width === undefined ? undefined : `${width}px`);
-  return {
-    "--c-current": px(widths.current),
-    "--c-change": px(widths.change),
-    "--c-type": px(widths.type),
-    "--c-address": px(widths.address),
-    "--c-bound": px(widths.bound),
-  };
 }
