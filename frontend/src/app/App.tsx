@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "react";
-import { operatedPanel } from "../logic/plc/links";
+import { loneIn, operatedPanel } from "../logic/plc/links";
 import { showState } from "../logic/plc/plcstate";
 import { DebugSide } from "../panels/debug/stack/DebugSide";
 import { Sweeping } from "../panels/errors/sweep/Sweeping";
@@ -25,6 +25,7 @@ import { windowCommands } from "./commands";
 import { Dock, type DockHandle } from "./Dock";
 import { Keys } from "./Keys";
 import { installKeys } from "./keys";
+import { LoneWindow } from "./LoneWindow";
 import { PanelWindow } from "./PanelWindow";
 import { Splitter } from "./Splitter";
 import { useFlyout } from "./useFlyout";
@@ -37,6 +38,8 @@ export function App() {
   if (phase === "locked" || phase === "failed") return <Shut key={language} locked={phase === "locked"} />;
   const alone = operatedPanel(location);
   if (alone !== null) return <PanelWindow key={language} path={alone} />;
+  const lone = loneIn(location);
+  if (lone !== null) return <LoneWindow key={language} panel={lone} />;
   return <Window key={language} />;
 }
 
@@ -51,7 +54,11 @@ function Window() {
 
   useEffect(() => installKeys(), []);
   useEffect(() => {
-    const arrangement = { resetLayout: () => dock.current?.reset(), enlarge: () => dock.current?.enlarge() };
+    const arrangement = {
+      resetLayout: () => dock.current?.reset(),
+      enlarge: () => dock.current?.enlarge(),
+      popOut: () => dock.current?.popOut(),
+    };
     return offerCommands(() => windowCommands(arrangement));
   }, []);
   useEffect(() => {

@@ -8,6 +8,7 @@ import {
   useEffect,
   useImperativeHandle,
   useRef,
+  useState,
 } from "react";
 import { keep, recall } from "../store/page/localStorage";
 import { onNavigate } from "../store/page/navigate";
@@ -29,11 +30,20 @@ import {
   standardLayout,
   widePanels,
 } from "./layout";
+import { beginWith, popOutActive } from "./popOut";
 
 export interface DockHandle {
   reset: () => void;
   /** Gives the active panel the whole dock, or brings the others back. */
   enlarge: () => void;
+  /** Opens the active panel in a window of its own. */
+  popOut: () => void;
+}
+
+interface Props {
+  ref: Ref<DockHandle>;
+  /** A window of its own: it begins with this panel, and its arrangement is not kept. `onTitle` is told what its tab in front says. */
+  alone?: { panel: string; onTitle: (title: string) => void };
 }
 
 /** Increase this when the default layout changes: a layout kept from an older version would hide the change. */
@@ -41,9 +51,10 @@ const LAYOUT = "layout.5";
 const THEME = { name: "scanbench", className: "dockview-theme-scanbench" };
 
 /** The dockable part of the window. The layout is kept in this browser. */
-export function Dock({ ref }: { ref: Ref<DockHandle> }) {
+export function Dock({ ref, alone }: Props) {
   const api = useRef<DockviewApi | null>(null);
   const project = useBench((bench) => bench.project?.id ?? null);
+  const [begins] = useState(alone);
 
   const reset = useCallback(() => {
     if (!api.current) return;
@@ -52,33 +63,41 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
     for (const file of files) openFilePanel(api.current, file);
   }, []);
   const enlargeActive = useCallback(() => api.current && enlarge(api.current), []);
-  useImperativeHandle(ref, () => ({ reset, enlarge: enlargeActive }), [reset, enlargeActive]);
+  useImperativeHandle(
+    ref,
+    () => ({ reset, enlarge: enlargeActive, popOut: () => api.current && popOutActive(api.current) }),
+    [reset, enlargeActive],
+  );
 
-  const onReady = useCallback((event: DockviewReadyEvent) => {
-    const dock = event.api;
-    api.current = dock;
-    restoreLayout(dock, recall<unknown>(LAYOUT, null));
-    const keepLayout = () => keep(LAYOUT, dock.toJSON());
-    dock.onDidLayoutChange(keepLayout);
-    dock.onDidActivePanelChange(({ panel }) => {
-      keepLayout(); // which tab is in front is no change of the layout to the dock
-      const path = panel && fileOf(panel.id);
-      if (path) inFrontIs(path);
-    });
-    widePanels(dock);
-    dock.onDidRemovePanel((panel) => {
-      const path = fileOf(panel.id);
-      // Moving a panel removes it and adds it again, so a file is closed only if its panel is still missing afterwards.
-      if (path) queueMicrotask(() => dock.getPanel(panel.id) ?? closeDocument(path));
-    });
-    onNavigate({
-      file: (path) => openFilePanel(dock, path),
-      panel: (name) => showFixedPanel(dock, name),
-      page: (name) => openPagePanel(dock, name),
-    });
-  }, []);
+  const onReady = useCallback(
+    (event: DockviewReadyEvent) => {
+      const dock = event.api;
+      api.current = dock;
+      const keepLayout = () => begins === undefined && keep(LAYOUT, dock.toJSON());
+      if (begins === undefined) restoreLayout(dock, recall<unknown>(LAYOUT, null));
+      dock.onDidLayoutChange(keepLayout);
+      dock.onDidActivePanelChange(({ panel }) => {
+        keepLayout(); // which tab is in front is no change of the layout to the dock
+        const path = panel && fileOf(panel.id);
+        if (path) inFrontIs(path);
+      });
+      widePanels(dock);
+      dock.onDidRemovePanel((panel) => {
+        const path = fileOf(panel.id);
+        // Moving a panel removes it and adds it again, so a file is closed only if its panel is still missing afterwards.
+        if (path) queueMicrotask(() => dock.getPanel(panel.id) ?? closeDocument(path));
+      });
+      onNavigate({
+        file: (path) => openFilePanel(dock, path),
+        panel: (name) => showFixedPanel(dock, name),
+        page: (name) => openPagePanel(dock, name),
+      });
+      if (begins) beginWith(dock, begins.panel, begins.onTitle);
+    },
+    [begins],
+  );
 
-  useFilesOfProject(api, project);
+  useFilesOfProject(api, begins === undefined ? project : null);
 
   // A tab cannot contain a close button that the keyboard reaches; Delete closes the file or page instead. The key is handled here,
   // before the dock handles it: the dock knows neither the start page nor that a page may have the whole dock.

@@ -4,18 +4,22 @@ import { pageOf } from "../store/page/navigate";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
+import { canPopOut, popOut } from "./popOut";
 
-/** The button at the end of a page's tab strip: gives the page the whole dock, or brings the other panels back. */
-export function PageEnd({ containerApi, panels, group }: IDockviewHeaderActionsProps) {
+/** The end of a tab strip: a window of its own for the tab in front; for a page the whole dock, or the other panels back. */
+export function PageEnd({ activePanel, containerApi, panels, group }: IDockviewHeaderActionsProps) {
   const [wide, setWide] = useState(() => group.api.isMaximized());
   useEffect(() => {
     const change = containerApi.onDidMaximizedGroupChange(() => setWide(group.api.isMaximized()));
     return () => change.dispose();
   }, [containerApi, group]);
-  if (!wide && !panels.some((panel) => pageOf(panel.id))) return null;
+  const page = panels.some((panel) => pageOf(panel.id));
   return (
     <span className="pageend">
-      {wide ? (
+      {activePanel && canPopOut(activePanel.id) && (
+        <IconButton icon="popout" label={t("popout.do")} small onClick={() => popOut(activePanel)} />
+      )}
+      {!wide && !page ? null : wide ? (
         <button
           type="button"
           className="btn quiet sm"

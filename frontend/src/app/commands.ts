@@ -86,10 +86,12 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
 interface Arrangement {
   resetLayout: () => void;
   enlarge: () => void;
+  /** Opens the active panel in a window of its own. */
+  popOut: () => void;
 }
 
 /** All of them, and one for each mode, panel, theme and language. The window alone knows how its panels are arranged. */
-export function windowCommands({ resetLayout, enlarge }: Arrangement): Command[] {
+export function windowCommands({ resetLayout, enlarge, popOut }: Arrangement): Command[] {
   const own = Object.values(GROUPS)
     .flat()
     .map(({ label, keys, run }) => ({
@@ -102,6 +104,7 @@ export function windowCommands({ resetLayout, enlarge }: Arrangement): Command[]
     ...MODES.map((mode) => ({ label: t("command.mode", { mode }), run: () => void chooseMode(mode) })),
     ...PANELS.map((name) => ({ label: t("command.panel", { panel: t(`panel.${name}`) }), run: () => showPanel(name) })),
     { label: t("layout.enlarge"), run: enlarge },
+    { label: t("popout.do"), run: popOut },
     { label: t("layout.reset"), run: resetLayout },
     ...themes.map((name) => ({
       label: t("theme.switch", { theme: t(`theme.${name}`) }),

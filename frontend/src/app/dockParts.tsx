@@ -173,7 +173,12 @@ function ClosableTab({ panel, name, onClose, children }: ClosableProps) {
   );
 }
 
-/** The end of a tab strip: actions of the whole error simulator, or the button that gives a page the whole dock. */
+/** The end of a tab strip: actions of the whole error simulator, and those of the panel itself. */
 export function HeaderEnd(props: IDockviewHeaderActionsProps) {
-  return props.activePanel?.id === "errors" ? <PanelEnd /> : <PageEnd {...props} />;
+  return (
+    <span className="headerend">
+      {props.activePanel?.id === "errors" && <PanelEnd />}
+      <PageEnd {...props} />
+    </span>
+  );
 }

@@ -120,9 +120,10 @@ export function widePanels(dock: DockviewApi): void {
 
 /** Shows a fixed panel. If a page has the whole dock and hides the panel, the dock is divided again. */
 export function showFixedPanel(dock: DockviewApi, name: string): void {
-  const panel = dock.getPanel(name);
-  if (panel && dock.hasMaximizedGroup() && !panel.api.isMaximized()) dock.exitMaximizedGroup();
-  panel?.api.setActive();
+  // A window of its own begins with one panel only.
+  const panel = dock.getPanel(name) ?? dock.addPanel({ id: name, component: name });
+  if (dock.hasMaximizedGroup() && !panel.api.isMaximized()) dock.exitMaximizedGroup();
+  panel.api.setActive();
 }
 
 /** Whether the panel is in the centre, among the files. */

@@ -30,6 +30,12 @@ export function readLink({ pathname, search }: Address): Link | null {
 export const operatedPanel = ({ search }: Pick<Location, "search">) =>
   new URLSearchParams(search).get("operate") || null;
 
+/** The panel that has a window of its own: `/i/3?alone=watch`, `/i/3?alone=file:Main.st`. */
+export const loneIn = ({ search }: Pick<Location, "search">) => new URLSearchParams(search).get("alone") || null;
+
+/** The address of such a window, from the server's root. */
+export const lonePath = (instance: number, panel: string) => `/i/${instance}?alone=${encodeURIComponent(panel)}`;
+
 /** True for `/i/...` that this page does not understand. */
 export function isBrokenLink(address: Address): boolean {
   return address.pathname.startsWith("/i/") && readLink(address) === null;

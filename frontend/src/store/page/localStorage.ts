@@ -1,6 +1,6 @@
 /** What a browser stores: small JSON entries in localStorage, which may be missing, full, or broken. */
 
-const PREFIX = "scanbench.";
+export const PREFIX = "scanbench.";
 
 /** What was kept, if it is of the same kind as the fallback: another version, or somebody's hand, may have kept a different one. */
 export function recall<T>(key: string, fallback: T): T {

@@ -1,7 +1,7 @@
 /** The preferences of this browser: theme and language. `public/theme.js` reads the same entry before the first paint. */
 import { create } from "zustand";
 import { type Language, languages, setLanguage } from "../../text";
-import { keep, recall } from "./localStorage";
+import { keep, PREFIX, recall } from "./localStorage";
 
 export const themes = ["dark", "light", "contrast"] as const;
 type Theme = (typeof themes)[number];
@@ -23,8 +23,9 @@ function systemLanguage(): Language {
 function initial(): Prefs {
   const kept = recall<Partial<Prefs>>("prefs", {});
   const painted = document.documentElement.dataset.theme as Theme | undefined;
+  const chosen = themes.find((theme) => theme === kept.theme);
   return {
-    theme: painted ?? "dark",
+    theme: chosen ?? painted ?? "dark",
     language: languages.find((language) => language === kept.language) ?? systemLanguage(),
     checks: kept.checks ?? false,
     inline: kept.inline ?? true,
@@ -48,6 +49,11 @@ apply(usePrefs.getState());
 usePrefs.subscribe((prefs) => {
   apply(prefs);
   keep("prefs", prefs);
+});
+
+/** Another window of this browser chose: all of them look the same. The event comes to the other windows only. */
+addEventListener("storage", ({ key }) => {
+  if (key === `${PREFIX}prefs`) usePrefs.setState(initial());
 });
 
 export function chooseTheme(theme: Theme): void {

@@ -6,6 +6,7 @@ import {
   isOwnComputer,
   type Link,
   linkPath,
+  loneIn,
   operatedPanel,
   readLink,
   wayTo,
@@ -100,7 +101,7 @@ function writeAddress(): void {
   clearTimeout(later);
   later = setTimeout(() => {
     const { opened, question } = get();
-    if (opened !== null || question !== null || operatedPanel(location) !== null) return;
+    if (opened !== null || question !== null || (operatedPanel(location) ?? loneIn(location)) !== null) return;
     const instance = useBench.getState().instance?.id;
     const { state } = usePlc.getState();
     if (instance === undefined) return;

@@ -46,6 +46,10 @@ export const common = {
   "panel.problems": "Problems",
   "panel.start": "Start",
   "panel.watch": "Watch",
+  "popout.back": "Whole page",
+  "popout.do": "Open the panel in a window of its own",
+  "popout.wrongplc":
+    "This PLC is not there any more, so the panel has nothing to show. Whole page shows the PLCs that are.",
   "severity.error": "Error",
   "severity.info": "Note",
   "severity.warning": "Warning",

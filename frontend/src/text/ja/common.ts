@@ -48,6 +48,10 @@ export const common: Record<keyof typeof english, string> = {
   "panel.problems": "問題",
   "panel.start": "開始",
   "panel.watch": "ウォッチ",
+  "popout.back": "全体の画面へ",
+  "popout.do": "パネルを独立したウィンドウで開く",
+  "popout.wrongplc":
+    "この PLC はもうありません。このパネルに表示するものがありません。「全体の画面へ」で現在の PLC を表示します。",
   "severity.error": "エラー",
   "severity.info": "情報",
   "severity.warning": "警告",
