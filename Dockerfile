@@ -2,10 +2,11 @@
 FROM node:22-bookworm-slim AS build
 RUN apt-get update && apt-get install -y --no-install-recommends make python3 python3-venv && rm -rf /var/lib/apt/lists/*
 WORKDIR /app
-COPY Makefile LICENSE ./
+COPY Makefile LICENSE CHANGELOG.md ./
 COPY backend backend
 COPY models models
 COPY docker docker
+COPY docs docs
 COPY frontend frontend
 RUN make setup && rm -rf frontend/node_modules
 

@@ -23,7 +23,8 @@ unexport PYTHONDONTWRITEBYTECODE
 # Arguments for the server: make run ARGS="--port 9000"
 ARGS ?=
 
-SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
+# The help of the page is made from the documentation.
+SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts frontend/helpPages.ts docs/*.md docs/problems models/*.md CHANGELOG.md -type f 2>/dev/null)
 NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json vscode/package-lock.json))
 
 .PHONY: help setup setup-test run test check coverage bench bench-ui shots lock clean

@@ -4,6 +4,7 @@ import { promisify } from "node:util";
 import { brotliCompress, constants, gzip } from "node:zlib";
 import react from "@vitejs/plugin-react";
 import { defineConfig, type Plugin } from "vite";
+import { helpPages } from "./helpPages.ts";
 
 // `npm run dev` serves the page with hot reload and passes /api on to a running `scanbench serve`.
 const backend = process.env.SCANBENCH_URL ?? "http://127.0.0.1:8765";
@@ -26,7 +27,7 @@ const compressed: Plugin = {
 };
 
 export default defineConfig({
-  plugins: [react(), compressed],
+  plugins: [react(), helpPages, compressed],
   // The page is also served at `/i/3/scan/4711`, so its files are addressed from the root.
   base: "/",
   build: {
@@ -46,5 +47,5 @@ export default defineConfig({
       },
     },
   },
-  server: { proxy: { "/api": { target: backend, ws: true } } },
+  server: { fs: { allow: [".."] }, proxy: { "/api": { target: backend, ws: true } } },
 });

@@ -1,4 +1,5 @@
 import { defineConfig } from "vitest/config";
+import { helpPages } from "./helpPages.ts";
 
 /** In milliseconds; longer than what a test waits for one event (`testing/eventually.ts`), which says what did not happen. */
 const LIMIT = 60_000;
@@ -9,6 +10,7 @@ export default defineConfig({
       // Nothing in `logic/` remembers anything, so its tests need no process each: two thirds of the time of all of them.
       { test: { name: "logic", include: ["src/logic/**/*.test.ts"], environment: "node", isolate: false } },
       {
+        plugins: [helpPages],
         test: {
           name: "units",
           include: ["src/**/*.test.ts"],
@@ -19,6 +21,7 @@ export default defineConfig({
       },
       {
         // Panels in a page: jsdom and React are loaded once. Each test is a project and a PLC of its own, so the page forgets the one before.
+        plugins: [helpPages],
         test: {
           name: "panels",
           include: ["src/**/*.test.tsx"],

@@ -11,7 +11,7 @@ test('the memory of the PLC: looked at, written, searched, by keyboard; in the p
   const word = (address: string) => pane.getByTestId(`memory:${address}`);
 
   await test.step('a variable leads to its word, which names it', async () => {
-    await page.keyboard.press('F1');
+    await page.keyboard.press('Control+Shift+P');
     await page.getByRole('combobox', { name: 'Commands' }).pressSequentially('show memory');
     await page.getByRole('option', { name: 'Show memory' }).click();
     await pane.getByRole('combobox', { name: 'Go to address or variable' }).fill('bufferLevel');

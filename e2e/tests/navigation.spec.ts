@@ -12,10 +12,10 @@ test('everything is reached by keys: commands, places, problems, and a text in a
   const globals = mika.editor('Globals.st');
   const { text: before } = await server.get<{ text: string }>(`/projects/${server.project}/files/Main.st`);
 
-  await test.step('F1 lists the commands of the window and of the editor, and does one', async () => {
+  await test.step('Ctrl+Shift+P lists the commands of the window and of the editor, and does one', async () => {
     await main.replaceWith(before.replace('  motor := station.run;', 'motor:=station.run ;'));
     await main.caretAfter('motor:=station.run ;');
-    await keyboard.press('F1');
+    await keyboard.press('Control+Shift+P');
     const commands = page.getByRole('combobox', { name: 'Commands' });
     await expect(page.getByRole('option', { name: /^Save all and build/ })).toContainText('Ctrl+Shift+B');
     await commands.pressSequentially('format docum');

@@ -13,7 +13,7 @@ test('versions are compared and taken back; a project goes out and comes in as o
     await main.addBelow('motor := station.run;', '  lamp := NOT motor;');
     await main.build();
     await expect(main.outcome).toContainText('Built');
-    await page.keyboard.press('F1');
+    await page.keyboard.press('Control+Shift+P');
     await page.getByRole('combobox', { name: 'Commands' }).pressSequentially('versions of');
     await page.getByRole('option', { name: 'Versions of the program' }).click();
     await expect(pane).toContainText('All files are the same in both.');

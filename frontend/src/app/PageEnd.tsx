@@ -1,5 +1,7 @@
 import type { IDockviewHeaderActionsProps } from "dockview-react";
 import { useEffect, useState } from "react";
+import { topicOf } from "../logic/page/help";
+import { showHelp } from "../store/page/help";
 import { pageOf } from "../store/page/navigate";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
@@ -13,9 +15,18 @@ export function PageEnd({ activePanel, containerApi, panels, group }: IDockviewH
     const change = containerApi.onDidMaximizedGroupChange(() => setWide(group.api.isMaximized()));
     return () => change.dispose();
   }, [containerApi, group]);
-  const page = panels.some((panel) => pageOf(panel.id));
+  const page = panels.some((panel) => pageOf(panel.id) && panel.id !== "help");
   return (
     <span className="pageend">
+      {activePanel && activePanel.id !== "help" && (
+        <IconButton
+          icon="help"
+          label={t("help.of", { panel: activePanel.title ?? "" })}
+          hint="F1"
+          small
+          onClick={() => showHelp(topicOf(activePanel.id))}
+        />
+      )}
       {activePanel && canPopOut(activePanel.id) && (
         <IconButton icon="popout" label={t("popout.do")} small onClick={() => popOut(activePanel)} />
       )}

@@ -1,11 +1,13 @@
 /** Everything that the window can do by name or key, in the order in which the palette and the page of keys list it. */
 
+import { CONTENTS } from "../logic/page/help";
 import { toggleBreakpointHere } from "../store/debug/debugKeys";
 import { chooseMode, restart, restartByKey, rollBack, singleScan, toggleRun } from "../store/debug/run";
 import { runToCaret, step } from "../store/debug/stepping";
 import { showSweeps } from "../store/errors/sweeps";
 import { askNewPanel } from "../store/operator/panels";
 import { openRack } from "../store/operator/rack";
+import { showHelp } from "../store/page/help";
 import { openPage, PANELS, showPanel } from "../store/page/navigate";
 import { COMMANDS, type Command, showKeys, showPalette } from "../store/page/palette";
 import { chooseLanguage, chooseTheme, themes, toggleChecks, toggleInline } from "../store/page/prefs";
@@ -19,6 +21,7 @@ import { askSearch } from "../store/project/search";
 import { showsRan } from "../store/project/shownProgram";
 import { openVersions } from "../store/project/versions";
 import { languageNames, languages, type TextKey, t } from "../text";
+import { helpHere } from "./helpHere";
 import { cyclePanes } from "./panes";
 
 interface WindowCommand {
@@ -73,7 +76,9 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "restart.power", run: () => void restart("power") },
   ],
   window: [
-    { label: "command.palette", keys: "F1|Ctrl+Shift+P", run: () => showPalette(COMMANDS) },
+    { label: "help.here", keys: "F1", run: helpHere },
+    { label: "help.contents", run: () => showHelp(CONTENTS) },
+    { label: "command.palette", keys: "Ctrl+Shift+P", run: () => showPalette(COMMANDS) },
     { label: "command.keys", keys: "?", run: () => showKeys(true) },
     { label: "command.pane.next", keys: "F6", run: () => cyclePanes(1) },
     { label: "command.pane.before", keys: "Shift+F6", run: () => cyclePanes(-1) },

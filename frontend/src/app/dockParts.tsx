@@ -97,7 +97,7 @@ function FixedTab({ api }: { api: PanelApi }) {
   const name = t(`panel.${api.id as "watch"}`);
   useTitle(api, count > 0 ? `${name} (${count})` : name);
   return (
-    <span className="tab">
+    <span className="tab" data-panel={api.id}>
       {name}
       {count > 0 && <span className="n">{count}</span>}
     </span>
@@ -157,7 +157,13 @@ function ClosableTab({ panel, name, onClose, children }: ClosableProps) {
     onClose();
   };
   return (
-    <span className="tab" title={name} data-closes={panel} onAuxClick={(event) => event.button === 1 && close(event)}>
+    <span
+      className="tab"
+      title={name}
+      data-panel={panel}
+      data-closes={panel}
+      onAuxClick={(event) => event.button === 1 && close(event)}
+    >
       {children}
       {/* Not a button, because a tab must not contain one. The keyboard closes a tab with Delete. */}
       <span

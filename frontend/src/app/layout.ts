@@ -77,7 +77,8 @@ export function offerFilePanel(dock: DockviewApi, path: string): void {
 }
 
 /** Whether somebody looks at a page among the files. */
-const pageShown = (dock: DockviewApi) => dock.panels.some((panel) => pageOf(panel.id) && panel.api.isVisible);
+const pageShown = (dock: DockviewApi) =>
+  dock.panels.some((panel) => central(panel.id) && pageOf(panel.id) && panel.api.isVisible);
 
 function addFile(dock: DockviewApi, path: string, inactive: boolean): void {
   if (dock.getPanel(FILE + path)) return;
@@ -89,11 +90,28 @@ function addFile(dock: DockviewApi, path: string, inactive: boolean): void {
 
 /** Shows a page: in its own panel if it has one, else in a new panel among the files. The page gets the whole dock until it is closed or reduced. */
 export function openPagePanel(dock: DockviewApi, name: PageName): void {
+  if (name === "help") {
+    openHelp(dock);
+    return;
+  }
   const panel = dock.getPanel(name) ?? dock.addPanel({ id: name, component: name, position: editorPlace(dock) });
   panel.api.setActive();
   const start = dock.getPanel("start");
   if (start) dock.removePanel(start);
   if (!panel.api.isMaximized()) panel.api.maximize();
+}
+
+/** The help is read beside what it is about: at the right, with the error simulator. */
+function openHelp(dock: DockviewApi): void {
+  const beside = dock.getPanel("errors");
+  const active = dock.activePanel;
+  const position: AddPanelPositionOptions | undefined = beside
+    ? { referencePanel: beside }
+    : active && { referencePanel: active, direction: "right" };
+  const panel =
+    dock.getPanel("help") ?? dock.addPanel({ id: "help", component: "help", ...(position && { position }) });
+  if (dock.hasMaximizedGroup() && !panel.api.isMaximized()) dock.exitMaximizedGroup();
+  panel.api.setActive();
 }
 
 /** Gives the active panel the whole dock, or brings the others back. */
@@ -127,7 +145,7 @@ export function showFixedPanel(dock: DockviewApi, name: string): void {
 }
 
 /** Whether the panel is in the centre, among the files. */
-const central = (id: string) => fileOf(id) !== undefined || pageOf(id) !== undefined;
+const central = (id: string) => fileOf(id) !== undefined || (pageOf(id) !== undefined && id !== "help");
 
 function editorPlace(dock: DockviewApi): AddPanelPositionOptions | undefined {
   const neighbour = dock.getPanel("start") ?? dock.panels.findLast((panel) => central(panel.id));
@@ -149,6 +167,7 @@ export function closeTab(dock: DockviewApi, id: string): void {
   if (!panel) return;
   if (pageOf(id) && panel.api.isMaximized()) dock.exitMaximizedGroup();
   const others = dock.panels.filter((other) => other.id !== id && central(other.id));
-  if (others.length === 0) dock.addPanel({ id: "start", component: "start", position: { referencePanel: panel } });
+  if (others.length === 0 && central(id))
+    dock.addPanel({ id: "start", component: "start", position: { referencePanel: panel } });
   dock.removePanel(panel);
 }

@@ -3,6 +3,7 @@ import type { ReactNode } from "react";
 import { RecordPage } from "../panels/errors/history/RecordPage";
 import { SweepPage } from "../panels/errors/sweep/SweepPage";
 import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
+import { HelpPanel } from "../panels/help/HelpPanel";
 import { RackPage } from "../panels/operator/RackPage";
 import { CallsPage } from "../panels/project/calls/CallsPage";
 import { CrossPage } from "../panels/project/cross/CrossPage";
@@ -30,6 +31,7 @@ export const PAGES: Record<PageName, Page> = {
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
   cross: { component: CrossPage, icon: "swap", useTitle: () => t("cross.title") },
   calls: { component: CallsPage, icon: "stack", useTitle: () => t("calls.title") },
+  help: { component: HelpPanel, icon: "help", useTitle: () => t("help.title") },
   memory: { component: MemoryPage, icon: "mem", useTitle: () => t("memory.title") },
   rack: { component: RackPage, icon: "plc", useTitle: () => t("rack.title") },
   usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },

@@ -25,7 +25,7 @@ export const commands = {
   "command.sweeps": "Show error sweeps",
   "command.tocaret": "Run to the caret",
   "command.usererrors": "Edit user-defined errors",
-  "keys.about": "F1 lists all commands, also those without a key.",
+  "keys.about": "Ctrl+Shift+P lists all commands, also those without a key; F1 explains what has the focus.",
   "keys.comment": "Make the line a comment, or a statement again",
   "keys.complete": "Complete",
   "keys.definition": "Go to the declaration",

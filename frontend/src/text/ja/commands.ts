@@ -25,7 +25,7 @@ export const commands = {
   "command.sweeps": "異常スイープを表示",
   "command.tocaret": "カーソル位置まで実行",
   "command.usererrors": "ユーザー定義異常を編集",
-  "keys.about": "F1 で、キーのないものも含めてすべてのコマンドを表示します。",
+  "keys.about": "Ctrl+Shift+P で、キーのないものも含めてすべてのコマンドを表示します。F1 は選択中の場所を説明します。",
   "keys.comment": "行をコメントにする、または戻す",
   "keys.complete": "補完",
   "keys.definition": "宣言へ移動",

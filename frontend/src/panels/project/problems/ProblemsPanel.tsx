@@ -1,4 +1,6 @@
+import { problemHelp } from "../../../logic/page/help";
 import { useWidths } from "../../../store/page/columns";
+import { showHelp } from "../../../store/page/help";
 import { openFile } from "../../../store/page/navigate";
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
@@ -69,13 +71,28 @@ function Line({ tone, text }: { tone: string; text: string }) {
 function Row({ problem }: { problem: Problem }) {
   const { icon, tone } = LOOK[problem.severity];
   return (
-    <button type="button" className="gr" onClick={() => openFile(problem.file, problem.line, problem.column)}>
+    <button
+      type="button"
+      className="gr"
+      data-help={problemHelp(problem.code)}
+      onClick={() => openFile(problem.file, problem.line, problem.column)}
+    >
       <span className={`st ${tone}`}>
         <Icon name={icon} small />
         {t(`severity.${problem.severity}`)}
       </span>
       <span className="says">{problem.message}</span>
-      <span className="mono muted">{problem.code}</span>
+      {/* Not a button, because a button must not contain one: the keyboard has F1. */}
+      <span
+        className="mono link"
+        title={t("help.of", { panel: problem.code })}
+        onClick={(event) => {
+          event.stopPropagation();
+          showHelp(problemHelp(problem.code));
+        }}
+      >
+        {problem.code}
+      </span>
       <span className="mono muted cut">{`${problem.file}:${problem.line}:${problem.column}`}</span>
     </button>
   );
