@@ -16,11 +16,13 @@ import { TraceImport } from "../panels/verify/import/TraceImport";
 import { VerifyRecords } from "../panels/verify/records/VerifyRecords";
 import { offerCommands } from "../store/page/palette";
 import { usePrefs } from "../store/page/prefs";
+import { useTour } from "../store/page/tour";
 import { start, useBench } from "../store/plc/bench";
 import { useOnline, usePlc } from "../store/plc/plc";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
+import { later } from "../ui/later";
 import { windowCommands } from "./commands";
 import { Dock, type DockHandle } from "./Dock";
 import { Keys } from "./Keys";
@@ -29,6 +31,8 @@ import { LoneWindow } from "./LoneWindow";
 import { PanelWindow } from "./PanelWindow";
 import { Splitter } from "./Splitter";
 import { useFlyout } from "./useFlyout";
+
+const Tour = later(() => import("../panels/tour/Tour"));
 
 /** The window: rail, bars, explorer and the dock. */
 export function App() {
@@ -104,8 +108,15 @@ function Window() {
       <Past />
       <Palette />
       <Keys />
+      <TourWhenOpen />
     </div>
   );
+}
+
+/** The tour is loaded when somebody takes it. */
+function TourWhenOpen() {
+  const open = useTour((tour) => tour.open);
+  return open ? <Tour /> : null;
 }
 
 /** The page cannot show anything: why, and what to do about it. */

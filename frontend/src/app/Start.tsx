@@ -1,3 +1,4 @@
+import { openTour } from "../store/page/tour";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 
@@ -15,6 +16,14 @@ export function Start() {
         <Icon name="plus" />
         <span>
           <b>{t("start.new")}</b> {t("start.new.rest")}
+        </span>
+      </div>
+      <div className="way">
+        <Icon name="help" />
+        <span>
+          <button type="button" className="link" onClick={openTour}>
+            {t("tour.open")}
+          </button>
         </span>
       </div>
     </section>

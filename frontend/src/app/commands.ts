@@ -11,6 +11,7 @@ import { showHelp } from "../store/page/help";
 import { openPage, PANELS, showPanel } from "../store/page/navigate";
 import { COMMANDS, type Command, showKeys, showPalette } from "../store/page/palette";
 import { chooseLanguage, chooseTheme, themes, toggleChecks, toggleInline } from "../store/page/prefs";
+import { openTour } from "../store/page/tour";
 import { showInstances } from "../store/plc/instances";
 import { returnToLive, stepBack } from "../store/plc/timeline";
 import { showUnused } from "../store/project/cross";
@@ -77,6 +78,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
   ],
   window: [
     { label: "help.here", keys: "F1", run: helpHere },
+    { label: "tour.open", run: openTour },
     { label: "help.contents", run: () => showHelp(CONTENTS) },
     { label: "command.palette", keys: "Ctrl+Shift+P", run: () => showPalette(COMMANDS) },
     { label: "command.keys", keys: "?", run: () => showKeys(true) },

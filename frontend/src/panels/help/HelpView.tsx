@@ -2,6 +2,7 @@ import { type MouseEvent, useEffect, useRef } from "react";
 import { CONTENTS, placeOf } from "../../logic/page/help";
 import { goInTrail, goTo, searchHelp, useHelp } from "../../store/page/help";
 import { showKeys } from "../../store/page/palette";
+import { openTour } from "../../store/page/tour";
 import { language, t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
@@ -35,6 +36,9 @@ export default function HelpView() {
             onChange={(event) => searchHelp(event.target.value)}
           />
         </span>
+        <button type="button" className="btn quiet sm" onClick={openTour}>
+          {t("tour.title")}
+        </button>
         <button type="button" className="btn quiet sm" onClick={() => showKeys(true)}>
           {t("help.keys")}
         </button>

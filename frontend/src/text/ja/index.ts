@@ -10,6 +10,7 @@ import { past } from "./past";
 import { plc } from "./plc";
 import { project } from "./project";
 import { sweep } from "./sweep";
+import { tour } from "./tour";
 import { trace } from "./trace";
 import { userErrors } from "./userErrors";
 import { verify } from "./verify";
@@ -26,6 +27,7 @@ export const japanese: Record<TextKey, string> = {
   ...userErrors,
   ...debug,
   ...trace,
+  ...tour,
   ...verify,
   ...disturb,
   ...past,

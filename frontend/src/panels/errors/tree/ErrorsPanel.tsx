@@ -64,7 +64,7 @@ function Simulator({ model }: { model: ModelInfo }) {
           />
         </span>
         <FilterMenu />
-        <button type="button" className="btn sm" title={t("errors.runall.hint")} onClick={openSweep}>
+        <button type="button" className="btn sm" data-tour="runall" title={t("errors.runall.hint")} onClick={openSweep}>
           {t("errors.runall")}
         </button>
       </div>

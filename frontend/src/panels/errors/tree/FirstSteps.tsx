@@ -1,3 +1,4 @@
+import { openTour } from "../../../store/page/tour";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
@@ -6,6 +7,9 @@ export function FirstSteps() {
   return (
     <section className="firststeps" aria-label={t("errors.start.title")}>
       <h3>{t("errors.start.title")}</h3>
+      <button type="button" className="link" onClick={openTour}>
+        {t("tour.open")}
+      </button>
       <ul>
         <li className="way">
           <Icon name="generated" small />
