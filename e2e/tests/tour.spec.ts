@@ -51,6 +51,8 @@ test('the tour: the sample is tried step by step, each step done at the real con
     await next();
     await mika.debug.clickGutter('Main.st', 'belt(run := motor);');
     await page.keyboard.press('F5');
+    await expect(mika.debug.frames).toHaveCount(2);
+    await page.keyboard.press('F5');
     await expect(tour).toContainText('The program runs on');
     await next();
     await expect(tour).toContainText('That was the tour');

@@ -75,6 +75,7 @@ function Window() {
       <TopBar onResetLayout={() => dock.current?.reset()} />
       <div className="bannerslot">
         <Banners />
+        <TourWhenOpen />
       </div>
       <main className={`work${side ? ` showleft show-${side}` : ""}`}>
         <div className="strip" role="toolbar" aria-label={t("strip.label")}>
@@ -108,7 +109,6 @@ function Window() {
       <Past />
       <Palette />
       <Keys />
-      <TourWhenOpen />
     </div>
   );
 }

@@ -21,7 +21,7 @@ describe("plots", () => {
     );
     expect(plots.map(({ title, lines }) => [title, lines.map(({ name }) => name)])).toEqual([
       ["speed", ["belt[1]", "belt[2]"]],
-      ["parts", ["parts"]],
+      ["zone[2].parts", ["parts"]],
       ["Main.a + Main.b", ["Main.a + Main.b"]],
     ]);
     expect(lanes.map(({ name }) => name)).toEqual(["belt[1].run", "W10.03"]);

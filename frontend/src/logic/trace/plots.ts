@@ -67,7 +67,11 @@ export function layoutOf(signals: readonly TraceSignal[], moved: ReadonlyMap<str
     plots.set(known, plot);
     plot.lines.push(line);
   });
-  for (const plot of plots.values()) shorten(plot.lines);
+  for (const plot of plots.values()) {
+    const [only] = plot.lines;
+    if (plot.lines.length === 1 && only) plot.title = only.signal.text;
+    shorten(plot.lines);
+  }
   shorten(lanes);
   return { plots: [...plots.values()], lanes };
 }

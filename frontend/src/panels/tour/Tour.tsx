@@ -11,20 +11,17 @@ import "./tour.css";
 /** How often the page is looked at, in ms: for what happened, and for where the control is now. */
 const LOOK = 200;
 
-/** The card of the tour. It lies above the page and blocks nothing: every step can be done, skipped, or left for later. */
+/** A line above the work, which covers nothing: every step can be done, skipped, or left for later. */
 export default function Tour() {
   const { at } = useTour();
   useEffect(() => watch(WATCHED), []);
   const step = STEPS[at];
   return (
     <section className="tour" aria-label={t("tour.title")}>
-      <header>
-        <b>{t("tour.title")}</b>
-        <span className="faint">{t("tour.step", { at: Math.min(at + 1, STEPS.length), of: STEPS.length })}</span>
-        <span className="grow" />
-        <IconButton icon="x" label={t("tour.leave")} small onClick={leaveTour} />
-      </header>
+      <b>{t("tour.title")}</b>
+      <span className="faint">{t("tour.step", { at: Math.min(at + 1, STEPS.length), of: STEPS.length })}</span>
       {step ? <Doing key={step.name} step={step} at={at} /> : <End />}
+      <IconButton icon="x" label={t("tour.leave")} small onClick={leaveTour} />
     </section>
   );
 }
@@ -46,7 +43,7 @@ function Doing({ step, at }: { step: Step; at: number }) {
   return (
     <>
       {!done && place && <Ring place={place} />}
-      <p aria-live="polite">
+      <p className="grow" aria-live="polite">
         {done ? (
           <>
             <span className="st running">
@@ -58,11 +55,10 @@ function Doing({ step, at }: { step: Step; at: number }) {
           t(`tour.${step.name}`)
         )}
       </p>
-      <footer>
+      <span className="acts">
         <button type="button" className="btn quiet sm" disabled={at === 0} onClick={() => goToStep(at - 1)}>
           {t("tour.before")}
         </button>
-        <span className="grow" />
         {!done && (
           <button type="button" className="btn quiet sm" onClick={step.show}>
             {t("tour.show")}
@@ -71,7 +67,7 @@ function Doing({ step, at }: { step: Step; at: number }) {
         <button type="button" className={`btn sm${done ? " primary" : ""}`} onClick={() => goToStep(at + 1)}>
           {t(done ? "tour.next" : "tour.skip")}
         </button>
-      </footer>
+      </span>
     </>
   );
 }
@@ -105,19 +101,18 @@ function Ring({ place }: { place: DOMRect }) {
 function End() {
   return (
     <>
-      <p>{t("tour.end")}</p>
-      <footer>
+      <p className="grow">{t("tour.end")}</p>
+      <span className="acts">
         <button type="button" className="btn quiet sm" onClick={() => goToStep(0)}>
           {t("tour.again")}
         </button>
-        <span className="grow" />
         <button type="button" className="btn sm" onClick={() => showHelp("README.md")}>
           {t("help.title")}
         </button>
         <button type="button" className="btn primary sm" onClick={endTour}>
           {t("tour.close")}
         </button>
-      </footer>
+      </span>
     </>
   );
 }

@@ -32,7 +32,12 @@ export function CursorTable({ shown, samples }: Props) {
   const time = (scan: number | null) => (scan === null ? "" : plcTime(scan * shown.interval).replace(/^00:/, ""));
   return (
     <>
-      <div className="grid trtable" role="grid" aria-label={t("trace.table")} style={style}>
+      <div
+        className={`grid trtable${b === null ? " one" : ""}`}
+        role="grid"
+        aria-label={t("trace.table")}
+        style={style}
+      >
         <div className="gr h" role="row">
           {head("signal", t("trace.signal"))}
           <span role="columnheader" className="num">

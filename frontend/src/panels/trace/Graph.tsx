@@ -85,6 +85,7 @@ export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
             />
           ))}
         <Lanes layout={layout} samples={samples} scale={scale} xTicks={xTicks} theme={theme} compared={compared} />
+        <Axis scale={scale} xTicks={xTicks} theme={theme} />
         {samples?.scans.length === 0 && <p className="trnone faint">{t("trace.nothing")}</p>}
         {shown.triggered !== null && <TriggerMark x={xOf(shown.triggered, scale)} width={width} />}
         <DragBox ref={box} />
@@ -176,10 +177,10 @@ interface LanesProps {
   compared: Compared | null;
 }
 
-/** Lanes of BOOLs, and the scan axis below all plots. */
+/** Lanes of BOOLs. */
 function Lanes({ layout: { lanes }, samples, scale, xTicks, theme, compared }: LanesProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const height = (lanes.length > 0 ? lanes.length * LANE + 8 : 0) + AXIS;
+  const height = lanes.length > 0 ? lanes.length * LANE + 8 : 0;
   // biome-ignore lint/correctness/useExhaustiveDependencies: the theme changes the colours
   useLayoutEffect(() => {
     const context = canvas.current && prepared(canvas.current);
@@ -187,7 +188,6 @@ function Lanes({ layout: { lanes }, samples, scale, xTicks, theme, compared }: L
     const colors = colorsOf(canvas.current);
     const beside = comparedWith(compared, lanes);
     if (samples && lanes.length > 0) drawLanes(context, lanes, samples, scale, colors, xTicks, beside);
-    drawAxis(context, xTicks, scale, height - AXIS, colors, grouped);
   }, [lanes, samples, scale.view.from, scale.view.to, scale.width, theme, compared]);
   return (
     <canvas
@@ -198,6 +198,17 @@ function Lanes({ layout: { lanes }, samples, scale, xTicks, theme, compared }: L
       aria-label={t("trace.plot", { names: lanes.map(({ signal }) => signal.text).join(", ") })}
     />
   );
+}
+
+/** The scan axis of all plots: it stays in sight while they are scrolled. */
+function Axis({ scale, xTicks, theme }: Pick<LanesProps, "scale" | "xTicks" | "theme">) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the theme changes the colours
+  useLayoutEffect(() => {
+    const context = canvas.current && prepared(canvas.current);
+    if (context && canvas.current) drawAxis(context, xTicks, scale, 0, colorsOf(canvas.current), grouped);
+  }, [xTicks, scale.view.from, scale.view.to, scale.width, theme]);
+  return <canvas ref={canvas} className="traxis" style={{ height: AXIS }} />;
 }
 
 function useSize(element: { current: HTMLElement | null }): { width: number; height: number } {

@@ -7,6 +7,8 @@ export const plc = {
   "fatal.goon.hint": "Recovers the fatal errors and sets mode {mode} again",
   "fatal.about":
     "The PLC stopped in scan {scan}. Its outputs are off, even if memory is held. Clear the error, then choose MONITOR or RUN.",
+  "fatal.about.goon":
+    "The PLC stopped in scan {scan}. Its outputs are off, even if memory is held. Recover and go on clears the error and starts the program in {mode} again.",
   "fatal.clear": "Clear error",
   "fatal.clear.all": "Clear all {count} errors",
   "fatal.plain": "Fatal error",

@@ -89,6 +89,9 @@ export const project = {
   "explorer.global": "Globals",
   "explorer.instances": "Instances",
   "explorer.interface": "Interfaces",
+  "explorer.search": "Search the explorer",
+  "explorer.search.none":
+    "Nothing is called “{text}”. Variables are found where they were unfolded; Ctrl+P finds all names.",
   "explorer.label": "Explorer",
   "explorer.memory": "I/O memory",
   "explorer.model": "Model",

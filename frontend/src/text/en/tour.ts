@@ -8,7 +8,8 @@ export const tour = {
   "tour.close": "Close the tour",
   "tour.end":
     "That was the tour. A second sample, Dosing (choose it at the top left), shows objects, Instruction List and subranges. F1 explains what has the focus.",
-  "tour.go": "Click the breakpoint once more to remove it, then press F5.",
+  "tour.go":
+    "Click the breakpoint once more to remove it, then press F5 twice: the first time leads to where the PLC halted last, the second lets it run.",
   "tour.go.done": "The program runs on as if nothing had happened: its time stood still meanwhile.",
   "tour.halt": "Click beside line 26 of Main.st, belt(run := motor);, to set a breakpoint.",
   "tour.halt.done":

@@ -9,6 +9,8 @@ export const plc: Record<keyof typeof english, string> = {
   "fatal.goon.hint": "運転停止異常を解除し、{mode} モードに戻します",
   "fatal.about":
     "スキャン {scan} で停止、出力オフ（メモリ保持時も同じ）。解除してから MONITOR か RUN を選んでください。",
+  "fatal.about.goon":
+    "スキャン {scan} で停止、出力オフ（メモリ保持時も同じ）。「解除して続行」で異常を解除し、{mode} で再開します。",
   "fatal.clear": "異常を解除",
   "fatal.clear.all": "{count} 件の異常をすべて解除",
   "fatal.plain": "運転停止異常",

@@ -91,6 +91,8 @@ export const project: Record<keyof typeof english, string> = {
   "explorer.global": "グローバル変数",
   "explorer.instances": "インスタンス",
   "explorer.interface": "インタフェース",
+  "explorer.search": "エクスプローラを検索",
+  "explorer.search.none": "「{text}」という名前はありません。変数は展開した範囲で検索します。",
   "explorer.label": "エクスプローラ",
   "explorer.memory": "I/O メモリ",
   "explorer.model": "機種",

@@ -152,10 +152,21 @@ function OtherVersion() {
   );
 }
 
+/** A build was refused because of errors in the text, and there are none any more: what it said is no longer true. */
+function useCorrected(): boolean {
+  const build = useDocuments((documents) => documents.build);
+  const errors = useDocuments(({ problems }) => problems.some(({ severity }) => severity === "error"));
+  const [refused, setRefused] = useState({ build, wrong: errors });
+  if (refused.build !== build) setRefused({ build, wrong: errors });
+  else if (errors && !refused.wrong) setRefused({ build, wrong: true });
+  return build.phase === "done" && !build.ok && refused.wrong && !errors;
+}
+
 function BuildOutcome() {
   const state = useDocuments((documents) => documents.build);
   const here = useBench((bench) => bench.instance?.id);
-  if (state.phase !== "done") return <OtherVersion />;
+  const corrected = useCorrected();
+  if (state.phase !== "done" || corrected) return <OtherVersion />;
   const by = state.author ? t("build.by", { author: state.author }) : "";
   return (
     <button

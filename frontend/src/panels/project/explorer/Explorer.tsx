@@ -2,6 +2,7 @@ import { type DragEvent, useState } from "react";
 import { askNewPanel, useOperatorPanels } from "../../../store/operator/panels";
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { useMenu } from "../../../ui/Menu";
 import { Tree } from "../../../ui/Tree";
@@ -19,7 +20,8 @@ export function Explorer() {
   const [creating, setCreating] = useState(false);
   const [deleting, setDeleting] = useState<string | null>(null);
   const project = useDocuments((documents) => documents.project);
-  const rows = useExplorerRows(open, setDeleting);
+  const [looked, setLooked] = useState<string | null>(null);
+  const rows = useExplorerRows(open, setDeleting, looked ?? "");
   const adding = useAddFiles();
   const newPanel = useOperatorPanels(({ asking }) => asking);
 
@@ -44,6 +46,13 @@ export function Explorer() {
     >
       <div className="phead">
         <h2 className="grow">{t("explorer.label")}</h2>
+        <IconButton
+          icon="search"
+          label={t("explorer.search")}
+          small
+          className={looked === null ? "" : "is-on"}
+          onClick={() => setLooked(looked === null ? "" : null)}
+        />
         <AddFiles adding={adding} />
         <IconButton
           icon="layout"
@@ -61,11 +70,35 @@ export function Explorer() {
         />
       </div>
       <PastNote of="files" />
+      {looked !== null && <Look text={looked} onText={setLooked} />}
+      {rows.length === 0 && looked && <p className="lonely faint">{t("explorer.search.none", { text: looked })}</p>}
       <Tree label={t("explorer.label")} rows={rows} />
       {menu}
       {creating && <NewFile onClose={() => setCreating(false)} />}
       {newPanel && <NewPanel onClose={() => askNewPanel(false)} />}
       {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
     </nav>
+  );
+}
+
+/** What the tree is looked through for; Escape shows all of it again. */
+function Look({ text, onText }: { text: string; onText: (text: string | null) => void }) {
+  return (
+    <div className="sub">
+      <span className="inp sm filter grow">
+        <Icon name="search" small />
+        <input
+          // biome-ignore lint/a11y/noAutofocus: it appears because somebody asked to type here
+          autoFocus
+          type="search"
+          value={text}
+          placeholder={t("explorer.search")}
+          aria-label={t("explorer.search")}
+          spellCheck={false}
+          onChange={(event) => onText(event.target.value)}
+          onKeyDown={(event) => event.key === "Escape" && onText(null)}
+        />
+      </span>
+    </div>
   );
 }

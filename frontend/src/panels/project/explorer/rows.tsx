@@ -29,6 +29,7 @@ import type { MenuItem } from "../../../ui/Menu";
 import { StateWord } from "../../../ui/StateWord";
 import type { TreeRow } from "../../../ui/Tree";
 import type { Area, ModelInfo, PlcSymbol, Pou, Problem } from "../../../wire/types";
+import { rowsWith } from "./found";
 import { PouLabel } from "./PouLabel";
 
 const POU_ICONS: Record<Exclude<PouGroup["kind"], "plant">, IconName> = {
@@ -56,8 +57,12 @@ interface Folding {
 type OpenMenu = (items: readonly MenuItem[], at: { x: number; y: number }) => void;
 
 /** The explorer's rows, top to bottom. */
-export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) => void): TreeRow[] {
-  const folding = useFolding([
+export function useExplorerRows(
+  openMenu: OpenMenu,
+  askDelete: (path: string) => void,
+  looked: string,
+): readonly TreeRow[] {
+  const folding = useSearching(looked, [
     "program",
     "function_block",
     "class",
@@ -128,7 +133,14 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
     if (isOpen("instances")) rows.push(...symbolRows("", 1, members, folding, openMenu));
   }
   if (model) rows.push(...modelRows(model, folding, openMenu));
-  return rows;
+  return rowsWith(rows, looked);
+}
+
+/** While something is looked for, every folder is open; of the variables those that were unfolded are looked at. */
+function useSearching(looked: string, open: readonly string[]): Folding {
+  const folding = useFolding(open);
+  if (looked.trim() === "") return folding;
+  return { ...folding, isOpen: (key) => !/^(?:symbol|area):/.test(key) || folding.isOpen(key) };
 }
 
 /** Opens the page of all inputs and outputs. */
@@ -146,7 +158,7 @@ function isAround(node: PouNode | FileNode, kind: PouGroup["kind"], here: Pou | 
   return here ? node.name === here.name : !node.shared;
 }
 
-function useFolding(initial: string[]): Folding {
+function useFolding(initial: readonly string[]): Folding {
   const [open, setOpen] = useState<ReadonlySet<string>>(() => new Set(initial));
   return {
     isOpen: (key) => open.has(key),
@@ -305,7 +317,7 @@ function areaRows(area: Area, folding: Folding, openMenu: OpenMenu): TreeRow[] {
       </>
     ),
     name: `${area.name} ${area.description}`,
-    meta: `${area.first}–${area.last}`,
+    meta: <span className="whole mono">{`${area.first}–${area.last}`}</span>,
     title: t("area.access", { program: area.program, tool: area.tool, engine: area.engine, words: area.words }),
     drag: area.first,
     onActivate: () => void showInMemory(area.first),

@@ -33,7 +33,9 @@ export function FatalBanner({ state }: { state: InstanceState }) {
       <span className="grow">
         <b>{title}</b>
         {details ? ` (${details}). ` : ". "}
-        <span className="muted">{t("fatal.about", { scan: grouped(scan) })}</span>
+        <span className="muted">
+          {t(mode === "PROGRAM" ? "fatal.about" : "fatal.about.goon", { scan: grouped(scan), mode })}
+        </span>
       </span>
       {scan > 0 && (
         <button type="button" className="btn sm" title={t("fatal.before.hint")} onClick={() => void travel(scan - 1)}>

@@ -9,7 +9,8 @@ export function Readings() {
   const scan = useRef<HTMLSpanElement>(null);
   const time = useRef<HTMLSpanElement>(null);
   const fraction = useRef<HTMLSpanElement>(null);
-  const cycle = usePlc((plc) => plc.state?.cycle_us ?? null);
+  // How long a scan took is measured while it runs: of a scan in the past nobody knows it.
+  const cycle = usePlc(({ state }) => (state === null || state.past ? null : state.cycle_us));
   const known = usePlc((plc) => plc.state !== null);
   useEffect(
     () =>
