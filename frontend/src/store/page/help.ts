@@ -4,7 +4,7 @@ import { CONTENTS } from "../../logic/page/help";
 import { openPage } from "./navigate";
 
 /** Places, the best first: the first one that there is counts. */
-export type Wanted = readonly string[];
+type Wanted = readonly string[];
 
 interface Help {
   trail: readonly Wanted[];

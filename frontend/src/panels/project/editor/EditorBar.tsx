@@ -7,6 +7,7 @@ import { toggleChecks, usePrefs } from "../../../store/page/prefs";
 import { useBench } from "../../../store/plc/bench";
 import { useForbidden, useLost, usePlc } from "../../../store/plc/plc";
 import { build, isDirty, save, useDocuments } from "../../../store/project/documents";
+import { useCorrected } from "../../../store/project/refusedBuild";
 import { shownText, useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -150,16 +151,6 @@ function OtherVersion() {
       <StateWord tone="warning" icon="warning" word={t("change.runs", { runs, text })} />
     </span>
   );
-}
-
-/** A build was refused because of errors in the text, and there are none any more: what it said is no longer true. */
-function useCorrected(): boolean {
-  const build = useDocuments((documents) => documents.build);
-  const errors = useDocuments(({ problems }) => problems.some(({ severity }) => severity === "error"));
-  const [refused, setRefused] = useState({ build, wrong: errors });
-  if (refused.build !== build) setRefused({ build, wrong: errors });
-  else if (errors && !refused.wrong) setRefused({ build, wrong: true });
-  return build.phase === "done" && !build.ok && refused.wrong && !errors;
 }
 
 function BuildOutcome() {

@@ -1,5 +1,6 @@
-import { render, screen, waitFor } from "@testing-library/react";
+import { act, render, screen, waitFor } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { useDocuments } from "../../../store/project/documents";
 import { box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { Status } from "../../../testing/routes";
@@ -188,4 +189,31 @@ test("the past before a build shows the text that ran, to be read only; the own 
   server.becomes({ state: "running", scan: 1000, program_version: 2, past: null });
   await waitFor(() => expect(text().value).toBe("stored mine"));
   expect(saveButton()).toHaveProperty("disabled", false);
+});
+
+test("a build that was refused for errors in the text says so until there are none any more", async () => {
+  const wrong = {
+    file: PATH,
+    line: 1,
+    column: 1,
+    end_line: 1,
+    end_column: 2,
+    severity: "error",
+    code: "S001",
+    message: "",
+  };
+  const { user } = await openEditor((server) => {
+    server.on("POST", "/projects/*/build", () => new Status(422, { message: "it has errors", near: [] }));
+  });
+  useDocuments.setState({ problems: [wrong as never] });
+  await user.click(buildButton());
+  await screen.findByText(t("build.refused"));
+  act(() => useDocuments.setState({ problems: [] }));
+  expect(screen.queryByText(t("build.refused"))).toBeNull();
+
+  // Refused for a different reason, it stays.
+  await user.click(buildButton());
+  await screen.findByText(t("build.refused"));
+  act(() => useDocuments.setState({ problems: [] }));
+  expect(screen.getByText(t("build.refused"))).toBeDefined();
 });

@@ -3,6 +3,7 @@ import { useWidths } from "../../../store/page/columns";
 import { showHelp } from "../../../store/page/help";
 import { openFile } from "../../../store/page/navigate";
 import { useDocuments } from "../../../store/project/documents";
+import { useCorrected } from "../../../store/project/refusedBuild";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { useColumns } from "../../../ui/useColumns";
@@ -20,7 +21,8 @@ export function ProblemsPanel() {
   const problems = useDocuments((documents) => documents.problems);
   const trouble = useDocuments((documents) => documents.trouble);
   const build = useDocuments((documents) => documents.build);
-  const refused = build.phase === "done" && !build.ok ? build.message : null;
+  const corrected = useCorrected();
+  const refused = build.phase === "done" && !build.ok && !corrected ? build.message : null;
   return (
     <div className="pane flexcol" data-pane="problems">
       <PastNote of="problems" />

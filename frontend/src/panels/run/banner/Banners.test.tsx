@@ -141,3 +141,10 @@ test("without a connection the page says since when, and tries again when told t
   await user.click(button(t("lost.now")));
   await waitFor(() => expect(screen.queryByRole("alert")).toBeNull());
 });
+
+test("a fatal error says how to go on: by the button of the banner where a mode is chosen, else by choosing one", async () => {
+  const { server } = await openBanners();
+  server.becomes({ state: "fatal", mode: "MONITOR", scan: 70 });
+  await waitFor(() => expect(alert()).toContain(t("fatal.about.goon", { scan: "70", mode: "MONITOR" })));
+  expect(button(t("fatal.goon"))).toBeDefined();
+});

@@ -107,3 +107,11 @@ test("in the past one goes scan by scan, and the mode is not to be changed", asy
   await user.click(button(t("run.scan.past")));
   await waitFor(() => expect(server.sentOf("travel").map(({ scan }) => scan)).toEqual([499, 501]));
 });
+
+test("how long a scan of the past took is not known", async () => {
+  const { server } = await openBar();
+  server.becomes({ cycle_us: 12 });
+  await waitFor(() => expect(screen.getByTestId("cycle").textContent).toContain("12"));
+  server.becomes({ state: "past", scan: 5, past: { by: "Ann", live_scan: 2000 }, cycle_us: 0.02 });
+  await waitFor(() => expect(screen.getByTestId("cycle").textContent).toBe("–"));
+});
