@@ -11,12 +11,14 @@ import { useCorrected } from "../../../store/project/refusedBuild";
 import { shownText, useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { StateWord } from "../../../ui/StateWord";
 import type { Pou } from "../../../wire/types";
 import { DebugSwitches } from "./DebugSwitches";
 import { shownLine, useHaltedLine } from "./halt";
 import { SeenAs } from "./SeenAs";
-import { VerifyButton } from "./VerifyButton";
+import { canVerify, VerifyButton } from "./VerifyButton";
+import { verifyHere } from "./verifyHere";
 
 /** Kinds of declarations with instances: the text shows the values of one instance. */
 const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"];
@@ -51,10 +53,15 @@ export function EditorBar({ path }: { path: string }) {
           <BuildOutcome />
         </span>
         <span className="edtools">
-          <RollBack />
+          <span className="edextra">
+            <RollBack />
+          </span>
           <DebugSwitches path={path} />
-          <VerifyButton path={path} pou={found} />
-          <ChecksToggle />
+          <span className="edextra">
+            <VerifyButton path={path} pou={found} />
+            <ChecksToggle />
+          </span>
+          <More path={path} pou={found} />
           <button
             type="button"
             className="btn quiet sm"
@@ -94,6 +101,37 @@ function useLooked(path: string, cursor: Cursor | null): number {
   if (since.key !== key || (since.cursor === null && cursor !== null)) setSince({ key, cursor });
   const moved = since.key === key && since.cursor !== null && cursor !== null && since.cursor.line !== cursor.line;
   return halted && !moved ? shownLine(path, halted.line) : (cursor?.line ?? 1);
+}
+
+/** In a narrow bar: what is done less often than to save and to build, which stay where they are. */
+function More({ path, pou }: { path: string; pou: Pou | undefined }) {
+  const note = useChangeNote();
+  const forbidden = useForbidden("change");
+  const checks = usePrefs((prefs) => prefs.checks);
+  const running = useBench((bench) => bench.instance !== null);
+  const items = (): MenuItem[] => [
+    ...(running && pou && canVerify(pou)
+      ? [{ label: t("verify.range.menu"), icon: "differs" as const, onSelect: () => verifyHere(path) }]
+      : []),
+    { label: t("checks.show"), checked: checks, onSelect: toggleChecks },
+    ...(note === ""
+      ? []
+      : [
+          {
+            label: t("change.rollback"),
+            icon: "past" as const,
+            disabled: forbidden !== null,
+            onSelect: () => void rollBack(),
+          },
+        ]),
+  ];
+  return (
+    <span className="edmore">
+      <MenuButton label={t("menu.label")} className="ib sm" items={items}>
+        <Icon name="more" />
+      </MenuButton>
+    </span>
+  );
 }
 
 function ChecksToggle() {

@@ -7,10 +7,12 @@ import { verifyHere } from "./verifyHere";
 /** Only code that runs can be verified. */
 const VERIFIED: readonly Pou["kind"][] = ["program", "function_block", "function", "method"];
 
+export const canVerify = ({ kind }: Pick<Pou, "kind">) => VERIFIED.includes(kind);
+
 /** Verifies the selected lines, or the POU at the caret. */
 export function VerifyButton({ path, pou }: { path: string; pou: Pick<Pou, "kind"> | undefined }) {
   const instance = useBench((bench) => bench.instance);
-  if (!instance || !pou || !VERIFIED.includes(pou.kind)) return null;
+  if (!instance || !pou || !canVerify(pou)) return null;
   return (
     <button
       type="button"
