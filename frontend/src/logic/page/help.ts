@@ -17,9 +17,10 @@ export const CONTENTS = "README.md";
 
 /** By the name of a panel, or of a part of the window. */
 const TOPICS: Readonly<Record<string, string>> = {
+  calls: "projects.md#who-uses-it-who-calls-it",
   compare: "time-travel.md#comparing-two-runs",
   console: "window.md#console",
-  cross: "memory.md",
+  cross: "projects.md#who-uses-it-who-calls-it",
   debug: "debugger.md",
   diagnostics: "subranges.md",
   disturb: "verification.md#disturbances",

@@ -19,7 +19,18 @@ export const PANELS = [
 type PanelName = (typeof PANELS)[number];
 export const isPanel = (name: string): name is PanelName => PANELS.some((known) => known === name);
 /** Pages in the centre, among the files: opened on request, closed like a file. */
-const PAGES = ["sweep", "usererrors", "record", "compare", "versions", "rack", "memory", "cross", "calls", "help"] as const;
+const PAGES = [
+  "sweep",
+  "usererrors",
+  "record",
+  "compare",
+  "versions",
+  "rack",
+  "memory",
+  "cross",
+  "calls",
+  "help",
+] as const;
 export type PageName = (typeof PAGES)[number];
 
 export const pageOf = (panel: string): PageName | undefined => PAGES.find((name) => name === panel);
