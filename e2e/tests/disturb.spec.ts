@@ -11,7 +11,7 @@ test('inputs, memory and results are disturbed: everybody sees the disturbances,
   await mika.runs();
   await jo.runs();
   await others.show();
-  await expect(others.pane).toContainText('No disturbances');
+  await expect(others.pane).toContainText('No disturbance is active');
 
   await test.step('an incomplete form says what is missing, and the entries stay', async () => {
     await disturb.show();
@@ -58,7 +58,7 @@ test('inputs, memory and results are disturbed: everybody sees the disturbances,
     await mika.watch.set('start', 'TRUE');
     await mika.watch.shows('start', 'FALSE');
     await others.takeBack('start');
-    await expect(disturb.pane).toContainText('No disturbances');
+    await expect(disturb.pane).toContainText('No disturbance is active');
     await mika.watch.shows('start', 'TRUE');
     await mika.watch.shows('motor', 'TRUE');
   });
@@ -91,7 +91,7 @@ test('inputs, memory and results are disturbed: everybody sees the disturbances,
     await expect(disturb.line('D500')).toContainText('Waiting');
     await expect(disturb.list).toContainText('2 disturbances');
     await disturb.list.getByRole('button', { name: 'Take all back' }).click();
-    await expect(disturb.pane).toContainText('No disturbances');
+    await expect(disturb.pane).toContainText('No disturbance is active');
   });
 
   await test.step('in the past nothing can be disturbed', async () => {

@@ -36,7 +36,7 @@ export const disturb = {
   "disturb.taken": "{message}, entered before scan {scan}",
   "disturb.next": "next in scan {scan}",
   "disturb.noinstance": "No virtual PLC is selected. Select one at the top left to disturb it.",
-  "disturb.none": "No disturbances",
+  "disturb.none": "No disturbance is active",
   "disturb.none.about":
     "A disturbance is a fault that a robust program must tolerate: a bit that flips, an input that comes late. It is recorded in the journal, and a verification shows its effects.",
   "disturb.path": "Variable or address",

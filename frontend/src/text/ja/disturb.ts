@@ -38,7 +38,7 @@ export const disturb: Record<keyof typeof english, string> = {
   "disturb.taken": "{message}、スキャン {scan} の前に入力",
   "disturb.next": "次はスキャン {scan}",
   "disturb.noinstance": "仮想 PLC が選ばれていません。左上で選ぶと外乱を与えられます。",
-  "disturb.none": "この PLC に外乱はありません",
+  "disturb.none": "有効な外乱はありません",
   "disturb.none.about":
     "外乱とは、よいプログラムが耐えるべきものです。ビットの反転や入力の遅れなどで、ジャーナルに残り、検証に結果が表示されます。",
   "disturb.path": "変数またはアドレス",

@@ -6,10 +6,12 @@ import { Icon } from "../../../ui/Icon";
 export function FirstSteps() {
   return (
     <section className="firststeps" aria-label={t("errors.start.title")}>
-      <h3>{t("errors.start.title")}</h3>
-      <button type="button" className="link" onClick={openTour}>
-        {t("tour.open")}
-      </button>
+      <div className="row apart">
+        <h3>{t("errors.start.title")}</h3>
+        <button type="button" className="link" onClick={openTour}>
+          {t("tour.open")}
+        </button>
+      </div>
       <ul>
         <li className="way">
           <Icon name="generated" small />
