@@ -7,6 +7,7 @@ import { frameNow } from "../../../store/debug/stack";
 import { askAt } from "../../../store/project/language";
 import { t } from "../../../text";
 import type { Pou } from "../../../wire/types";
+import { liveHover } from "./liveHover";
 import { languages } from "./monaco";
 import { hasValues, nameAt, pouOf } from "./names";
 import { at, isPast, pathOfModel, signalOf, textOf } from "./serverShapes";
@@ -45,5 +46,8 @@ async function variable(name: string, around: Pou | undefined): Promise<string[]
   const found = own || (await worthOf(name, false));
   if (!found) return null;
   const where = inFrame || !own ? [] : [t("debug.seenas.hover", { instance })];
-  return [code(`${name} : ${found.type ?? ""} := ${found.result}`), ...where];
+  const head = `${name} : ${found.type ?? ""}`;
+  // While the program is halted, or in the past, a value stays what it is.
+  if (!inFrame) liveHover(head, own && whole ? whole : name);
+  return [code(`${head} := ${found.result}`), ...where];
 }
