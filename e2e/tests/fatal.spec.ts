@@ -26,7 +26,7 @@ test('a fatal error stops the program, the page says why and how to continue, an
     await expect(mika.banner).toContainText('80F4');
     await expect(mika.banner).toContainText(ERROR);
     await expect(mika.banner).toContainText('I/O table checksum');
-    await expect(mika.banner).toContainText('Clear the error');
+    await expect(mika.banner).toContainText('Recover and go on clears the error');
   });
 
   await test.step('the program is stopped, the outputs are off', async () => {
