@@ -12,6 +12,8 @@ import { HelpPanel } from "./HelpPanel";
 const shows = (title: string) => screen.findByRole("article", { name: title });
 const marked = () => document.querySelector(".here")?.textContent;
 
+const TEXT = "beat : TON; motor := 1;";
+
 async function openHelp() {
   const page = await openPage();
   useHelp.setState({ trail: [["README.md"]], at: 0, search: "" });
@@ -56,7 +58,7 @@ test("F1 explains the block or the problem at the caret, and else the panel", as
     useDocuments.setState({
       active: "Main.st",
       cursor: { line: 1, column },
-      open: { "Main.st": { text: "beat : TON; motor := 1;" } } as never,
+      open: { "Main.st": { path: "Main.st", text: TEXT, savedText: TEXT } } as never,
       problems: [],
     });
   at(9);
@@ -75,6 +77,7 @@ test("F1 explains the block or the problem at the caret, and else the panel", as
   await shows("The watch table and the forces");
   expect(marked()).toBe("Forces");
   pane.remove();
+  useDocuments.setState({ active: null, cursor: null, open: {}, problems: [] });
 });
 
 test("in Japanese the help says that it is in English", async () => {
