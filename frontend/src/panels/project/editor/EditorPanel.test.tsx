@@ -6,7 +6,7 @@ import { openPage } from "../../../testing/page";
 import { Status } from "../../../testing/routes";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { OnlineChange } from "../../../wire/types";
+import type { OnlineChange, Problem } from "../../../wire/types";
 import { EditorPanel } from "./EditorPanel";
 
 const PATH = "Main.st";
@@ -192,24 +192,18 @@ test("the past before a build shows the text that ran, to be read only; the own 
 });
 
 test("a build that was refused for errors in the text says so until there are none any more", async () => {
-  const wrong = {
-    file: PATH,
-    line: 1,
-    column: 1,
-    end_line: 1,
-    end_column: 2,
-    severity: "error",
-    code: "S001",
-    message: "",
-  };
+  const at = { file: PATH, line: 1, column: 1, end_line: 1, end_column: 2 };
+  let problems: Problem[] = [{ ...at, severity: "error", code: "S001", message: "" }];
   const { user } = await openEditor((server) => {
+    server.on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems }));
     server.on("POST", "/projects/*/build", () => new Status(422, { message: "it has errors", near: [] }));
   });
-  useDocuments.setState({ problems: [wrong as never] });
+  await waitFor(() => expect(useDocuments.getState().problems).toHaveLength(1));
   await user.click(buildButton());
   await screen.findByText(t("build.refused"));
-  act(() => useDocuments.setState({ problems: [] }));
-  expect(screen.queryByText(t("build.refused"))).toBeNull();
+  problems = [];
+  await user.type(text(), " corrected");
+  await waitFor(() => expect(screen.queryByText(t("build.refused"))).toBeNull());
 
   // Refused for a different reason, it stays.
   await user.click(buildButton());
