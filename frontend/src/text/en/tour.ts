@@ -34,7 +34,7 @@ export const tour = {
   "tour.step": "Step {at} of {of}",
   "tour.sweep": "Press Run all, and start the sweep.",
   "tour.sweep.done":
-    "Each error is raised alone, from the same state. The table says what the program does about it; the Inner board error, for example, is never handled.",
+    "Each error is raised alone, from the same state. The table says what the program does about it; the Inner board error is read without effect, the Battery error never.",
   "tour.title": "Tour",
   "tour.write": "In the watch table click into the column Change of start, type TRUE, and press Enter.",
   "tour.write.done":

@@ -36,7 +36,7 @@ export const tour: Record<keyof typeof english, string> = {
   "tour.step": "ステップ {at}/{of}",
   "tour.sweep": "「全件実行」を押し、異常スイープを開始します。",
   "tour.sweep.done":
-    "各異常を、同じ状態から一つずつ発生させます。表にプログラムの反応が出ます。例えば「内部ボード異常」は処理されていません。",
+    "各異常を、同じ状態から一つずつ発生させます。表にプログラムの反応が出ます。Inner board error は読まれても効果がなく、Battery error は読まれません。",
   "tour.title": "ツアー",
   "tour.write": "ウォッチ表の start の「変更値」欄をクリックし、TRUE と入力して Enter を押します。",
   "tour.write.done":
