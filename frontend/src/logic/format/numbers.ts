@@ -1,10 +1,16 @@
 /** Numbers and times as the bars show them. */
 
-/** 128 411 with thin gaps, so that long counts can be read. */
+/** 128,411, as the server writes numbers in its sentences, so that long counts can be read. */
 export function grouped(value: number): string {
   return Math.trunc(value)
     .toString()
-    .replace(/\B(?=(\d{3})+(?!\d))/g, "\u2009");
+    .replace(/\B(?=(\d{3})+(?!\d))/g, ",");
+}
+
+/** A typed number without what groups its digits: 128,411 and 128 411 are 128411; 1,5 stays as it is. */
+export function ungrouped(text: string): string {
+  const plain = text.replace(/\s/g, "");
+  return /^[1-9]\d{0,2}(,\d{3})+$/.test(plain) ? plain.replaceAll(",", "") : plain;
 }
 
 /** PLC time as 00:21:24.110; with the number of days before it when there are any. */

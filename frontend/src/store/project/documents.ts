@@ -11,6 +11,7 @@ import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou,
 import { inTurn } from "../page/inTurn";
 import { forget, keep, recall } from "../page/localStorage";
 import { openFile, showPanel } from "../page/navigate";
+import { usePrefs } from "../page/prefs";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 
@@ -421,3 +422,8 @@ async function check(): Promise<void> {
     if (turn === checkTurn) set({ trouble: messageOf(error) });
   }
 }
+
+// The compiler's sentences come in the language of the page.
+usePrefs.subscribe((now, before) => {
+  if (now.language !== before.language) scheduleCheck();
+});

@@ -12,7 +12,9 @@ export function GridHead() {
   const sort = useWatchList((list) => list.sort);
   return (
     <div className="gr h" role="row" aria-rowindex={1}>
-      <span className="gut" role="columnheader" aria-label={t("force.column")} />
+      <span className="gut" role="columnheader">
+        <span className="unseen">{t("force.column")}</span>
+      </span>
       <span role="columnheader" className="first" aria-sort={direction(sort, "target")}>
         <SortButton column="target" sort={sort} />
       </span>
@@ -25,7 +27,9 @@ export function GridHead() {
           />
         </span>
       ))}
-      <span role="columnheader" aria-label={t("watch.remove")} />
+      <span role="columnheader">
+        <span className="unseen">{t("watch.remove")}</span>
+      </span>
     </div>
   );
 }
