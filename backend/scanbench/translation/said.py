@@ -24,7 +24,7 @@ _AFTER = r"(?:, (?:found `|but the file|raised at|written at|as different|at ?mo
 """How an argument begins that follows another at once: as a sentence or a part of one, that is not always there."""
 _ITEMS = re.compile(r",? (?:and|or) |, ")
 _PARTS = (re.compile(r"((?<=[.?])[ \n](?=[A-Z`]))"), re.compile("(; )"), re.compile("(, )"))
-"""Where a text is cut when no template fits the whole: behind sentences, then between parts, then between items."""
+"""Where a text is cut when no template fits the whole: after sentences, then between parts, then between items."""
 _MARK = {" ": "", "; ": "。", ", ": "、"}
 _HEAD = re.compile(r"((?:`[^`]*`|'[^']*'|[^\s:]+(?: -> [^\s:]+)?): )(.+)", re.DOTALL)
 """What something is said about."""
@@ -159,7 +159,7 @@ def template(english: str, said: str) -> Template:
 
 
 def _joined(before: str, after: str) -> str:
-    """Japanese has no spaces between its words, and none behind a full stop."""
+    """Japanese has no spaces between its words, and none after a full stop."""
     if before.endswith("。"):
         return before + after.lstrip(" ")
     if _JAPANESE.search(before[-1:]) and after.startswith(" ") and _JAPANESE.search(after[1:2]):
