@@ -7,7 +7,6 @@ import { Refused, rest } from "../../wire/rest";
 import { link } from "../../wire/socket";
 import type { AppInfo, Instance, ModelInfo, Project } from "../../wire/types";
 import { keep, recall } from "../page/localStorage";
-import { usePrefs } from "../page/prefs";
 import { resetPlc, usePlc } from "./plc";
 import { instanceChanged } from "./reset";
 
@@ -65,11 +64,6 @@ const KEY_PATIENCE = 10_000;
 
 usePlc.subscribe(({ link: now }, { link: before }) => {
   if (now.state === "lost" && now.attempt !== before.attempt) void checkKey();
-});
-
-// Whatever the server has said is said again, in the language that the page has now.
-usePrefs.subscribe((now, before) => {
-  if (now.language !== before.language) link.again();
 });
 
 export async function chooseInstance(instance: Instance): Promise<void> {

@@ -11,7 +11,6 @@ import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou,
 import { inTurn } from "../page/inTurn";
 import { forget, keep, recall } from "../page/localStorage";
 import { openFile, showPanel } from "../page/navigate";
-import { usePrefs } from "../page/prefs";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 
@@ -398,7 +397,7 @@ const CHECK_DELAY = 50;
 let checkTimer: ReturnType<typeof setTimeout> | undefined;
 let checkTurn = 0;
 
-function scheduleCheck(): void {
+export function scheduleCheck(): void {
   clearTimeout(checkTimer);
   checkTimer = setTimeout(() => void check(), CHECK_DELAY);
 }
@@ -422,8 +421,3 @@ async function check(): Promise<void> {
     if (turn === checkTurn) set({ trouble: messageOf(error) });
   }
 }
-
-// The compiler's sentences come in the language of the page.
-usePrefs.subscribe((now, before) => {
-  if (now.language !== before.language) scheduleCheck();
-});
