@@ -30,7 +30,7 @@ NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.
 .PHONY: help setup setup-test run test check coverage bench bench-ui shots lock clean
 .PHONY: fuzz features nightly nightly-unit nightly-e2e
 .PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
-.PHONY: tools-python tools-node system-chromium system-postgresql
+.PHONY: tools-python tools-node system-chromium system-fonts system-postgresql
 
 help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
@@ -86,7 +86,7 @@ fuzz: $(VENV)/.stamp-dev
 features: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page && $(BIN)/python -m tests.api_page
 
-shots: setup-test
+shots: setup-test system-fonts
 	@cd e2e && $(NPM) run shots
 
 # ------------------------------------------------------------------------------------------------ the steps of a test
@@ -192,6 +192,10 @@ endef
 
 system-chromium:
 	@[ -x "$${CHROMIUM:-}" ] || command -v chromium >/dev/null || { $(call apt_install,Chromium,chromium fonts-dejavu-core fonts-noto-core); }
+
+# Pictures in Japanese need its letters; no test does.
+system-fonts:
+	@fc-list :lang=ja 2>/dev/null | grep -q . || { $(call apt_install,Japanese fonts,fonts-noto-cjk); }
 
 system-postgresql:
 	@compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || command -v initdb >/dev/null || { $(call apt_install,PostgreSQL,postgresql); }

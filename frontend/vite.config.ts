@@ -41,7 +41,8 @@ export default defineConfig({
           groups: [
             // Helpers of the build are needed by all chunks, and must not make the first chunk import Monaco.
             { name: "runtime", test: /\0/, priority: 1 },
-            { name: "monaco", test: /node_modules[\\/]monaco-editor[\\/]/ },
+            // Without its words in other languages, of which one is loaded, and before it.
+            { name: "monaco", test: /node_modules[\\/]monaco-editor[\\/](?!.*[\\/]nls[\\/]lang[\\/])/ },
           ],
         },
       },

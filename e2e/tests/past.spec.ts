@@ -239,4 +239,4 @@ test('the past before a build shows the text, the values and the version of its 
 });
 
 /** A number as the page shows it, with thin gaps. */
-const grouped = (scan: number) => String(scan).replace(/\B(?=(\d{3})+(?!\d))/g, '\u2009');
+const grouped = (scan: number) => String(scan).replace(/\B(?=(\d{3})+(?!\d))/g, ',');

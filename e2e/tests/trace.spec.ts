@@ -49,7 +49,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     await mika.simulator.generate('Basic I/O Unit error');
     await expect(trace.state).toHaveText('Complete');
     await expect(others.state).toHaveText('Complete');
-    await expect(trace.pane).toContainText(/scan [\d\u2009]+, A402\.12 rises/);
+    await expect(trace.pane).toContainText(/scan [\d,]+, A402\.12 rises/);
   });
 
   await test.step('the cursors read values, also by keyboard', async () => {

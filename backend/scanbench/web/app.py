@@ -41,6 +41,7 @@ from scanbench.web.routes import verify as routes_verify
 from scanbench.web.routes import watch as routes_watch
 from scanbench.web.socket import dap as routes_dap
 from scanbench.web.socket import lsp as routes_lsp
+from scanbench.web.spoken import Spoken
 from scanbench.wire.refused import Refused, Unavailable
 
 _STATUS: dict[type[Exception], int] = {
@@ -79,7 +80,7 @@ def create_app(config: Config) -> ASGIApp:
     app = bare_app()
     app.router.lifespan_context = lifespan
     app.add_middleware(Guard, gate=config.gate)
-    return NoStore(app)  # Starlette answers to a bug outside of what is added to it
+    return NoStore(Spoken(app))  # Starlette answers to a bug outside of what is added to it
 
 
 def bare_app() -> FastAPI:

@@ -15,14 +15,19 @@ A = TypeVar("A")
 
 @asynccontextmanager
 async def connected(
-    folder: Path, capabilities: types.ClientCapabilities, on_register: Callable[[types.RegistrationParams], None]
+    folder: Path,
+    capabilities: types.ClientCapabilities,
+    on_register: Callable[[types.RegistrationParams], None],
+    locale: str | None,
 ) -> AsyncIterator[LanguageClient]:
     """Initialised; the server has ended afterwards."""
     client = make_test_lsp_client()
     client.feature(types.CLIENT_REGISTER_CAPABILITY)(on_register)
     await client.start_io(sys.executable, "-m", "scanbench", "lsp")
     root = types.WorkspaceFolder(folder.as_uri(), folder.name)
-    await client.initialize_session(types.InitializeParams(capabilities=capabilities, workspace_folders=[root]))
+    await client.initialize_session(
+        types.InitializeParams(capabilities=capabilities, workspace_folders=[root], locale=locale)
+    )
     try:
         yield client
     finally:
@@ -35,11 +40,12 @@ def conversation(
     talk: Callable[[LanguageClient], Awaitable[A]],
     capabilities: types.ClientCapabilities | None = None,
     on_register: Callable[[types.RegistrationParams], None] = lambda _: None,
+    locale: str | None = None,
 ) -> A:
     """What is said to a server of a folder, in a loop of its own."""
 
     async def whole() -> A:
-        async with connected(folder, capabilities or types.ClientCapabilities(), on_register) as client:
+        async with connected(folder, capabilities or types.ClientCapabilities(), on_register, locale) as client:
             return await talk(client)
 
     return asyncio.run(whole())

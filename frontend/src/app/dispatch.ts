@@ -6,6 +6,7 @@ import { forgetRefusals } from "../store/debug/run";
 import { onSweep, onSweepHello } from "../store/errors/sweeps";
 import { onFileSaved } from "../store/errors/userErrors";
 import { catchUpPanels, onPanelSaved } from "../store/operator/panels";
+import { usePrefs } from "../store/page/prefs";
 import { onComparison, refreshComparisons } from "../store/past/comparisons";
 import { onRerun } from "../store/past/reruns";
 import { onProject, useBench } from "../store/plc/bench";
@@ -16,7 +17,7 @@ import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc/plc";
 import { onTimeline } from "../store/plc/timeline";
 import { apply } from "../store/plc/values";
 import { onWatching, watchAgain } from "../store/plc/watches";
-import { catchUp, onBuilt, onDeleted, onSaved } from "../store/project/documents";
+import { catchUp, onBuilt, onDeleted, onSaved, scheduleCheck } from "../store/project/documents";
 import { onRetrospective, onTraces, refreshTraces } from "../store/trace/traces";
 import { onDisturbances } from "../store/verify/disturb";
 import { onVerifications, refreshVerifications } from "../store/verify/verify";
@@ -31,6 +32,7 @@ import { link } from "../wire/socket";
 import type { ServerMessage } from "../wire/types";
 
 export function connectStores(): void {
+  followLanguage();
   sayNoConnection((reading) => t(reading ? "lost.read" : "lost.change"));
   link.listen({
     onStatus: (status) => {
@@ -44,6 +46,15 @@ export function connectStores(): void {
       setClock(frame.scan, frame.timeNs);
       apply(frame);
     },
+  });
+}
+
+/** Whatever the server has said is said again, in the language that the page has now. */
+function followLanguage(): void {
+  usePrefs.subscribe((now, before) => {
+    if (now.language === before.language) return;
+    link.again();
+    scheduleCheck();
   });
 }
 

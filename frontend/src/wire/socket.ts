@@ -48,6 +48,11 @@ class Link {
     this.open();
   }
 
+  /** Connects again to the same instance, which then tells everything again. */
+  again(): void {
+    if (this.instance !== null) this.connect(this.instance);
+  }
+
   /** Connects at once instead of waiting for the next turn. */
   tryNow(): void {
     if (this.status.state !== "lost") return;

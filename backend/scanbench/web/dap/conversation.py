@@ -8,6 +8,7 @@ from typing import Protocol
 
 from pydantic import ValidationError
 
+from scanbench.translation.inside import said_inside, wanted
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal, response
 from scanbench.web.dap.debuggee import Debuggee
@@ -62,6 +63,7 @@ class Conversation:
         self.user = user
         self._send, self._lender, self._on_end = send, lender, on_end
         self._seq = 0
+        self._language = "en"
         self._client: shapes.Initialize | None = None
         self._attached: Attached | None = None
         self._configured = asyncio.Event()
@@ -189,6 +191,7 @@ class Conversation:
         if self._client is not None and self._lender.present is None:
             raise Refused("initialize comes once")
         self._client = shapes.Initialize.model_validate(request.arguments)
+        self._language = wanted(self._client.locale)
         self._respond(request.seq, request.command, CAPABILITIES)
         present = self._lender.present
         if present is not None:
@@ -317,7 +320,7 @@ class Conversation:
 
     def _say(self, message: Body) -> None:
         self._seq += 1
-        self._send({"seq": self._seq, **message})
+        self._send({"seq": self._seq, **said_inside(message, self._language)})
 
 
 def _without_nulls(value: object) -> object:

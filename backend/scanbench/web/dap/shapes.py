@@ -39,6 +39,7 @@ class Nothing(Args):
 class Initialize(Args):
     client_id: str = Field(default="", alias="clientID")
     client_name: str = ""
+    locale: str = ""
     lines_start_at1: bool = True
     columns_start_at1: bool = True
     path_format: Literal["path"] = "path"

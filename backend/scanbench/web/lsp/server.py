@@ -6,11 +6,13 @@ from typing import Protocol
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException, JsonRpcInternalError, PyglsError
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol
 
 import scanbench
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.from_disk import PROJECT_FILE
 from scanbench.syntax.parse_file import ENDINGS
+from scanbench.translation.inside import said_inside, wanted
 from scanbench.web.lsp import annotations, calls, completion, crossing, mending, navigation, outline, renaming
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.project import Saved, Told
@@ -24,6 +26,15 @@ class _Files(Protocol):
     def files(self) -> list[tuple[str, str]]: ...
 
 
+class _Protocol(LanguageServerProtocol):
+    """Says everything in the language of the client."""
+
+    language = "en"
+
+    def _serialize_message(self, data: object) -> dict[str, object]:
+        return said_inside(super()._serialize_message(data), self.language)
+
+
 class _Server(LanguageServer):
     def report_server_error(self, error: Exception, source: type[PyglsError | JsonRpcException]) -> None:
         """Tells the client of an error; but not by sending what went wrong in sending, as that would have no end when it is gone."""
@@ -33,11 +44,13 @@ class _Server(LanguageServer):
 
 def make_server(saved_of: Callable[[types.InitializeParams], Saved]) -> LanguageServer:
     """A server for one client."""
-    server = _Server("scanbench", scanbench.__version__)
+    server = _Server("scanbench", scanbench.__version__, protocol_cls=_Protocol)
     language = Language(server, saved_of)
 
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
+        if isinstance(server.protocol, _Protocol):
+            server.protocol.language = wanted(params.locale or "")
         language.begin(params)
 
     @server.feature(types.INITIALIZED)

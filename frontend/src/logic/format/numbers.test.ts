@@ -1,9 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { bytes, duration, grouped, interval, microseconds, percent, plcTime } from "./numbers";
+import { bytes, duration, grouped, interval, microseconds, percent, plcTime, ungrouped } from "./numbers";
 
 describe("numbers", () => {
   it("groups thousands", () => {
-    expect(grouped(128411)).toBe("128\u2009411");
+    expect(grouped(128411)).toBe("128,411");
+    for (const typed of ["128411", " 128,411 ", "128 411", "128\u2009411"]) expect(ungrouped(typed)).toBe("128411");
+    for (const other of ["1,5", "12,34", ",123", "1.5", "x"]) expect(ungrouped(other)).toBe(other);
     expect(grouped(999)).toBe("999");
   });
 

@@ -1,10 +1,17 @@
 /** Numbers and times as the bars show them. */
+import { t } from "../../text";
 
-/** 128 411 with thin gaps, so that long counts can be read. */
+/** 128,411, as the server writes numbers in its sentences, so that long counts can be read. */
 export function grouped(value: number): string {
   return Math.trunc(value)
     .toString()
-    .replace(/\B(?=(\d{3})+(?!\d))/g, "\u2009");
+    .replace(/\B(?=(\d{3})+(?!\d))/g, ",");
+}
+
+/** A typed number without what groups its digits: 128,411 and 128 411 are 128411; 1,5 stays as it is. */
+export function ungrouped(text: string): string {
+  const plain = text.replace(/\s/g, "");
+  return /^[1-9]\d{0,2}(,\d{3})+$/.test(plain) ? plain.replaceAll(",", "") : plain;
 }
 
 /** PLC time as 00:21:24.110; with the number of days before it when there are any. */
@@ -67,9 +74,9 @@ export function duration(ns: number): string {
   const s = ns / 1e9;
   if (s < 1) return `${Math.round(s * 1000)} ms`;
   if (s < 60) return `${s.toFixed(1)} s`;
-  if (s < 3600) return `${Math.floor(s / 60)} min ${Math.floor(s % 60)} s`;
-  if (s < 86_400) return `${Math.floor(s / 3600)} h ${Math.floor((s % 3600) / 60)} min`;
-  return `${Math.floor(s / 86_400)} d ${Math.floor((s % 86_400) / 3600)} h`;
+  if (s < 3600) return t("duration.minutes", { minutes: Math.floor(s / 60), seconds: Math.floor(s % 60) });
+  if (s < 86_400) return t("duration.hours", { hours: Math.floor(s / 3600), minutes: Math.floor((s % 3600) / 60) });
+  return t("duration.days", { days: Math.floor(s / 86_400), hours: Math.floor((s % 86_400) / 3600) });
 }
 
 /** A share: 0 %, 0.4 %, 12 %. */

@@ -2,6 +2,7 @@
 
 import type { TextKey } from "../../text";
 import type { NewRerun } from "../../wire/types";
+import { ungrouped } from "../format/numbers";
 
 export interface RerunForm {
   name: string;
@@ -44,6 +45,6 @@ export function readRerun(form: RerunForm, of: { scan: number; error: string }, 
 const MOST = 1_000_000;
 
 function count(text: string): number | null {
-  const digits = text.replace(/\s/g, "");
+  const digits = ungrouped(text);
   return /^\d{1,7}$/.test(digits) && Number(digits) <= MOST ? Number(digits) : null;
 }

@@ -130,6 +130,7 @@ describe("moving", () => {
     expect(readScan(" 4711 ")).toBe(4711);
     expect(readScan("12 000")).toBe(12_000);
     expect(readScan("12\u2009000")).toBe(12_000);
+    expect(readScan("12,000")).toBe(12_000);
     expect(readScan("1.5")).toBeNull();
     expect(readScan("1,5")).toBeNull();
     expect(readScan("-3")).toBeNull();

@@ -1,5 +1,7 @@
 /** The arithmetic of the timeline: scans to positions on an axis and back, marks that are too close combined to groups. */
+
 import type { Mark } from "../../wire/types";
+import { ungrouped } from "../format/numbers";
 
 /** The scans that are shown, from the left edge to the right one. */
 export interface Axis {
@@ -174,7 +176,7 @@ export function stepTo(key: string, scan: number, whole: Axis): number | "live" 
 
 /** A typed scan: digits, with optional spaces between them. */
 export function readScan(text: string): number | null {
-  const digits = text.replace(/\s/g, "");
+  const digits = ungrouped(text);
   return /^\d{1,15}$/.test(digits) ? Number(digits) : null;
 }
 

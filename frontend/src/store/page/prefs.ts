@@ -34,6 +34,10 @@ function initial(): Prefs {
 
 export const usePrefs = create<Prefs>(initial);
 
+/** Tells the server, which says everything in this language from the next request and the next connection on. */
+const LANGUAGE_COOKIE = "scanbench_language";
+const YEAR_S = 31_536_000;
+
 function apply({ theme, language }: Prefs): void {
   const root = document.documentElement;
   // Colours change without a transition: a value that fades from the old theme would look as if it had just changed.
@@ -43,6 +47,8 @@ function apply({ theme, language }: Prefs): void {
   void root.offsetHeight;
   root.classList.remove("switching");
   setLanguage(language);
+  // biome-ignore lint/suspicious/noDocumentCookie: the Cookie Store API is not in every browser, and has no answer before the next request.
+  document.cookie = `${LANGUAGE_COOKIE}=${language}; path=/; max-age=${YEAR_S}; samesite=lax`;
 }
 
 apply(usePrefs.getState());

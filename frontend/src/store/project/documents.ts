@@ -397,7 +397,7 @@ const CHECK_DELAY = 50;
 let checkTimer: ReturnType<typeof setTimeout> | undefined;
 let checkTurn = 0;
 
-function scheduleCheck(): void {
+export function scheduleCheck(): void {
   clearTimeout(checkTimer);
   checkTimer = setTimeout(() => void check(), CHECK_DELAY);
 }

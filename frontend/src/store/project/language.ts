@@ -2,6 +2,7 @@
 
 import { textChange } from "../../logic/project/textChange";
 import { LspClient, LspRefused } from "../../wire/lsp";
+import { usePrefs } from "../page/prefs";
 import { useDocuments } from "./documents";
 
 interface Position {
@@ -93,6 +94,14 @@ useDocuments.subscribe((now, before) => {
   if (now.project !== before.project || now.open !== before.open) follow();
   // Somebody saved, made or deleted a file: the server of the project tells the language server what is saved.
   if (now.files !== before.files && now.project === before.project) client?.notify(CHANGED, { changes: [] });
+});
+
+// A server that begins now speaks the language of the page.
+usePrefs.subscribe((now, before) => {
+  if (now.language === before.language) return;
+  client?.close();
+  project = null;
+  follow();
 });
 
 const CHANGED = "workspace/didChangeWatchedFiles";

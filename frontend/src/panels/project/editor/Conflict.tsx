@@ -3,8 +3,9 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { later } from "../../../ui/later";
 import type { FileText } from "../../../wire/types";
+import { afterWords } from "./loading";
 
-const DiffView = later(() => import("./DiffView"));
+const DiffView = later(() => afterWords(() => import("./DiffView")));
 
 /** Somebody else saved first: both texts side by side, and a choice. Nothing is lost until the user chooses. */
 export function Conflict({ path, theirs }: { path: string; theirs: FileText }) {

@@ -7,9 +7,10 @@ import { Icon } from "../../../ui/Icon";
 import { later } from "../../../ui/later";
 import { Conflict } from "./Conflict";
 import { EditorBar } from "./EditorBar";
+import { afterWords } from "./loading";
 
 // Monaco is 4 MB: it is loaded after the page is shown.
-const CodeView = later(() => import("./CodeView"));
+const CodeView = later(() => afterWords(() => import("./CodeView")));
 
 /** Says which version is shown, and that the edited text is kept; or why there is no text. */
 function PastNote({ path, version }: { path: string; version: number }) {

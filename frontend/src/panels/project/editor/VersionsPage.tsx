@@ -5,8 +5,9 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { later } from "../../../ui/later";
 import "./versions.css";
+import { afterWords } from "./loading";
 
-const TextsDiff = later(() => import("./TextsDiff"));
+const TextsDiff = later(() => afterWords(() => import("./TextsDiff")));
 
 /** Two versions of the program beside each other, file by file. */
 export function VersionsPage() {

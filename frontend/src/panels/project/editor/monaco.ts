@@ -72,6 +72,7 @@ function paint(): void {
       "editorOverviewRuler.border": "#00000000",
       "scrollbar.shadow": "#00000000",
       focusBorder: token("focus"),
+      ...differences(token),
       ...floats(token),
     },
   });
@@ -81,6 +82,16 @@ function paint(): void {
 // The build shortens #ffffff to #fff, which Monaco does not accept.
 function sixDigits(colour: string): string {
   return colour.length === 4 ? colour.replace(/[^#]/g, "$&$&") : colour;
+}
+
+/** Two texts side by side: so weak that a comment can still be read on it. */
+function differences(token: (name: string) => string): Record<string, string> {
+  return {
+    "diffEditor.insertedLineBackground": `${token("error-handled")}14`,
+    "diffEditor.insertedTextBackground": `${token("error-handled")}1a`,
+    "diffEditor.removedLineBackground": `${token("state-differs")}14`,
+    "diffEditor.removedTextBackground": `${token("state-differs")}1a`,
+  };
 }
 
 /** The editor's own lists, fields and peeks, in the colours of the page. */

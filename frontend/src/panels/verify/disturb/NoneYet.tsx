@@ -3,7 +3,8 @@ import { t } from "../../../text";
 /** What a disturbance is, where none is defined. */
 export function NoneYet() {
   return (
-    <section className="disturbnone" aria-label={t("disturb.none")}>
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: it scrolls where the window is low, and has nothing else that takes the focus.
+    <section className="disturbnone" aria-label={t("disturb.none")} tabIndex={0}>
       <h3>{t("disturb.none")}</h3>
       <p className="muted">{t("disturb.none.about")}</p>
     </section>

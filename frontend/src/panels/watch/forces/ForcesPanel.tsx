@@ -115,7 +115,9 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
         <span className="num" role="columnheader">
           {t("forces.since")}
         </span>
-        <span role="columnheader" aria-label={t("force.release")} />
+        <span role="columnheader">
+          <span className="unseen">{t("force.release")}</span>
+        </span>
       </div>
       <div {...grid.body}>
         {grid.items.map((item) => {

@@ -14,7 +14,9 @@ export function GridHead({ grip }: Pick<Columns, "grip">) {
   const sort = useWatchList((list) => list.sort);
   return (
     <div className="gr h" role="row" aria-rowindex={1}>
-      <span className="gut" role="columnheader" aria-label={t("force.column")} />
+      <span className="gut" role="columnheader">
+        <span className="unseen">{t("force.column")}</span>
+      </span>
       <span role="columnheader" aria-label={t("watch.target")} className="first" aria-sort={direction(sort, "target")}>
         <SortButton column="target" sort={sort} />
         {grip("target", t("watch.target"))}
@@ -31,7 +33,9 @@ export function GridHead({ grip }: Pick<Columns, "grip">) {
           {column !== "bound" && grip(column, t(`watch.${column}`))}
         </span>
       ))}
-      <span role="columnheader" aria-label={t("watch.remove")} />
+      <span role="columnheader">
+        <span className="unseen">{t("watch.remove")}</span>
+      </span>
     </div>
   );
 }

@@ -1,0 +1,88 @@
+"""Sentences as they come out of Scanbench, and what a reader of Japanese gets."""
+
+import re
+
+import pytest
+
+from scanbench.check.build import check_sources
+from scanbench.translation.inside import in_language, wanted
+from scanbench.translation.said import say
+from tests.caseformat import MODELS
+from tests.check.test_problems import BODIES, FILES, MAIN
+
+
+@pytest.mark.parametrize(
+    ("english", "japanese"),
+    [
+        ("`vlave` is not declared. Did you mean `valve` or `valves`?", "`vlave` は宣言されていません。`valve`、`valves` ではありませんか。"),
+        ("The value wanted here is INT, but this is REAL. Convert it with REAL_TO_INT.",
+         "ここで必要な値は INT ですが、これは REAL です。REAL_TO_INT で変換してください。"),
+        ("`;` expected after the name of the task, found `x`.", "タスク名の後に`;` が必要です（`x` があります）。"),
+        ("`END_IF` expected to close the IF of line 3, but the file ends here.",
+         "3 行の IFを閉じる `END_IF` が必要です（ファイルがここで終わっています）。"),
+        ("stopped by a run-time error: Main.st:3:5: division by zero (scan 7)",
+         "実行時エラーで停止: Main.st:3:5: 0 による除算（スキャン 7）"),
+        ("build refused: 2 errors, the first: Main.st:1:2: T001 `x` is not declared.",
+         "ビルドできませんでした: エラー 2 件。最初のエラー: Main.st:1:2: T001 `x` は宣言されていません。"),
+        ("Main.n: 40000 is outside of INT (-32768 to 32767)", "Main.n: 40000 は INT（-32768 ～ 32767）の範囲外です"),
+        ("2 forces released", "強制を 2 件解除しました"),
+    ],
+)  # fmt: skip
+def test_sentences(english: str, japanese: str) -> None:
+    assert say(english, "ja") == japanese
+    assert say(english, "en") == english
+
+
+def test_a_name_is_never_translated() -> None:
+    assert say("`comment` is not declared.", "ja") == "`comment` は宣言されていません。"
+
+
+@pytest.mark.parametrize("text", ["", " ", "x := 1;", "42", "Conveyor of hall 3", "日本語の文。", "a" * 5000])
+def test_what_no_template_fits_stays(text: str) -> None:
+    assert say(text, "ja") == text
+
+
+def test_problems_of_programs_have_no_english_left() -> None:
+    texts = [MAIN.format(body) for _, body, _ in BODIES] + [text for _, text, _ in FILES]
+    left = []
+    for text in texts:
+        for problem in check_sources({"main.st": text}, MODELS["CJ1M-CPU63"]).problems:
+            said = say(problem.message, "ja")
+            if re.search(r"\b[a-z]{2,} [a-z]{2,}\b", re.sub("`[^`]*`", "", said)):
+                left.append(said)
+    assert left == []
+
+
+@pytest.mark.parametrize(
+    ("asked", "language"),
+    [
+        ("", "en"), ("ja", "ja"), ("ja-JP", "ja"), ("ja-JP,ja;q=0.9,en;q=0.8", "ja"), ("en-US,en;q=0.9,ja;q=0.8", "en"),
+        ("de-DE,de;q=0.9,ja;q=0.3", "ja"), ("de", "en"), ("ja;q=.", "ja"), (";;,", "en"), ("xx;q=1.5.2,en", "en"),
+    ],
+)  # fmt: skip
+def test_the_language_that_is_asked_for(asked: str, language: str) -> None:
+    assert wanted(asked) == language
+
+
+def test_only_fields_for_people_are_said() -> None:
+    told = {
+        "message": "nothing was changed",
+        "path": "nothing was changed",
+        "rows": [{"text": "switched on"}],
+        "notes": ["switched off"],
+    }
+    assert in_language(told, "ja") == {
+        "message": "何も変更していません", "path": "nothing was changed", "rows": [{"text": "ON にしました"}], "notes": ["OFF にしました"],
+    }  # fmt: skip
+
+
+def test_a_text_for_an_editor_is_said_line_by_line() -> None:
+    hover = {
+        "contents": {
+            "kind": "markdown",
+            "value": "```iecst\nABS\n```\nThe sum of all arguments.\n- L: how many characters",
+        }
+    }
+    assert in_language(hover, "ja") == {
+        "contents": {"kind": "markdown", "value": "```iecst\nABS\n```\nすべての引数の和。\n- L: 文字数"}
+    }

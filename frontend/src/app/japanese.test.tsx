@@ -1,0 +1,140 @@
+/**
+ * Every panel and page in Japanese, at a server that has something to tell for each: what is on the screen, and what is read aloud, has no
+ * English sentence. What the server says is Japanese here, as it is for who reads Japanese.
+ */
+import { render } from "@testing-library/react";
+import type { FunctionComponent } from "react";
+import { afterEach, beforeEach, expect, test } from "vitest";
+import { chooseLanguage } from "../store/page/prefs";
+import { BASIC, CATALOGUE, CLEARED, MEMORY, RAISED, row, verdict } from "../testing/catalogue";
+import { eventually } from "../testing/eventually";
+import { openPage } from "../testing/page";
+import { RUN } from "../testing/samples";
+import type { FakeServer } from "../testing/server";
+import type { LogLine } from "../wire/types";
+import { components } from "./dockParts";
+
+beforeEach(() => chooseLanguage("ja"));
+afterEach(() => chooseLanguage("en"));
+
+/** Two words of small letters: an English sentence, or a part of one. */
+const ENGLISH = /[A-Za-z]{2,} [a-z]{2,}/;
+const READ_ALOUD = ["aria-label", "aria-description", "title", "placeholder", "alt"];
+const AT = "2026-11-20T10:00:00+00:00";
+const KINDS: LogLine["kind"][] = ["write", "force", "error", "recover", "mode", "run", "build", "system", "halt"];
+const names = {
+  "Basic I/O Unit error": "基本I/Oユニット異常",
+  "Memory error": "メモリ異常",
+  "Battery error": "電池異常",
+};
+
+/** Names of errors are the model's, which has them in Japanese, too. */
+const inJapanese = <T,>(value: T): T =>
+  JSON.parse(Object.entries(names).reduce((text, [en, ja]) => text.replaceAll(en, ja), JSON.stringify(value))) as T;
+
+function busy(server: FakeServer): void {
+  const log = KINDS.map((kind, n) => ({ kind, at: AT, author: "Mika", scan: n, text: "スキャン間で変更" }));
+  const violation = { file: "Main.st", line: 3, column: 1, end_line: 3, end_column: 4, pou: "Main", variable: "level" };
+  server.greeting = inJapanese({
+    errors: [
+      row(BASIC, { ...RAISED, reaction: verdict("reacted", 12) }),
+      row(MEMORY, { ...CLEARED, reaction: verdict("never_read") }),
+    ],
+    log,
+    armed: [
+      {
+        id: 1,
+        by: "Mika",
+        errors: ["battery-error"],
+        state: "waiting",
+        raised: 2,
+        next_scan: 5000,
+        text: "解除するまで",
+      },
+    ],
+    forces: [
+      {
+        path: "lamp",
+        value: "TRUE",
+        author: "Mika",
+        scan: 12,
+        through: "",
+        before: "FALSE",
+        after: "",
+        after_program: "FALSE",
+      },
+    ],
+    diagnostics: {
+      type: "diagnostics",
+      count: 1,
+      dropped: 0,
+      violations: [
+        {
+          ...violation,
+          instance: "Main",
+          low: "0",
+          high: "100",
+          value: "120",
+          times: 3,
+          first_scan: 4,
+          last_scan: 9,
+          text: "範囲外",
+        },
+      ],
+    },
+    disturbances: [
+      { id: 4, kind: "stuck", text: "start 固定", by: "Mika", state: "active", fired: 2, next_scan: null, why: "" },
+    ],
+    timeline: { ...RUN, marks: log.map(({ kind, scan, text, author }) => ({ kind, scan, text, author })) },
+  } as FakeServer["greeting"]);
+  server.on("GET", "/instances/*/model", () => inJapanese(CATALOGUE));
+  server.on("GET", "/instances/*/rack", () => []);
+  server.on("GET", "/projects/*/user-errors", () => ({
+    errors: [],
+    groups: [],
+    problems: [],
+    readable: true,
+    version: 0,
+  }));
+  server.on("POST", "/projects/*/check", () => ({
+    checks: [],
+    pous: [],
+    problems: [{ ...violation, code: "T001", severity: "error" as const, message: "`levle` は宣言されていません。" }],
+  }));
+}
+
+function englishIn(root: Element): string[] {
+  const texts = [...root.querySelectorAll("*")].flatMap((element) => [
+    ...[...element.childNodes].filter((node) => node instanceof Text).map((node) => node.data),
+    ...READ_ALOUD.map((name) => element.getAttribute(name) ?? ""),
+  ]);
+  return texts.filter((text) => ENGLISH.test(text));
+}
+
+test("what is English would be found", () => {
+  const { container } = render(<p title="nothing to do">x</p>);
+  expect(englishIn(container)).toEqual(["nothing to do"]);
+});
+
+test.each(Object.keys(components).sort())("%s", async (name) => {
+  await openPage(busy);
+  const Panel = components[name] as FunctionComponent<{ params: object }>;
+  const { container } = render(<Panel params={{ path: "Main.st" }} />);
+  await eventually(() => expect(container.textContent).not.toBe(""));
+  expect(englishIn(container)).toEqual([]);
+});
+
+test("in a different language the server is asked again, and knows which one", async () => {
+  const { server } = await openPage(busy);
+  const checks = () => server.askedOf("POST", `/projects/${server.instance.project.id}/check`).length;
+  await eventually(() => expect(checks()).toBe(1));
+  let greeted = 0;
+  const { opened } = server;
+  server.opened = (socket) => {
+    if (socket.url.endsWith("/socket")) greeted += 1; // the language server has a socket of its own
+    opened.call(server, socket);
+  };
+  chooseLanguage("en");
+  expect(document.cookie).toContain("scanbench_language=en");
+  await eventually(() => expect([greeted, checks()]).toEqual([1, 2]));
+});
