@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from html import unescape
 
 from scanbench.plcmodel.user_errors import USER_ERRORS
-from scanbench.server.from_disk import PROJECT_FILE
+from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.source import decode
@@ -51,10 +51,9 @@ class Archive:
 
 def pack(name: str, model: str, watch: Sequence[str], files: Mapping[str, str]) -> bytes:
     """The archive of a project."""
-    about = {"name": name, "model": model, "watch": list(watch)}
     made = io.BytesIO()
     with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path, text in {PROJECT_FILE: json.dumps(about, ensure_ascii=False, indent=2) + "\n", **files}.items():
+        for path, text in {PROJECT_FILE: project_file(name, model, watch), **files}.items():
             archive.writestr(zipfile.ZipInfo(path, _WHEN), text.encode(), zipfile.ZIP_DEFLATED)
     return made.getvalue()
 

@@ -121,19 +121,6 @@ class ProgramText(Wire):
     pous: tuple[PouInfo, ...]
 
 
-class ProjectVersion(Wire):
-    """A build of a project that was accepted."""
-
-    version: int
-    author: str
-    at: str = Field(description="ISO 8601")
-
-
-class VersionText(Wire):
-    version: int
-    files: dict[str, str] = Field(description="path -> text")
-
-
 class OnlineChange(Wire):
     """What a swap of the program does to the variables of one running PLC."""
 
@@ -150,6 +137,7 @@ class Build(Wire):
 
     agreed: bool = False
     instances: list[Id] | None = Field(default=None, description="which PLCs are to be changed; null is all of them")
+    message: str = Field(default="", max_length=10_000, description="what was changed and why; kept with the version")
 
 
 class BuildResult(Wire):
