@@ -8,6 +8,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.archive import Archive, pack
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
+from scanbench.server.samples import templates
 from scanbench.session.session import Session
 from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
@@ -38,6 +39,17 @@ class Projects:
         """An empty project on a model."""
         self.model(model)
         return await asyncio.to_thread(self._store.projects.create, name, model, watch)
+
+    async def from_template(self, name: str, model: str, template: str, author: str) -> ProjectRow:
+        """A project with the files of a template or sample, which are not built yet."""
+        known = {each.id: each for each in templates()}
+        chosen = known.get(template)
+        if chosen is None:
+            raise Refused(f"there is no template {template}", tuple(known))
+        project = await self.create(name, model, chosen.watch)
+        for path, text in chosen.files.items():
+            await asyncio.to_thread(self._store.files.save, project.id, path, text, 0, author)
+        return project
 
     async def delete(self, id: int) -> None:
         """Deletes a project that no PLC runs (`refuse_running`)."""

@@ -1334,8 +1334,8 @@ export interface paths {
         get: operations["list_projects"];
         put?: never;
         /**
-         * An empty project on a model
-         * @description An empty project on a model.
+         * A project on a model: empty, or with the files of a template, which are not built yet
+         * @description A project on a model: empty, or with the files of a template, which are not built yet.
          */
         post: operations["create_project"];
         delete?: never;
@@ -2082,6 +2082,26 @@ export interface paths {
          * @description Withdraws the acceptance of a finding.
          */
         post: operations["withdraw_sweep_finding"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/templates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What a new project can begin with: templates, and the samples
+         * @description What a new project can begin with: templates, and the samples.
+         */
+        get: operations["list_templates"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -4611,6 +4631,12 @@ export interface components {
             /** Name */
             name: string;
             /**
+             * Template
+             * @description `id` of a template; empty is a project without files
+             * @default
+             */
+            template: string;
+            /**
              * Watch
              * @description what a fresh watch list begins with
              */
@@ -5038,6 +5064,23 @@ export interface components {
              * Name
              * @description as its project file says; empty without one
              */
+            name: string;
+        };
+        /**
+         * ProjectTemplate
+         * @description What a new project can begin with.
+         */
+        ProjectTemplate: {
+            /** Files */
+            files: string[];
+            /** Id */
+            id: string;
+            /**
+             * Model
+             * @description that its program is written for
+             */
+            model: string;
+            /** Name */
             name: string;
         };
         /**
@@ -11514,6 +11557,35 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    list_templates: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectTemplate"][];
+                };
             };
         };
     };

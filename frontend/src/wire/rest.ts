@@ -26,6 +26,7 @@ import type {
   ProgramText,
   Project,
   ProjectArchive,
+  ProjectTemplate,
   ProjectVersion,
   Reaction,
   RecordInfo,
@@ -148,7 +149,10 @@ async function savedErrors(answer: Promise<Response>): Promise<{ saved: UserErro
 export const rest = {
   app: (signal?: AbortSignal) => json<AppInfo>("GET", "", undefined, signal),
 
-  createProject: (name: string, model: string) => json<Project>("POST", "/projects", { name, model }),
+  /** `template`: what it begins with; empty is a project without files. */
+  createProject: (name: string, model: string, template: string) =>
+    json<Project>("POST", "/projects", { name, model, ...(template && { template }) }),
+  templates: () => json<ProjectTemplate[]>("GET", "/templates"),
   /** What a zip file has of a project. */
   lookAtArchive: (file: Blob) => json<ProjectArchive>("POST", "/archives", file),
   unpackProject: (name: string, model: string, file: Blob) =>

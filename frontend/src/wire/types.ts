@@ -44,6 +44,7 @@ export type HistoryVersion = Shapes["HistoryVersion"];
 export type ImportedInstance = Shapes["ImportedInstance"];
 export type ImportedRecord = Shapes["ImportedRecord"];
 export type ProjectArchive = Shapes["ProjectArchive"];
+export type ProjectTemplate = Shapes["ProjectTemplate"];
 export type ProjectVersion = Shapes["ProjectVersion"];
 export type CommitText = Shapes["CommitText"];
 export type GitCommit = Shapes["GitCommit"];

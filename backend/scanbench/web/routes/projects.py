@@ -21,9 +21,14 @@ async def on_projects(bench: Bench) -> list[wire.Project]:
 
 
 @router.post("", status_code=201)
-async def on_new_project(bench: Bench, new: wire.NewProject) -> wire.Project:
-    """An empty project on a model."""
-    return translate.project(await bench.projects.create(new.name.strip(), new.model, new.watch))
+async def on_new_project(bench: Bench, request: Request, new: wire.NewProject) -> wire.Project:
+    """A project on a model: empty, or with the files of a template, which are not built yet."""
+    name = new.name.strip()
+    if new.template:
+        made = await bench.projects.from_template(name, new.model, new.template, user_of(request).name)
+    else:
+        made = await bench.projects.create(name, new.model, new.watch)
+    return translate.project(made)
 
 
 @router.delete("/{project}", status_code=204)

@@ -34,7 +34,7 @@ export function VersionsPage() {
       )}
       {!any && <p className="lonely faint">{t("versions.none")}</p>}
       {any && (
-        <div className="two">
+        <div className="beside">
           <div className="side">
             <VersionsHistory />
             <Files found={found ?? []} chosen={chosen} />
