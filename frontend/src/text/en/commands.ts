@@ -79,6 +79,8 @@ export const commands = {
   "search.none": "Nothing found",
   "search.one": "Replace in {path}, line {line}",
   "search.regex": "Regular expression",
+  "search.slow":
+    "This expression takes too long, so the search was ended: make it simpler, such as without a + inside of a group with a +.",
   "search.text": "Search",
   "search.unread": "Not searched, because the server did not give the text: {paths}",
   "search.whole": "Whole words only",

@@ -80,6 +80,8 @@ export const commands = {
   "search.none": "見つかりません",
   "search.one": "{path} の {line} 行目を置換",
   "search.regex": "正規表現",
+  "search.slow":
+    "この正規表現は時間がかかりすぎるため検索を中止しました。+ を含むグループをさらに + で繰り返さないなど、簡単にしてください。",
   "search.text": "検索",
   "search.unread": "サーバーからテキストを取得できず、検索していません: {paths}",
   "search.whole": "単語単位",
