@@ -1,4 +1,5 @@
 /** A new project that runs at once, and projects as files. */
+import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { skeleton } from "../../logic/project/explorer";
 import { rest } from "../../wire/rest";
@@ -7,6 +8,11 @@ import { saveFile } from "../page/download";
 import { showPanel } from "../page/navigate";
 import { chooseProject, createInstance, refreshApp } from "../plc/bench";
 import { useDocuments } from "./documents";
+
+/** A zip file that was dropped on the page: the dialog for a new project shows what it has. */
+export const useDropped = create<{ archive: File | null }>(() => ({ archive: null }));
+
+export const dropArchive = (archive: File | null): void => useDropped.setState({ archive });
 
 /** Makes a project, with the files of an archive or template or with a first program, and an instance that runs it. Throws the server's refusal. */
 export async function createProject(

@@ -1,4 +1,4 @@
-import { render, screen, waitFor, within } from "@testing-library/react";
+import { fireEvent, render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { begins, box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
@@ -6,7 +6,9 @@ import { refusal } from "../../../testing/routes";
 import { MODEL, someInstance, someProject } from "../../../testing/samples";
 import { t } from "../../../text";
 import type { ModelSummary } from "../../../wire/types";
+import { Explorer } from "../../project/explorer/Explorer";
 import { NewProject } from "./NewProject";
+import { Picker } from "./Picker";
 
 const MODELS: ModelSummary[] = ["CJ1M", "NJ501"].map((name) => ({
   name,
@@ -133,4 +135,29 @@ test("a template gives its model and its files", async () => {
   await user.click(button(t("create"), dialog));
   await waitFor(() => expect(closed).toBe(true));
   expect(server.askedOf("POST", "/projects")).toEqual([{ name: "steps", model: "NJ501", template: "sequence" }]);
+});
+
+test("a zip file that was dropped on the explorer is looked at in the dialog", async () => {
+  const { server, user } = await openPage((server) => {
+    server.on("GET", "/models", () => MODELS);
+    server.on("GET", "/models/*", () => MODEL);
+    server.on("POST", "/archives", () => ({ name: "Press", model: "NJ501", files: ["Main.st"], left_out: [] }));
+  });
+  render(
+    <>
+      <Explorer />
+      <Picker />
+    </>,
+  );
+  const file = new File(["zip"], "press.zip");
+  fireEvent.drop(screen.getByRole("navigation"), { dataTransfer: { files: [file], types: ["Files"] } });
+  const dialog = await screen.findByRole("dialog", { name: t("newproject.title") });
+  await within(dialog).findByText(`press.zip: ${t("newproject.archive.has", { count: 1 })}`);
+  await waitFor(() =>
+    expect(within(dialog).getByRole("combobox", { name: t("newproject.model") })).toHaveProperty("value", "NJ501"),
+  );
+  expect(box(begins(t("newproject.name")), dialog)).toHaveProperty("value", "Press");
+  expect(server.askedOf("POST", "/archives")).toHaveLength(1);
+  await user.click(button(t("cancel"), dialog));
+  await waitFor(() => expect(screen.queryByRole("dialog", { name: t("newproject.title") })).toBeNull());
 });

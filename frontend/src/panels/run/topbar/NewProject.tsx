@@ -11,8 +11,14 @@ import { ArchiveField, type Chosen } from "./ArchiveField";
 import { ModelFacts } from "./ModelFacts";
 import { TemplateField } from "./TemplateField";
 
+interface Props {
+  /** A zip file that was dropped on the page. */
+  dropped?: File | null;
+  onClose: () => void;
+}
+
 /** Asks for the name, the PLC model and the first instance of a new project. */
-export function NewProject({ onClose }: { onClose: () => void }) {
+export function NewProject({ dropped = null, onClose }: Props) {
   const [models, setModels] = useState<readonly ModelSummary[]>([]);
   const [name, setName] = useState("");
   /** Empty until somebody chooses: then it is the model of the archive, or a usual one. */
@@ -103,6 +109,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
             }}
           />
           <ArchiveField
+            dropped={dropped}
             onChoose={(chosen) => {
               setArchive(chosen);
               if (typeof chosen !== "object") return;
