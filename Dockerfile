@@ -12,7 +12,7 @@ RUN make setup && rm -rf frontend/node_modules
 
 # The same Debian, so the virtual environment finds its Python where it was made.
 FROM debian:bookworm-slim
-RUN apt-get update && apt-get install -y --no-install-recommends python3 && rm -rf /var/lib/apt/lists/* \
+RUN apt-get update && apt-get install -y --no-install-recommends git python3 && rm -rf /var/lib/apt/lists/* \
   && useradd --create-home --uid 1000 bench && install -d -o bench /data
 COPY --from=build /app /app
 USER bench

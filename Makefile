@@ -30,7 +30,7 @@ NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.
 .PHONY: help setup setup-test run test check coverage bench bench-ui shots lock clean
 .PHONY: fuzz features nightly nightly-unit nightly-e2e
 .PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
-.PHONY: tools-python tools-node system-chromium system-fonts system-postgresql
+.PHONY: tools-python tools-node system-chromium system-fonts system-postgresql system-git
 
 help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
@@ -50,7 +50,7 @@ help:
 # ------------------------------------------------------------------------------------------------ run and test
 setup: $(VENV)/.stamp-runtime frontend/dist/.stamp
 
-setup-test: setup $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp) system-chromium system-postgresql
+setup-test: setup $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp) system-chromium system-postgresql system-git
 
 run: setup
 	@exec $(BIN)/scanbench serve $(ARGS)
@@ -62,7 +62,7 @@ check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.
 	@.ci/steps lint layers types+wire-check+frontend-check
 
 # Tracing lines makes the tests take two fifths longer, so this is no step of `make test`.
-coverage: $(VENV)/.stamp-dev system-postgresql
+coverage: $(VENV)/.stamp-dev system-postgresql system-git
 	@cd backend && $(BIN)/python -m coverage erase
 	@cd backend && $(BIN)/python -m coverage run $(PYTEST) $(ARGS)
 	@cd backend && $(BIN)/python -m coverage combine --quiet && $(BIN)/python -m coverage json --quiet \
@@ -199,6 +199,9 @@ system-fonts:
 
 system-postgresql:
 	@compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || command -v initdb >/dev/null || { $(call apt_install,PostgreSQL,postgresql); }
+
+system-git:
+	@command -v git >/dev/null || { $(call apt_install,git,git); }
 
 # ------------------------------------------------------------------------------------------------ upkeep
 COMPILE = ../.lock-venv/bin/pip-compile --quiet --upgrade --generate-hashes --strip-extras --allow-unsafe \

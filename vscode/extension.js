@@ -1,11 +1,34 @@
-/** Tells VS Code how to start the debug adapter. Everything else is in package.json, and in `scanbench dap`. */
+/** Tells VS Code how to start the debug adapter and the language server. Everything else is in package.json, and in `scanbench dap` and `scanbench lsp`. */
 const vscode = require('vscode');
 
-exports.activate = (context) => {
+const setting = (name) => vscode.workspace.getConfiguration('scanbench').get(name);
+/** Ours, and those that other extensions for ST give to the same files. */
+const LANGUAGES = ['iec61131', 'st', 'structured-text', '61131-3-st'];
+
+let client;
+
+exports.activate = async (context) => {
   context.subscriptions.push(
     vscode.debug.registerDebugAdapterDescriptorFactory('scanbench', {
-      createDebugAdapterDescriptor: () =>
-        new vscode.DebugAdapterExecutable(vscode.workspace.getConfiguration('scanbench').get('command'), ['dap']),
+      createDebugAdapterDescriptor: () => new vscode.DebugAdapterExecutable(setting('command'), ['dap']),
     }),
   );
+  if (!setting('languageServer')) return;
+  const { LanguageClient } = require('./languageclient.js');
+  client = new LanguageClient(
+    'scanbench',
+    'Scanbench',
+    { command: setting('command'), args: ['lsp'] },
+    { documentSelector: LANGUAGES.map((language) => ({ scheme: 'file', language })) },
+  );
+  try {
+    await client.start();
+  } catch {
+    client = undefined;
+    await vscode.window.showErrorMessage(
+      `Scanbench: the language server could not be started with ${setting('command')} lsp. Set scanbench.command to the file of the command (.../.venv/bin/scanbench), then reload the window.`,
+    );
+  }
 };
+
+exports.deactivate = () => client?.stop();

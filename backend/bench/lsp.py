@@ -94,6 +94,7 @@ async def measured(folder: Path) -> dict[str, dict[str, float]]:
             types.ReferenceParams(types.ReferenceContext(True), doc, cyc)
         ),
         "rename": lambda: client.text_document_rename_async(types.RenameParams(doc, cyc, "cycles")),
+        "rename to a known name": lambda: client.text_document_rename_async(types.RenameParams(doc, cyc, "cnt")),
         "hints of a screen": lambda: client.text_document_inlay_hint_async(types.InlayHintParams(doc, screen)),
         "kinds of names": lambda: client.text_document_semantic_tokens_range_async(
             types.SemanticTokensRangeParams(doc, screen)

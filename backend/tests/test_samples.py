@@ -1,14 +1,14 @@
-"""Every sample that ships: no problems, and the same bytes on both engines after every scan."""
+"""Every sample and template that ships: no problems, and the same bytes on both engines after every scan."""
 
 import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.engines.pair import PairEngine
 from scanbench.recording.headless import HeadlessRun, run_headless
-from scanbench.server.samples import Sample, samples
+from scanbench.server.samples import Sample, templates
 from tests.caseformat import MODELS
 
-SAMPLES = {sample.name: sample for sample in samples()}
+SAMPLES = {sample.id: sample for sample in templates()}
 
 
 @pytest.mark.parametrize("sample", SAMPLES.values(), ids=SAMPLES)

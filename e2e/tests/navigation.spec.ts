@@ -110,4 +110,16 @@ test('everything is reached by keys: commands, places, problems, and a text in a
     await expect(main.squiggles).toHaveCount(1);
     await expect(mika.statusBar).not.toContainText('Ln 1, Col 1');
   });
+
+  await test.step('an expression that would take for ever is ended, and the next one is answered', async () => {
+    await main.open();
+    await main.replaceWith(before.replace('motor := station.run;', `motor := station.run; // ${'a'.repeat(60)}!`));
+    await keyboard.press('Control+Shift+F');
+    await page.getByRole('button', { name: 'Regular expression' }).click();
+    await search.fill('(a+)+b');
+    await expect(page.getByRole('status').filter({ hasText: 'takes too long' })).toBeVisible();
+    await search.fill('a{60}!');
+    await expect(page.getByRole('status').filter({ hasText: '1 found' })).toBeVisible();
+    await page.getByRole('button', { name: 'Regular expression' }).click();
+  });
 });

@@ -117,7 +117,7 @@ test('a project needs its model; none of the page’s own requests is refused', 
   await dialog.getByRole('textbox', { name: 'Name' }).fill('late');
   await dialog.getByRole('button', { name: 'Try now' }).click();
   await expect(dialog.getByRole('button', { name: 'Create' })).toBeDisabled();
-  await expect(dialog.getByRole('combobox')).toContainText('Loading the models');
+  await expect(dialog.getByRole('combobox', { name: 'PLC model' })).toContainText('Loading the models');
   await page.keyboard.press('Enter');
   arrive();
   await expect(dialog.getByRole('button', { name: 'Create' })).toBeEnabled();

@@ -1,12 +1,11 @@
 /** The debug adapter on stdio, with the client that VS Code's own adapters are tested with: one for each test. */
 import assert from 'node:assert/strict';
-import { dirname, join, resolve } from 'node:path';
+import { join } from 'node:path';
 import { afterEach, beforeEach } from 'node:test';
-import { fileURLToPath } from 'node:url';
 import { DebugClient } from '@vscode/debugadapter-testsupport';
+import { COMMAND, HERE } from './command.mjs';
 
-export const HERE = dirname(fileURLToPath(import.meta.url));
-const COMMAND = process.env.SCANBENCH ?? resolve(HERE, '../../.venv/bin/scanbench');
+export { HERE };
 export const PROGRAM = join(HERE, 'counter.st');
 export const COUNTS = { path: PROGRAM, line: 8 };
 export const FIRST = { path: PROGRAM, line: 18 };

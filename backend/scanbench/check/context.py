@@ -34,7 +34,7 @@ class Report:
     written: list[Span] = field(default_factory=list)
     """Of the variables that are assigned, or that something else may write: spans end where those of their uses end."""
     lent: list[Span] = field(default_factory=list)
-    """Of what is written, what is passed to an in-out: it may be read there, too."""
+    """Of what is written, what may be read there, too: it is passed to an in-out, bound to a reference, or counted by a FOR."""
     parts: dict[Pou, "Report"] = field(default_factory=dict)
     """What was met in the body of each POU; its sites are numbered from 1 there."""
 

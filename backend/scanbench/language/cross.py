@@ -11,12 +11,12 @@ from scanbench.language.declared import Declared, member_of
 from scanbench.language.index import Occurrence
 from scanbench.language.navigate import references
 from scanbench.language.reading import Reading
+from scanbench.problems import Span
 from scanbench.program.types import ArrayType, Elementary, Member, Record, Reference, Section, StringType, Type
 from scanbench.syntax import tree
 
 Access = Literal["declared", "read", "written", "named"]
 """`written`: assigned there, also in part, or passed to something that may write it. `named`: of what is no variable."""
-_FOR = re.compile(r"\bFOR\s+$", re.IGNORECASE)
 _PART = re.compile(r"\.?([^\W\d]\w*)|\[[^\]]*\]|\^")
 
 
@@ -44,11 +44,11 @@ class Unused:
 
 def cross_references(reading: Reading, symbol: Symbol) -> list[CrossReference]:
     """Every place that names a symbol, in order of files and lines."""
-    own = {_key(each.span.file, each.span.line, each.span.column) for each in reading.declared(symbol)}
+    own = {_place(each.span) for each in reading.declared(symbol)}
     return [
         CrossReference(
             each,
-            "declared" if _key(each.span.file, each.span.line, each.span.column) in own or _is_external(reading, each)
+            "declared" if _place(each.span) in own or _is_external(reading, each)
             else "named" if each.symbol.kind != "variable"
             else "written" if each.written else "read",
             *_around(reading, each),
@@ -100,7 +100,7 @@ def unused(reading: Reading) -> list[Unused]:
     read: defaultdict[Symbol, set[bool]] = defaultdict(set)
     for each in reading.index.of(declared.symbol for declared, _ in candidates):
         if not _is_external(reading, each):
-            read[each.symbol].add(not each.written or each.lent or _counts(reading, each))
+            read[each.symbol].add(not each.written or each.lent)
     program = reading.checked.program
     for access in program.accesses if program is not None else ():  # tools read it by that name
         symbol = symbol_of_path(reading, access.path)
@@ -131,13 +131,6 @@ def _is_external(reading: Reading, place: Occurrence) -> bool:
     return "VAR_EXTERNAL" in reading.holding(span.file, reading.position(span.file, span.line, span.column))
 
 
-def _counts(reading: Reading, place: Occurrence) -> bool:
-    """Whether it is the variable of a FOR, which reads it itself."""
-    span = place.span
-    start = reading.position(span.file, span.line, 1)
-    return _FOR.search(reading.text(span.file)[start : reading.position(span.file, span.line, span.column)]) is not None
-
-
 def _is_private(member: Member) -> bool:
     """Whether only the text of its POU, or of the program, says who reads it: no address, no parameter, nothing with parts of its own."""
     own = member.section in (Section.VAR, Section.TEMP, Section.GLOBAL)
@@ -156,5 +149,5 @@ def _around(reading: Reading, place: Occurrence) -> tuple[str, str]:
     return ".".join(names), text[start : len(text) if end < 0 else end].strip()
 
 
-def _key(file: str, line: int, column: int) -> tuple[str, int, int]:
-    return file, line, column
+def _place(span: Span) -> tuple[str, int, int]:
+    return span.file, span.line, span.column

@@ -21,7 +21,7 @@ class Occurrence:
     written: bool = False
     """Whether the variable is assigned there, or passed to something that may write it."""
     lent: bool = False
-    """It is passed to an in-out, which may read it, too."""
+    """It may be read there, too: it is passed to an in-out, bound to a reference, or counted by a FOR."""
 
 
 class Index:

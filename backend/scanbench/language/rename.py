@@ -9,11 +9,12 @@ from scanbench.check.body.forms import FORMS
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.standard.library import library
 from scanbench.check.uses import INLINE, Symbol
-from scanbench.language.index import Occurrence
+from scanbench.language.index import Occurrence, chunk_at
 from scanbench.language.navigate import definitions, family, references, told_at
 from scanbench.language.reading import Reading
 from scanbench.problems import Problem, Severity
 from scanbench.program.types import ELEMENTARY
+from scanbench.syntax.chunks import Chunk
 from scanbench.syntax.lexer import CONTEXTUAL, KEYWORDS, Lex, Tokens
 from scanbench.syntax.parse_il import MNEMONICS
 
@@ -45,9 +46,9 @@ def changed_meaning(
     reading: Reading, found: list[Occurrence], name: str, read: Callable[[Mapping[str, str]], Reading]
 ) -> CannotRename | None:
     """Why these places cannot be called `name`: something would mean something else, or nothing. Where anything has this name
-    already, the changed text is checked and compared; the reading must not be asked afterwards."""
+    already that could matter, the changed text is checked and compared; the reading must not be asked afterwards."""
     same = all(name.upper() == reading.written(each.span).upper() for each in found)
-    if same or _is_new(reading, name.upper()):
+    if same or _is_new(reading, name.upper(), _scope(reading, found)):
         return None
     texts = {file: _replaced(reading, file, found, name) for file in reading.files}
     before, wrong = _meanings(reading), _wrong(reading)
@@ -67,8 +68,26 @@ def changed_meaning(
     return None
 
 
-def _is_new(reading: Reading, name: str) -> bool:
-    """Whether nothing has this name yet, so that no use of it can come to mean this, nor a use of this something else."""
+def _scope(reading: Reading, found: list[Occurrence]) -> list[Chunk]:
+    """Where it matters whether something has the new name: of a part of a POU or structure where it is declared and named, as elsewhere
+    names lead to it only through one of these places; else everywhere."""
+    chunks = [chunk for file in reading.files.values() for chunk in file.chunks]
+    if reading.checked.program is None or any(
+        each.symbol.kind != "variable" or each.symbol.owner == "GLOBAL" for each in found
+    ):
+        return chunks
+    places = ((each.span.file, reading.position(each.span.file, each.span.line, each.span.column)) for each in found)
+    named = list({id(chunk): chunk for chunk in (chunk_at(reading.files[file], at) for file, at in places)}.values())
+    own = {pou.name.upper() for chunk in named for pou in chunk.file.pous}
+    for pou in (pou for chunk in chunks for pou in chunk.file.pous):
+        bases = {base.name.upper().rpartition(".")[2] for base in (*pou.extends, *pou.implements)}
+        if bases and (pou.name.upper() in own or not bases.isdisjoint(own)):
+            return chunks  # what is inherited is declared without being named
+    return named
+
+
+def _is_new(reading: Reading, name: str, scope: list[Chunk]) -> bool:
+    """Whether nothing there has this name yet, so that no use of it can come to mean this, nor a use of this something else."""
     checker, words = reading.project.checker, reading.project.words
     declared = (FUNCTIONS, FORMS, MNEMONICS, CONTEXTUAL, checker.pous.functions, checker.pous.blocks)
     standard = (pou.name.upper() for file in library() for pou in file.pous)
@@ -76,7 +95,7 @@ def _is_new(reading: Reading, name: str) -> bool:
         name.startswith("_")
         or any(name in each for each in (*declared, checker.declarations.symbols.members, checker.globals.members))
         or name in standard
-        or any(name in words.of(chunk) for file in reading.files.values() for chunk in file.chunks)
+        or any(name in words.of(chunk) for chunk in scope)
     )
 
 

@@ -12,12 +12,14 @@ import zipfile
 import zlib
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from html import unescape
+from html import escape, unescape
+from pathlib import PurePosixPath
+from uuid import NAMESPACE_URL, uuid5
 
 from scanbench.plcmodel.user_errors import USER_ERRORS
-from scanbench.server.from_disk import PROJECT_FILE
+from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
-from scanbench.syntax.parse_file import ENDINGS, is_program_file
+from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -26,6 +28,7 @@ LARGEST = 64 << 20
 MOST_FILES = 5000
 TWINCAT_PROJECT = ".plcproj"
 _COMPILED = re.compile(r"<Compile\s[^>]*Include\s*=\s*[\"']([^\"']*)[\"']")
+_NO_FILE_NAME = re.compile(r'[<>:"/\\|?*\x00-\x1f]')
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _WHEN = (1980, 1, 1, 0, 0, 0)
 """The same project makes the same bytes."""
@@ -50,13 +53,50 @@ class Archive:
 
 
 def pack(name: str, model: str, watch: Sequence[str], files: Mapping[str, str]) -> bytes:
-    """The archive of a project."""
-    about = {"name": name, "model": model, "watch": list(watch)}
+    """The archive of a project; with files of TwinCAT also the project file by which that takes them."""
     made = io.BytesIO()
     with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path, text in {PROJECT_FILE: json.dumps(about, ensure_ascii=False, indent=2) + "\n", **files}.items():
+        for path, text in {
+            PROJECT_FILE: project_file(name, model, watch),
+            **_twincat_project(name, files),
+            **files,
+        }.items():
             archive.writestr(zipfile.ZipInfo(path, _WHEN), text.encode(), zipfile.ZIP_DEFLATED)
     return made.getvalue()
+
+
+def _twincat_project(name: str, files: Mapping[str, str]) -> dict[str, str]:
+    """The `.plcproj` that lists the files of TwinCAT, with their folders; none where there are no such files."""
+    listed = sorted(path for path in files if path.lower().endswith(XML_ENDINGS))
+    if not listed:
+        return {}
+    folders = sorted({str(folder) for path in listed for folder in PurePosixPath(path).parents} - {"."})
+    compiled = [
+        f'    <Compile Include="{_windows(path)}">\n      <SubType>Code</SubType>\n    </Compile>' for path in listed
+    ]
+    lines = [
+        '<?xml version="1.0" encoding="utf-8"?>',
+        '<Project DefaultTargets="Build" xmlns="http://schemas.microsoft.com/developer/msbuild/2003">',
+        "  <PropertyGroup>",
+        "    <FileVersion>1.0.0.0</FileVersion>",
+        "    <SchemaVersion>2.0</SchemaVersion>",
+        f"    <ProjectGuid>{{{uuid5(NAMESPACE_URL, name)}}}</ProjectGuid>",
+        f"    <Name>{escape(name)}</Name>",
+        "  </PropertyGroup>",
+        "  <ItemGroup>",
+        *compiled,
+        "  </ItemGroup>",
+        "  <ItemGroup>",
+        *(f'    <Folder Include="{_windows(folder)}" />' for folder in folders),
+        "  </ItemGroup>",
+        "</Project>",
+    ]
+    plain = _NO_FILE_NAME.sub("_", name)
+    return {f"{plain}{TWINCAT_PROJECT}": "\n".join(lines) + "\n"}
+
+
+def _windows(path: str) -> str:
+    return escape(path.replace("/", "\\"))
 
 
 def unpack(data: bytes) -> Archive:
@@ -87,7 +127,8 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
     root = _root(named)
     inside = {path.removeprefix(root): each for path, each in named.items() if path.startswith(root)}
     left_out += [path for path in named if not path.startswith(root)]
-    compiled, missing = _compiled(archive, inside)
+    # of an archive of Scanbench all files are the project's, whatever its project file for TwinCAT lists
+    compiled, missing = (None, list[str]()) if PROJECT_FILE in inside else _compiled(archive, inside)
     files, panels = {}, {}
     for path, each in sorted(inside.items()):
         if path == USER_ERRORS or (is_program_file(path) and (compiled is None or path in compiled)):

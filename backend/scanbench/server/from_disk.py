@@ -1,6 +1,7 @@
 """Program files from a folder or file on this machine: which they are, what they say, and which model they want."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from scanbench.plcmodel.user_errors import USER_ERRORS
@@ -48,3 +49,9 @@ def project_model(folder: Path) -> str | None:
         raise Refused(f"{path} cannot be read: {error}") from error
     model = content.get("model") if isinstance(content, dict) else None
     return model if isinstance(model, str) else None
+
+
+def project_file(name: str, model: str, watch: Sequence[str]) -> str:
+    """The text of a project file: name, model, and what a fresh watch list begins with."""
+    said = {"name": name, "model": model, "watch": list(watch)}
+    return json.dumps(said, ensure_ascii=False, indent=2) + "\n"

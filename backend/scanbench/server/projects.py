@@ -8,6 +8,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.archive import Archive, pack
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
+from scanbench.server.samples import templates
 from scanbench.session.session import Session
 from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
@@ -38,6 +39,17 @@ class Projects:
         """An empty project on a model."""
         self.model(model)
         return await asyncio.to_thread(self._store.projects.create, name, model, watch)
+
+    async def from_template(self, name: str, model: str, template: str, author: str) -> ProjectRow:
+        """A project with the files of a template or sample, which are not built yet."""
+        known = {each.id: each for each in templates()}
+        chosen = known.get(template)
+        if chosen is None:
+            raise Refused(f"there is no template {template}", tuple(known))
+        project = await self.create(name, model, chosen.watch)
+        for path, text in chosen.files.items():
+            await asyncio.to_thread(self._store.files.save, project.id, path, text, 0, author)
+        return project
 
     async def delete(self, id: int) -> None:
         """Deletes a project that no PLC runs (`refuse_running`)."""
@@ -104,6 +116,10 @@ class Projects:
         """Every build that was accepted, the last one first."""
         return await asyncio.to_thread(self._store.builds.all, id)
 
+    async def describe(self, id: int, version: int, label: str | None, message: str | None) -> BuildInfo:
+        """Gives a version a label or a message; an empty one takes it away."""
+        return await asyncio.to_thread(self._store.builds.describe, id, version, label, message)
+
     async def built(self, id: int, version: int | None = None) -> Sources | None:
         """A build that was accepted: the last one, or that of a `version`."""
         project = await self.get(id)
@@ -111,14 +127,14 @@ class Projects:
         return None if build is None else Sources(project.model, build.sources, INTERVAL_NS, build.version)
 
     async def build(
-        self, id: int, author: str, agreed: bool = True, instances: Sequence[int] | None = None
+        self, id: int, author: str, agreed: bool = True, instances: Sequence[int] | None = None, message: str = ""
     ) -> BuildOutcome:
         """Builds what is saved, and swaps it into the project's PLCs, or those named, each in its seam. One at a time.
 
         Not `agreed`: where variables of a running PLC would begin again, or one cannot be changed, it only says so.
         """
         async with self._building.setdefault(id, asyncio.Lock()):
-            outcome = await self._build(id, author, agreed, instances)
+            outcome = await self._build(id, author, agreed, instances, message)
         if not outcome.needs_agreement:
             for session in self._sessions_of(id):
                 session.told_built(author, outcome)
@@ -151,15 +167,16 @@ class Projects:
             await asyncio.to_thread(self._store.files.save, project.id, path, text, 0, author)
         return project
 
-    async def _build(self, id: int, author: str, agreed: bool, instances: Sequence[int] | None) -> BuildOutcome:
+    async def _build(
+        self, id: int, author: str, agreed: bool, instances: Sequence[int] | None, message: str
+    ) -> BuildOutcome:
         project = await self.get(id)
         sources = await self.sources(id)
         found = await self._checker.check(sources, self.model(project.model))
         if found.errors:
             count = f"{found.errors} error{'s' * (found.errors != 1)}"
             first = next(problem for problem in found.problems if problem.severity == "error")
-            message = f"{count}, nothing was changed: {first}"
-            return BuildOutcome(False, message, found, project)
+            return BuildOutcome(False, f"{count}, nothing was changed: {first}", found, project)
         sessions = [
             session
             for session in self._sessions_of(id)
@@ -177,12 +194,12 @@ class Projects:
         lines = [f"{session.name} not changed: {refused[session.id]}" for session in sessions if session.id in refused]
         if sessions and len(refused) == len(sessions):
             return BuildOutcome(False, "; ".join(["nothing was changed", *lines]), found, project, changes)
-        await asyncio.to_thread(self._store.builds.accept, id, sources, author)
+        await asyncio.to_thread(self._store.builds.accept, id, sources, author, None, message)
         willing = [session for session in sessions if session.id not in refused]
         acks = await asyncio.gather(*(session.build(build, author) for session in willing))
         done = [f"{session.name}: {ack.message}" for session, ack in zip(willing, acks, strict=True)]
-        message = "; ".join([f"version {build.version} built", *done, *lines])
-        return BuildOutcome(all(ack.ok for ack in acks), message, found, await self.get(id), changes)
+        said = "; ".join([f"version {build.version} built", *done, *lines])
+        return BuildOutcome(all(ack.ok for ack in acks), said, found, await self.get(id), changes)
 
     async def _runs_already(self, project: ProjectRow, sources: Mapping[str, str], sessions: Sequence[Session]) -> bool:
         """Whether a build would change nothing; one that stopped by an error is begun again by a build."""
@@ -221,7 +238,8 @@ def _question(changes: Sequence[Change]) -> str:
 def _check_path(path: str) -> None:
     parts = path.split("/")
     known = is_program_file(path) or path == USER_ERRORS or is_panel_file(path)
-    if not known or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
+    odd = any(part.strip(". ") == "" or part.rstrip(". ").lower() == ".git" for part in parts)
+    if not known or len(path) > 200 or odd:
         raise Refused(
             f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
             f"the project's own errors are in {USER_ERRORS}, operator panels in files like belt{PANEL_ENDING}"

@@ -1,4 +1,4 @@
-"""The projects that a first start finds: `samples/<name>/` of the package."""
+"""The projects that a first start finds, `samples/<name>/` of the package, and what a new project can begin with: these, and `templates/<name>/`."""
 
 import json
 from collections.abc import Iterator
@@ -15,6 +15,8 @@ from scanbench.syntax.parse_file import is_program_file
 class Sample:
     """A project that ships."""
 
+    id: str
+    """Name of its folder."""
     name: str
     model: str
     watch: tuple[str, ...]
@@ -23,13 +25,22 @@ class Sample:
 
 def samples() -> Iterator[Sample]:
     """Every sample that ships, by name."""
-    root = files("scanbench").joinpath("samples")
+    return _projects("samples")
+
+
+def templates() -> list[Sample]:
+    """What a new project can begin with: the templates, then the samples."""
+    return [*_projects("templates"), *samples()]
+
+
+def _projects(room: str) -> Iterator[Sample]:
+    root = files("scanbench").joinpath(room)
     for folder in sorted(root.iterdir(), key=lambda each: each.name):
         if not folder.is_dir() or not folder.joinpath("project.json").is_file():
             continue
         about = json.loads(folder.joinpath("project.json").read_text("utf-8"))
         texts = dict(_texts(folder, ""))
-        yield Sample(about["name"], about["model"], tuple(about.get("watch", ())), texts)
+        yield Sample(folder.name, about["name"], about["model"], tuple(about.get("watch", ())), texts)
 
 
 def _texts(folder: Traversable, path: str) -> Iterator[tuple[str, str]]:

@@ -22,6 +22,7 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.server.history import RunHistory
 from scanbench.server.missing import stand_in, why_missing
 from scanbench.server.projects import Projects
+from scanbench.server.repositories import Repositories
 from scanbench.server.samples import samples
 from scanbench.server.states import States
 from scanbench.server.sweeps import Sweeps
@@ -60,6 +61,7 @@ class Workbench:
         self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
+        self.repositories = Repositories(store, data / "projects")
         self._reactions = SharedJob(self._cache)
         self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
         self.watch_lists = WatchLists(store, self._sessions_of)
@@ -122,6 +124,7 @@ class Workbench:
         await self.projects.refuse_running(id)
         await self.sweeps.forget_project(id)
         await self.projects.delete(id)
+        await self.repositories.forget(id)
 
     # ---- instances ------------------------------------------------------------------------------------------------
 

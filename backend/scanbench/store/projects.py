@@ -120,11 +120,23 @@ class Files(Repository):
             return None if found is None else rows.file(found)
 
 
+_INFO = (
+    ProgramVersion.version,
+    ProgramVersion.author,
+    ProgramVersion.at,
+    ProgramVersion.label,
+    ProgramVersion.message,
+)
+
+
 class Builds(Repository):
     """The sources of accepted builds, by version of the project."""
 
-    def accept(self, project: int, sources: Mapping[str, str], author: str, version: int | None = None) -> int:
+    def accept(
+        self, project: int, sources: Mapping[str, str], author: str, version: int | None = None, message: str = ""
+    ) -> int:
         """Keeps the sources of a build that was accepted; the project's new version, the next one or the one given."""
+        check("the message", message)
         text = json.dumps(sorted(sources.items()), ensure_ascii=False)
         following = Project.version + 1 if version is None else version
         with self._database.writing() as session:
@@ -140,6 +152,7 @@ class Builds(Repository):
                     hash=hashlib.sha256(text.encode()).hexdigest(),
                     author=author[:AUTHOR],
                     at=wall_time(),
+                    message=message,
                 )
             )
             return version
@@ -148,9 +161,23 @@ class Builds(Repository):
         """Every accepted build of a project, the last one first."""
         with self._database.reading() as session:
             the_project(session, project)
-            columns = select(ProgramVersion.version, ProgramVersion.author, ProgramVersion.at)
-            found = columns.where(ProgramVersion.project_id == project).order_by(ProgramVersion.version.desc())
-            return [BuildInfo(version, author, at) for version, author, at in session.execute(found)]
+            columns = select(*_INFO).where(ProgramVersion.project_id == project)
+            return [BuildInfo(*found) for found in session.execute(columns.order_by(ProgramVersion.version.desc()))]
+
+    def describe(self, project: int, version: int, label: str | None, message: str | None) -> BuildInfo:
+        """Gives a version a label or a message; what is None stays as it is."""
+        check("the label", label or "none", NAME)
+        check("the message", message or "")
+        given = {key: value for key, value in (("label", label), ("message", message)) if value is not None}
+        with self._database.writing() as session:
+            the_project(session, project)
+            this = (ProgramVersion.project_id == project) & (ProgramVersion.version == version)
+            if given:
+                session.execute(update(ProgramVersion).where(this).values(**given))
+            found = session.execute(select(*_INFO).where(this)).first()
+            if found is None:
+                raise NotFound(f"this project has no version {version}")
+            return BuildInfo(*found)
 
     def last(self, project: int) -> dict[str, str] | None:
         """The sources of the last accepted build; None if there was none yet."""

@@ -85,6 +85,10 @@ class BuildInfo:
     version: int
     author: str
     at: datetime
+    label: str = ""
+    """A short name, such as that of a release; empty when it has none."""
+    message: str = ""
+    """What was changed and why, in the words of who built it."""
 
 
 @dataclass(frozen=True, slots=True)

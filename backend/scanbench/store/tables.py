@@ -96,6 +96,8 @@ class ProgramVersion(Base):
     hash: Mapped[str] = mapped_column(String(64))
     author: Mapped[str] = mapped_column(String(AUTHOR))
     at: Mapped[datetime] = mapped_column(Moment)
+    label: Mapped[str] = mapped_column(String(NAME), server_default="")
+    message: Mapped[str] = mapped_column(Text, server_default="")
 
 
 class Instance(Base):

@@ -27,6 +27,7 @@ from scanbench.web.routes import archives as routes_archives
 from scanbench.web.routes import binding as routes_binding
 from scanbench.web.routes import debug as routes_debug
 from scanbench.web.routes import errors as routes_errors
+from scanbench.web.routes import git as routes_git
 from scanbench.web.routes import instances as routes_instances
 from scanbench.web.routes import memory as routes_memory
 from scanbench.web.routes import models as routes_models
@@ -91,7 +92,7 @@ def bare_app() -> FastAPI:
         responses={"4XX": {"model": wire.Refusal}},
     )  # fmt: skip
     for routes in (
-        routes_instances, routes_dap, routes_lsp, routes_errors, routes_sweeps, routes_records, routes_projects, routes_archives, routes_user_errors,
+        routes_instances, routes_dap, routes_lsp, routes_errors, routes_sweeps, routes_records, routes_projects, routes_archives, routes_git, routes_user_errors,
         routes_models, routes_memory, routes_binding, routes_debug, routes_traces, routes_values, routes_watch, routes_verify,
         routes_past,
     ):  # fmt: skip

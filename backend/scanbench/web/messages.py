@@ -54,6 +54,18 @@ class NewProject(Wire):
     name: str = Field(min_length=1, max_length=100)
     model: str = "GENERIC-IEC"
     watch: list[str] = Field(default_factory=list, max_length=1000, description="what a fresh watch list begins with")
+    template: str = Field(
+        default="", max_length=100, description="`id` of a template; empty is a project without files"
+    )
+
+
+class ProjectTemplate(Wire):
+    """What a new project can begin with."""
+
+    id: str
+    name: str
+    model: str = Field(description="that its program is written for")
+    files: list[str]
 
 
 class ProjectArchive(Wire):
@@ -121,19 +133,6 @@ class ProgramText(Wire):
     pous: tuple[PouInfo, ...]
 
 
-class ProjectVersion(Wire):
-    """A build of a project that was accepted."""
-
-    version: int
-    author: str
-    at: str = Field(description="ISO 8601")
-
-
-class VersionText(Wire):
-    version: int
-    files: dict[str, str] = Field(description="path -> text")
-
-
 class OnlineChange(Wire):
     """What a swap of the program does to the variables of one running PLC."""
 
@@ -150,6 +149,7 @@ class Build(Wire):
 
     agreed: bool = False
     instances: list[Id] | None = Field(default=None, description="which PLCs are to be changed; null is all of them")
+    message: str = Field(default="", max_length=10_000, description="what was changed and why; kept with the version")
 
 
 class BuildResult(Wire):

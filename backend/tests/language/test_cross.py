@@ -66,6 +66,13 @@ def test_each_place_says_whether_it_reads_or_writes_and_in_which_pou() -> None:
     ]
 
 
+def test_a_reference_is_bound_and_what_it_leads_to_may_be_written() -> None:
+    text = "PROGRAM Main\nVAR r : REF_TO INT; n, m : INT; END_VAR\nr REF= n;\nm := r^;\nEND_PROGRAM\n"
+    assert crossed(text.replace("VAR r", "VAR |r")) == ["2 declared Main", "3 written Main", "4 read Main"]
+    assert crossed(text.replace("INT; n,", "INT; |n,")) == ["2 declared Main", "3 written Main"]
+    assert [each.declared.name for each in unused(read(text))] == ["m"]
+
+
 def test_the_line_is_told_without_its_indentation() -> None:
     reading, position = marked(PROGRAM.replace("speed := 3", "|speed := 3"))
     found = named_at(reading, FILE, position)

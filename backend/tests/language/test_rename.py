@@ -1,5 +1,7 @@
 """Renaming changes every use and nothing else; where that cannot be known, it says so."""
 
+from collections.abc import Mapping
+
 import pytest
 
 from scanbench.check.build import check_sources
@@ -96,6 +98,48 @@ def test_every_place_is_found(text: str, name: str, after: list[str]) -> None:
     assert not [
         each for each in check_sources({FILE: made}, MODELS["GENERIC-IEC"]).problems if each.severity == "error"
     ]
+
+
+APART = """\
+FUNCTION_BLOCK Tank
+VAR_INPUT level : INT; END_VAR
+VAR_OUTPUT full : BOOL; END_VAR
+full := level > 9;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Pump
+VAR speed : INT; END_VAR
+speed := speed + 1;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR t : Tank; END_VAR
+t(level := 3);
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize(
+    ("mark", "name", "again"),
+    [
+        ("level :", "speed", False),  # named where nothing else has that name: nothing has to be checked again
+        ("speed :", "level", False),
+        ("level :", "t", True),  # Main names both
+        ("t : Tank", "speed", False),
+    ],
+)
+def test_a_name_that_only_something_apart_has_needs_no_second_check(mark: str, name: str, again: bool) -> None:
+    reading, position = marked(APART.replace(mark, f"|{mark}", 1))
+    found = named_at(reading, FILE, position)
+    assert found is not None
+    named = places(reading, found.symbol, name)
+    assert not isinstance(named, CannotRename)
+    asked = []
+
+    def read(texts: Mapping[str, str]) -> Reading:
+        asked.append(texts)
+        return Readings(reading.project.model).read(texts)
+
+    assert changed_meaning(reading, named, name, read) is None
+    assert bool(asked) is again
 
 
 OVERRIDES = """\

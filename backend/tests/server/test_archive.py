@@ -3,6 +3,7 @@
 import io
 import zipfile
 from collections.abc import Mapping
+from xml.etree import ElementTree
 
 import pytest
 
@@ -92,3 +93,31 @@ def test_what_unpacks_to_too_much_is_refused() -> None:
         archive.writestr("Main.st", b" " * (65 << 20))
     with pytest.raises(Refused, match="more than"):
         unpack(made.getvalue())
+
+
+def test_files_of_twincat_go_out_with_their_project_file_and_come_in_from_it() -> None:
+    files = {
+        "POUs/MAIN.TcPOU": POU,
+        "POUs/R&D/Fb.TcPOU": POU,
+        "DUTs/T.TcDUT": POU,
+        "Extra.st": MAIN,
+        "Operation.panel.json": "{}",
+    }
+    made = pack("Line <1>", "GENERIC-IEC", [], files)
+    assert unpack(made).files == {path: text for path, text in sorted(files.items()) if path != "Operation.panel.json"}
+    with zipfile.ZipFile(io.BytesIO(made)) as archive:
+        project = archive.read("Line _1_.plcproj").decode()
+        without = {each: archive.read(each).decode() for each in archive.namelist() if each != "project.json"}
+    root = ElementTree.fromstring(project)
+    space = {"m": "http://schemas.microsoft.com/developer/msbuild/2003"}
+    listed = {each.get("Include") for each in root.iterfind("m:ItemGroup/m:Compile", space)}
+    assert listed == {"POUs\\MAIN.TcPOU", "POUs\\R&D\\Fb.TcPOU", "DUTs\\T.TcDUT"}
+    assert {each.get("Include") for each in root.iterfind("m:ItemGroup/m:Folder", space)} == {
+        "POUs",
+        "POUs\\R&D",
+        "DUTs",
+    }
+    # what another tool takes by the project file: the files of TwinCAT, each found
+    found = unpack(zipped(without))
+    assert set(found.files) == {"POUs/MAIN.TcPOU", "POUs/R&D/Fb.TcPOU", "DUTs/T.TcDUT"}
+    assert found.left_out == ("Extra.st",)

@@ -42,3 +42,17 @@ def test_what_cannot_be_taken_makes_no_project(
     assert reply.status_code == 422
     assert why in reply.json()["message"]
     assert server.http.get("/api/projects").json() == before
+
+
+def test_a_project_begins_with_a_template(server: Server) -> None:
+    known = {each["id"]: each for each in server.http.get("/api/templates").json()}
+    assert {"error-handler", "instruction-list", "sequence", "conveyor", "dosing"} == set(known)
+    for each in known.values():
+        new = {"name": f"from {each['id']}", "model": each["model"], "template": each["id"]}
+        made = server.http.post("/api/projects", json=new)
+        assert made.status_code == 201, made.text
+        address = f"/api/projects/{made.json()['id']}"
+        assert {file["path"] for file in server.http.get(f"{address}/files").json()} == set(each["files"])
+        assert server.http.post(f"{address}/build", json={}).json()["ok"]
+    unknown = server.http.post("/api/projects", json={"name": "x", "model": "GENERIC-IEC", "template": "no such"})
+    assert (unknown.status_code, "sequence" in unknown.json()["near"]) == (422, True)

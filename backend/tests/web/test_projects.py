@@ -81,6 +81,19 @@ def test_versions_keep_who_built_what(server: Server) -> None:
     assert server.http.get(f"{address}/versions/3").status_code == 404
 
 
+def test_a_version_has_a_message_and_a_label(server: Server) -> None:
+    project = server.project("labels", "GENERIC-IEC", main=ONE)
+    address = f"/api/projects/{project}"
+    assert server.http.post(f"{address}/build", json={"message": "counts"}).json()["ok"]
+    labelled = server.http.patch(f"{address}/versions/1", json={"label": "FAT 1"}).json()
+    assert (labelled["label"], labelled["message"]) == ("FAT 1", "counts")
+    assert server.http.patch(f"{address}/versions/1", json={"message": ""}).json()["label"] == "FAT 1"
+    assert [(each["label"], each["message"]) for each in server.http.get(f"{address}/versions").json()] == [
+        ("FAT 1", "")
+    ]
+    assert server.http.patch(f"{address}/versions/2", json={"label": "x"}).status_code == 404
+
+
 def test_a_deletion_is_told_with_its_author(server: Server) -> None:
     project = server.project("deleted", "GENERIC-IEC", main=ONE, other=TWO.replace("Main", "Other"))
     instance = server.http.post("/api/instances", json={"project": project, "name": "deleted"}).json()["id"]

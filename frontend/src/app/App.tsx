@@ -3,6 +3,7 @@ import { loneIn, operatedPanel } from "../logic/plc/links";
 import { showState } from "../logic/plc/plcstate";
 import { DebugSide } from "../panels/debug/stack/DebugSide";
 import { Sweeping } from "../panels/errors/sweep/Sweeping";
+import { BuildMessage } from "../panels/project/change/BuildMessage";
 import { OnlineChange } from "../panels/project/change/OnlineChange";
 import { Explorer } from "../panels/project/explorer/Explorer";
 import { Banners } from "../panels/run/banner/Banners";
@@ -102,6 +103,7 @@ function Window() {
       <Timeline />
       <StatusBar />
       <Instances />
+      <BuildMessage />
       <OnlineChange />
       <Sweeping />
       <TraceImport />

@@ -14,6 +14,7 @@ import { chooseLanguage, chooseTheme, themes, toggleChecks, toggleInline } from 
 import { openTour } from "../store/page/tour";
 import { showInstances } from "../store/plc/instances";
 import { returnToLive, stepBack } from "../store/plc/timeline";
+import { askBuildMessage } from "../store/project/buildMessage";
 import { showUnused } from "../store/project/cross";
 import { build, save, useDocuments } from "../store/project/documents";
 import { goBack, goForward } from "../store/project/places";
@@ -44,6 +45,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
   file: [
     { label: "command.save", keys: "Ctrl+S", run: saveActive },
     { label: "command.build", keys: "Ctrl+Shift+B", run: () => void build() },
+    { label: "build.saying", run: () => askBuildMessage(true) },
     { label: "restart.rollback", run: () => void rollBack() },
     { label: "command.goto", keys: "Ctrl+P", run: () => showPalette("") },
     { label: "command.search", keys: "Ctrl+Shift+F", run: askSearch },

@@ -42,6 +42,7 @@ export function usualRoutes(on: On, instance: () => Instance): void {
     on("GET", `/instances/*/${what}`, none);
   for (const what of ["files", "sweeps", "states", "records", "trace-records", "watch-lists"] as const)
     on("GET", `/projects/*/${what}`, none);
+  on("GET", "/templates", none);
   on("GET", "/instances/*/program", () => ({ version: 1, files: {}, pous: [] }));
   on("GET", "/instances/*/history/versions", none);
   on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems: [] }));

@@ -1334,8 +1334,8 @@ export interface paths {
         get: operations["list_projects"];
         put?: never;
         /**
-         * An empty project on a model
-         * @description An empty project on a model.
+         * A project on a model: empty, or with the files of a template, which are not built yet
+         * @description A project on a model: empty, or with the files of a template, which are not built yet.
          */
         post: operations["create_project"];
         delete?: never;
@@ -1467,6 +1467,74 @@ export interface paths {
          * @description Deletes a file.
          */
         delete: operations["delete_project_file"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/git": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The working tree of a project, and what a commit would keep
+         * @description The working tree of a project, and what a commit would keep.
+         */
+        get: operations["get_project_git"];
+        put?: never;
+        /**
+         * Makes a working tree for a project that has none; nothing is committed yet
+         * @description Makes a working tree for a project that has none; nothing is committed yet.
+         */
+        post: operations["begin_project_git"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/git/commits": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The last 500 commits, or those that changed the file of this path, the last one first
+         * @description The last 500 commits, or those that changed the file of this path, the last one first.
+         */
+        get: operations["list_project_git_commits"];
+        put?: never;
+        /**
+         * Commits what is saved, if nobody else did since `head`; its author is the user
+         * @description Commits what is saved, if nobody else did since `head`; its author is the user.
+         */
+        post: operations["create_project_git_commit"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/git/commits/{commit}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The files of the project as a commit has them
+         * @description The files of the project as a commit has them.
+         */
+        get: operations["get_project_git_commit"];
+        put?: never;
+        post?: never;
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -1765,7 +1833,11 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Gives a version a label or a message
+         * @description Gives a version a label or a message.
+         */
+        patch: operations["change_project_version"];
         trace?: never;
     };
     "/api/projects/{project}/watch-lists": {
@@ -2010,6 +2082,26 @@ export interface paths {
          * @description Withdraws the acceptance of a finding.
          */
         post: operations["withdraw_sweep_finding"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/templates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What a new project can begin with: templates, and the samples
+         * @description What a new project can begin with: templates, and the samples.
+         */
+        get: operations["list_templates"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -2713,6 +2805,12 @@ export interface components {
              * @description which PLCs are to be changed; null is all of them
              */
             instances?: number[] | null;
+            /**
+             * Message
+             * @description what was changed and why; kept with the version
+             * @default
+             */
+            message: string;
         };
         /** BuildResult */
         BuildResult: {
@@ -2993,6 +3091,18 @@ export interface components {
             /** Scan */
             scan: number;
         };
+        /** CommitText */
+        CommitText: {
+            /** Commit */
+            commit: string;
+            /**
+             * Files
+             * @description path -> text
+             */
+            files: {
+                [key: string]: string;
+            };
+        };
         /**
          * Comparison
          * @description How far a comparison of the run of instance `a` with that of `b` is, and what came of it. Kept until the server ends, the
@@ -3170,6 +3280,16 @@ export interface components {
              * @enum {string}
              */
             type: "deleted";
+        };
+        /**
+         * DescribeVersion
+         * @description What is null stays as it is; an empty text takes it away.
+         */
+        DescribeVersion: {
+            /** Label */
+            label?: string | null;
+            /** Message */
+            message?: string | null;
         };
         /**
          * Diagnostics
@@ -3877,6 +3997,72 @@ export interface components {
             id: string;
         };
         /**
+         * GitChange
+         * @description A file that is not as the last commit has it.
+         */
+        GitChange: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "new" | "changed" | "gone";
+            /** Path */
+            path: string;
+        };
+        /**
+         * GitCommit
+         * @description A commit.
+         */
+        GitCommit: {
+            /**
+             * At
+             * @description ISO 8601.
+             */
+            at: string;
+            /** Author */
+            author: string;
+            /** Commit */
+            commit: string;
+            /** Message */
+            message: string;
+        };
+        /**
+         * GitStatus
+         * @description The working tree of a project, or why there is none.
+         */
+        GitStatus: {
+            /**
+             * Branch
+             * @description Empty: the folder is at a commit, not on a branch.
+             */
+            branch: string;
+            /**
+             * Changes
+             * @description What a commit would keep.
+             */
+            changes: components["schemas"]["GitChange"][];
+            /**
+             * Elsewhere
+             * @description Files that another program committed a change of, which a commit of this project would take back.
+             */
+            elsewhere: string[];
+            /**
+             * Folder
+             * @description Empty: nobody asked for one yet.
+             */
+            folder: string;
+            /**
+             * Head
+             * @description The last commit; empty when there is none yet.
+             */
+            head: string;
+            /**
+             * Missing
+             * @description What to do so that there can be one; empty when git is installed.
+             */
+            missing: string;
+        };
+        /**
          * HaltInfo
          * @description The PLC is halted by the debugger; part of the instance's state, so that everybody sees it at once.
          */
@@ -4354,6 +4540,26 @@ export interface components {
              */
             verified_count: number;
         };
+        /**
+         * NewCommit
+         * @description Optimistic, like a save: `head` is the last commit that somebody saw.
+         */
+        NewCommit: {
+            /**
+             * Agreed
+             * @description also where another program committed in the folder
+             * @default false
+             */
+            agreed: boolean;
+            /**
+             * Head
+             * @description empty: there was none yet
+             * @default
+             */
+            head: string;
+            /** Message */
+            message: string;
+        };
         /** NewComparison */
         NewComparison: {
             /**
@@ -4445,6 +4651,12 @@ export interface components {
             model: string;
             /** Name */
             name: string;
+            /**
+             * Template
+             * @description `id` of a template; empty is a project without files
+             * @default
+             */
+            template: string;
             /**
              * Watch
              * @description what a fresh watch list begins with
@@ -4876,6 +5088,23 @@ export interface components {
             name: string;
         };
         /**
+         * ProjectTemplate
+         * @description What a new project can begin with.
+         */
+        ProjectTemplate: {
+            /** Files */
+            files: string[];
+            /** Id */
+            id: string;
+            /**
+             * Model
+             * @description that its program is written for
+             */
+            model: string;
+            /** Name */
+            name: string;
+        };
+        /**
          * ProjectVersion
          * @description A build of a project that was accepted.
          */
@@ -4887,6 +5116,16 @@ export interface components {
             at: string;
             /** Author */
             author: string;
+            /**
+             * Label
+             * @description a short name, such as that of a release; empty when it has none
+             */
+            label: string;
+            /**
+             * Message
+             * @description what was changed and why
+             */
+            message: string;
             /** Version */
             version: number;
         };
@@ -10160,6 +10399,168 @@ export interface operations {
             };
         };
     };
+    get_project_git: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GitStatus"];
+                };
+            };
+        };
+    };
+    begin_project_git: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GitStatus"];
+                };
+            };
+        };
+    };
+    list_project_git_commits: {
+        parameters: {
+            query?: {
+                path?: string | null;
+            };
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GitCommit"][];
+                };
+            };
+        };
+    };
+    create_project_git_commit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewCommit"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GitCommit"];
+                };
+            };
+        };
+    };
+    get_project_git_commit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                commit: string;
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommitText"];
+                };
+            };
+        };
+    };
     list_project_records: {
         parameters: {
             query?: never;
@@ -10755,6 +11156,42 @@ export interface operations {
             };
         };
     };
+    change_project_version: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+                version: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DescribeVersion"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectVersion"];
+                };
+            };
+        };
+    };
     list_project_watch_lists: {
         parameters: {
             query?: never;
@@ -11197,6 +11634,35 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    list_templates: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectTemplate"][];
+                };
             };
         };
     };

@@ -26,6 +26,7 @@ import type {
   ProgramText,
   Project,
   ProjectArchive,
+  ProjectTemplate,
   ProjectVersion,
   Reaction,
   RecordInfo,
@@ -148,13 +149,18 @@ async function savedErrors(answer: Promise<Response>): Promise<{ saved: UserErro
 export const rest = {
   app: (signal?: AbortSignal) => json<AppInfo>("GET", "", undefined, signal),
 
-  createProject: (name: string, model: string) => json<Project>("POST", "/projects", { name, model }),
+  /** `template`: what it begins with; empty is a project without files. */
+  createProject: (name: string, model: string, template: string) =>
+    json<Project>("POST", "/projects", { name, model, ...(template && { template }) }),
+  templates: () => json<ProjectTemplate[]>("GET", "/templates"),
   /** What a zip file has of a project. */
   lookAtArchive: (file: Blob) => json<ProjectArchive>("POST", "/archives", file),
   unpackProject: (name: string, model: string, file: Blob) =>
     json<Project>("POST", `/archives/projects?${new URLSearchParams({ name, model })}`, file),
   versions: (project: number) => json<ProjectVersion[]>("GET", `/projects/${project}/versions`),
   version: (project: number, version: number) => json<VersionText>("GET", `/projects/${project}/versions/${version}`),
+  describeVersion: (project: number, version: number, label: string, message: string) =>
+    json<ProjectVersion>("PATCH", `/projects/${project}/versions/${version}`, { label, message }),
   packProject: (project: number) => blob(`/projects/${project}/archive`),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),
   file: (project: number, path: string) => json<FileText>("GET", filePath(project, path)),
@@ -169,8 +175,8 @@ export const rest = {
   check: (project: number, files: Record<string, string>) =>
     json<CheckResult>("POST", `/projects/${project}/check`, { files }),
   /** `instances`: the PLCs that get the program; null is all of them. */
-  build: (project: number, agreed: boolean, instances: readonly number[] | null = null) =>
-    json<BuildResult>("POST", `/projects/${project}/build`, { agreed, instances }),
+  build: (project: number, agreed: boolean, instances: readonly number[] | null = null, message = "") =>
+    json<BuildResult>("POST", `/projects/${project}/build`, { agreed, instances, message }),
 
   userErrors: (project: number) => json<UserErrors>("GET", `/projects/${project}/user-errors`),
   checkUserErrors: (project: number, draft: UserErrorsDraft) =>

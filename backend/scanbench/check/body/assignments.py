@@ -11,7 +11,7 @@ from scanbench.check.body.interfaces import attempt
 from scanbench.check.body.methods import assign_property
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.subrange_checks import keeping, noting
-from scanbench.check.body.targets import declared_target
+from scanbench.check.body.targets import declared_target, note_written
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Stmt
@@ -27,6 +27,7 @@ def _bind(body: Body, target: tree.Expression, value: tree.Expression, span: Spa
     type = place.type
     if not isinstance(type, Reference):
         raise body.report.reject("T002", f"`REF=` binds a reference; `{shown(target)}` is {type}.", target.span)
+    note_written(body, target)
     body.effects.assignable(body, place, member, target.span)
     null = isinstance(value, tree.Name) and value.name.upper() == "NULL"
     if null or isinstance(value, tree.Literal | tree.Call):
@@ -36,6 +37,7 @@ def _bind(body: Body, target: tree.Expression, value: tree.Expression, span: Spa
         reference: Expr = Load(source)
     else:
         reference = refer(body, value)
+        note_written(body, value, may_read=True)  # through the reference
     return place, coerce(body, reference, type, span, f"`{shown(target)}`")
 
 

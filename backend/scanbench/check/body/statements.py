@@ -141,6 +141,7 @@ def _plain_label(body: Body, expr: Const, type: Elementary, node: tree.Expressio
 
 def _for(body: Body, node: tree.ForStatement) -> Stmt:
     counter = targets.target(body, node.variable)
+    body.report.lent.append(targets.variable(node.variable).span)
     type = counter.type
     plain = isinstance(type, Elementary) and type.kind in COUNTED and not isinstance(type, Enumeration)
     if not plain or counter.indices or counter.reference is not None:

@@ -16,13 +16,20 @@ def target(body: Body, node: tree.Expression) -> Place:
 def declared_target(body: Body, node: tree.Expression) -> Found:
     """The same, and the declared variable that it is, or is inside of."""
     place, member = body.place(node)
+    note_written(body, node)
+    body.effects.assignable(body, place, member, node.span)
+    return place, member
+
+
+def note_written(body: Body, node: tree.Expression, may_read: bool = False) -> None:
+    """Notes that a variable is written there, and read, too, where it `may_read`."""
     changed = variable(node)
     body.report.written.append(changed.span)
+    if may_read:
+        body.report.lent.append(changed.span)
     while isinstance(changed, tree.MemberOf):  # a part of it is written
         changed = variable(changed.owner)
         body.report.written.append(changed.span)
-    body.effects.assignable(body, place, member, node.span)
-    return place, member
 
 
 def variable(node: tree.Expression) -> tree.Expression:

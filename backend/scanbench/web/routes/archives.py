@@ -7,6 +7,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, Request, Response
 
 from scanbench.server.archive import LARGEST, unpack
+from scanbench.server.samples import templates
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
@@ -24,6 +25,15 @@ async def on_pack(bench: Bench, project: Id) -> Response:
     plain = re.sub(r"[^A-Za-z0-9._ -]", "_", name)
     headers = {"Content-Disposition": f"attachment; filename=\"{plain}.zip\"; filename*=UTF-8''{quote(name)}.zip"}
     return Response(data, media_type="application/zip", headers=headers)
+
+
+@router.get("/templates")
+async def on_templates() -> list[wire.ProjectTemplate]:
+    """What a new project can begin with: templates, and the samples."""
+    return [
+        wire.ProjectTemplate(id=each.id, name=each.name, model=each.model, files=list(each.files))
+        for each in templates()
+    ]
 
 
 @router.post("/archives")

@@ -3,11 +3,11 @@
 from fastapi import APIRouter, Request
 
 from scanbench.public import iso
-from scanbench.store.records import NotFound
+from scanbench.store.records import BuildInfo, NotFound
 from scanbench.web import messages as wire
-from scanbench.web import translate
+from scanbench.web import messages_versions, translate
 from scanbench.web.auth import user_of
-from scanbench.web.messages_base import Id
+from scanbench.web.messages_base import Id, Version
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api/projects", tags=["projects"])
@@ -21,9 +21,14 @@ async def on_projects(bench: Bench) -> list[wire.Project]:
 
 
 @router.post("", status_code=201)
-async def on_new_project(bench: Bench, new: wire.NewProject) -> wire.Project:
-    """An empty project on a model."""
-    return translate.project(await bench.projects.create(new.name.strip(), new.model, new.watch))
+async def on_new_project(bench: Bench, request: Request, new: wire.NewProject) -> wire.Project:
+    """A project on a model: empty, or with the files of a template, which are not built yet."""
+    name = new.name.strip()
+    if new.template:
+        made = await bench.projects.from_template(name, new.model, new.template, user_of(request).name)
+    else:
+        made = await bench.projects.create(name, new.model, new.watch)
+    return translate.project(made)
 
 
 @router.delete("/{project}", status_code=204)
@@ -66,20 +71,35 @@ async def on_check(bench: Bench, project: Id, edited: wire.CheckRequest) -> wire
 @router.post("/{project}/build")
 async def on_build(bench: Bench, request: Request, project: Id, how: wire.Build = _PLAIN_BUILD) -> wire.BuildResult:
     """Builds what is saved, and swaps it into the project's instances; asks first where variables would be reset."""
-    return translate.build_result(await bench.projects.build(project, user_of(request).name, how.agreed, how.instances))
+    author = user_of(request).name
+    outcome = await bench.projects.build(project, author, how.agreed, how.instances, how.message)
+    return translate.build_result(outcome)
 
 
 @router.get("/{project}/versions")
-async def on_versions(bench: Bench, project: Id) -> list[wire.ProjectVersion]:
+async def on_versions(bench: Bench, project: Id) -> list[messages_versions.ProjectVersion]:
     """Every build of a project that was accepted, the last one first."""
-    found = await bench.projects.versions(project)
-    return [wire.ProjectVersion(version=each.version, author=each.author, at=iso(each.at)) for each in found]
+    return [_version(each) for each in await bench.projects.versions(project)]
+
+
+@router.patch("/{project}/versions/{version}")
+async def on_describe_version(
+    bench: Bench, project: Id, version: Version, said: messages_versions.DescribeVersion
+) -> messages_versions.ProjectVersion:
+    """Gives a version a label or a message."""
+    return _version(await bench.projects.describe(project, version, said.label, said.message))
 
 
 @router.get("/{project}/versions/{version}")
-async def on_version(bench: Bench, project: Id, version: int) -> wire.VersionText:
+async def on_version(bench: Bench, project: Id, version: Version) -> messages_versions.VersionText:
     """The files of a version."""
     sources = await bench.projects.built(project, version)
     if sources is None:
         raise NotFound(f"this project has no version {version}")
-    return wire.VersionText(version=version, files=sources.files)
+    return messages_versions.VersionText(version=version, files=sources.files)
+
+
+def _version(build: BuildInfo) -> messages_versions.ProjectVersion:
+    return messages_versions.ProjectVersion(
+        version=build.version, author=build.author, at=iso(build.at), label=build.label, message=build.message
+    )

@@ -251,11 +251,18 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
   await save(path);
 }
 
+/** The message of the build that asked whether values may be lost. */
+let asked = "";
+
 /**
  * Saves all unsaved files, then builds; the running PLCs, or those `chosen`, get the new program in a seam. If values would be
- * lost, this happens only if `agreed`.
+ * lost, this happens only if `agreed`. `message` is kept with the version.
  */
-export async function build(agreed = false, chosen: readonly number[] | null = null): Promise<void> {
+export async function build(
+  agreed = false,
+  chosen: readonly number[] | null = null,
+  message = agreed ? asked : "",
+): Promise<void> {
   const { project, open } = get();
   if (project === null || get().build.phase === "running" || isCutOff()) return;
   const why = forbidden(usePlc.getState().state, true, "build");
@@ -273,7 +280,8 @@ export async function build(agreed = false, chosen: readonly number[] | null = n
         return;
       }
     }
-    onBuilt(await rest.build(project, agreed, chosen), null);
+    asked = message;
+    onBuilt(await rest.build(project, agreed, chosen, message), null);
   } catch (error) {
     set({ build: refusedBuild(messageOf(error)) });
   }

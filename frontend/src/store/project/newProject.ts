@@ -1,21 +1,29 @@
 /** A new project that runs at once, and projects as files. */
+import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { skeleton } from "../../logic/project/explorer";
 import { rest } from "../../wire/rest";
-import type { Project, ProjectArchive } from "../../wire/types";
+import type { Project, ProjectArchive, ProjectTemplate } from "../../wire/types";
 import { saveFile } from "../page/download";
 import { showPanel } from "../page/navigate";
 import { chooseProject, createInstance, refreshApp } from "../plc/bench";
 import { useDocuments } from "./documents";
 
-/** Makes a project, with the files of an archive or with a first program, and an instance that runs it. Throws the server's refusal. */
+/** A zip file that was dropped on the page: the dialog for a new project shows what it has. */
+export const useDropped = create<{ archive: File | null }>(() => ({ archive: null }));
+
+export const dropArchive = (archive: File | null): void => useDropped.setState({ archive });
+
+/** Makes a project, with the files of an archive or template or with a first program, and an instance that runs it. Throws the server's refusal. */
 export async function createProject(
   name: string,
   model: string,
   instanceName: string,
-  archive: File | null,
+  from: File | string,
 ): Promise<void> {
-  const project = await (archive ? rest.unpackProject(name, model, archive) : rest.createProject(name, model));
+  const project = await (typeof from === "string"
+    ? rest.createProject(name, model, from)
+    : rest.unpackProject(name, model, from));
   if ((await rest.files(project.id)).length === 0) await rest.save(project.id, "Main.st", skeleton("Main.st"), 0);
   const built = await rest.build(project.id, true);
   if (built.ok) await createInstance(built.project, instanceName);
@@ -24,6 +32,8 @@ export async function createProject(
     await chooseProject(project);
   }
 }
+
+export const listTemplates = (): Promise<ProjectTemplate[]> => rest.templates();
 
 export const lookAtArchive = (file: File): Promise<ProjectArchive> => rest.lookAtArchive(file);
 

@@ -4,12 +4,9 @@ import { isPanelFile } from "../../logic/project/panelFiles";
 import { type Match, matches, pattern, replaced, replacement, type Wanted } from "../../logic/project/search";
 import { openFile, showPanel } from "../page/navigate";
 import { edit, openDocument, textHere, useDocuments } from "./documents";
+import SearchWorker from "./search.worker?worker";
+import { type FileMatches, type Question, searcher } from "./searching";
 import { savedText } from "./sourceText";
-
-export interface FileMatches {
-  path: string;
-  matches: readonly Match[];
-}
 
 interface Search extends Wanted {
   /** What replaces it, as typed. */
@@ -19,6 +16,8 @@ interface Search extends Wanted {
   unread: readonly string[];
   /** The expression is none. */
   bad: boolean;
+  /** The expression took so long that the search was ended. */
+  slow: boolean;
   /** How often somebody asked for the field by a key. */
   asked: number;
 }
@@ -32,6 +31,7 @@ export const useSearch = create<Search>(() => ({
   found: [],
   unread: [],
   bad: false,
+  slow: false,
   asked: 0,
 }));
 
@@ -69,24 +69,35 @@ async function search(): Promise<void> {
   turn += 1;
   const mine = turn;
   const wanted = get().text === "" ? null : pattern(get());
-  if (!wanted) return set({ found: [], unread: [], bad: get().text !== "" });
+  if (!wanted) return set({ found: [], unread: [], bad: get().text !== "", slow: false });
   const { project, files, open } = useDocuments.getState();
   const programs = files.filter(({ path }) => !isPanelFile(path));
   const versions = new Map(programs.map(({ path, version }) => [path, version]));
-  const found: FileMatches[] = [];
+  const texts: { path: string; text: string }[] = [];
   const unread: string[] = [];
   // A file that somebody deleted is still here while it is open.
   for (const path of new Set([...versions.keys(), ...Object.keys(open)])) {
     const text = textHere(path) ?? (await savedOf(`${project} ${path}`, path, versions.get(path) ?? 0));
     if (mine !== turn) return;
-    if (text === null) {
-      unread.push(path);
-      continue;
-    }
-    const inFile = matches(text, wanted);
-    if (inFile.length > 0) found.push({ path, matches: inFile });
+    if (text === null) unread.push(path);
+    else texts.push({ path, text });
   }
-  set({ found, unread, bad: false });
+  const found = await findIn(forList, wanted, texts);
+  if (mine === turn) set({ found: found ?? [], unread, bad: false, slow: found === null });
+}
+
+type Ask = ReturnType<typeof searcher>;
+/** A search ends the one before, but no replacement. */
+const forList = searcher(() => new SearchWorker());
+const forReplacement = searcher(() => new SearchWorker());
+
+/** The matches in some texts; null where the expression takes too long. A plain text is found at once, here. */
+async function findIn(ask: Ask, wanted: RegExp, texts: Question["texts"]): Promise<FileMatches[] | null> {
+  const { text, cased, whole, regex } = get();
+  if (regex) return ask({ wanted: { text, cased, whole, regex }, texts });
+  return texts
+    .map(({ path, text: inFile }) => ({ path, matches: matches(inFile, wanted) }))
+    .filter(({ matches: found }) => found.length > 0);
 }
 
 async function savedOf(key: string, path: string, version: number): Promise<string | null> {
@@ -115,7 +126,9 @@ export async function replace(which: readonly FileMatches[]): Promise<void> {
       openFile(path);
       // The text may have changed since the search: only what is still there is replaced.
       const known = new Set(some.map(({ at, length }) => `${at} ${length}`));
-      const still = matches(document.text, wanted).filter(({ at, length }) => known.has(`${at} ${length}`));
+      const now = await findIn(forReplacement, wanted, [{ path, text: document.text }]);
+      if (useDocuments.getState().open[path]?.text !== document.text) continue; // somebody typed meanwhile
+      const still = (now?.[0]?.matches ?? []).filter(({ at, length }) => known.has(`${at} ${length}`));
       edit(
         path,
         replaced(document.text, still, (match) => replacement(match, by, regex)),

@@ -1,19 +1,21 @@
-/** Versions of the program: what was built, compared with each other and with the texts as they are now. */
+/** Versions of the program and commits: compared with each other and with the texts as they are now, described, taken back. */
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { isPanelFile } from "../../logic/project/panelFiles";
-import { type Difference, differences } from "../../logic/project/versions";
+import { commitOf, type Difference, differences, type Side } from "../../logic/project/versions";
+import { t } from "../../text";
+import { git } from "../../wire/git";
 import { rest } from "../../wire/rest";
-import type { ProjectVersion } from "../../wire/types";
+import type { GitCommit, GitStatus, ProjectVersion } from "../../wire/types";
 import { openFile, openPage } from "../page/navigate";
-import { createFile, edit, openDocument, textHere, useDocuments } from "./documents";
+import { createFile, edit, openDocument, save, textHere, useDocuments } from "./documents";
 import { savedText } from "./sourceText";
-
-/** A version by its number, or the texts as they are edited here. */
-export type Side = number | "now";
 
 interface Versions {
   all: readonly ProjectVersion[];
+  commits: readonly GitCommit[];
+  /** Null until the server answered. */
+  git: GitStatus | null;
   before: Side;
   after: Side;
   /** Null while the texts are being loaded. */
@@ -22,25 +24,41 @@ interface Versions {
   trouble: string | null;
 }
 
-const nothing: Versions = { all: [], before: "now", after: "now", found: null, chosen: null, trouble: null };
+const nothing: Versions = {
+  all: [],
+  commits: [],
+  git: null,
+  before: "now",
+  after: "now",
+  found: null,
+  chosen: null,
+  trouble: null,
+};
 
 export const useVersions = create<Versions>(() => nothing);
 
 const get = useVersions.getState;
 const set = useVersions.setState;
-const texts = new Map<number, Readonly<Record<string, string>>>();
+type Texts = Readonly<Record<string, string>>;
+const texts = new Map<Side, Texts>();
 let turn = 0;
 
 /** Shows what is different now from the last version that was built. */
 export async function openVersions(): Promise<void> {
   openPage("versions");
   await guarded(async () => {
-    const { project } = useDocuments.getState();
-    if (project === null) return;
-    const all = await rest.versions(project);
-    set({ all, before: all[0]?.version ?? "now", after: "now" });
+    await refresh();
+    set({ before: get().all[0]?.version ?? "now", after: "now" });
     await compare();
   });
+}
+
+async function refresh(): Promise<void> {
+  const { project } = useDocuments.getState();
+  if (project === null) return;
+  const [all, status] = await Promise.all([rest.versions(project), git.status(project)]);
+  const commits = status.head ? await git.commits(project) : [];
+  if (useDocuments.getState().project === project) set({ all, git: status, commits });
 }
 
 export function choose(change: Partial<Pick<Versions, "before" | "after" | "chosen">>): void {
@@ -53,24 +71,26 @@ async function compare(): Promise<void> {
   const mine = turn;
   const { before, after } = get();
   set({ found: null, trouble: null });
-  const [one, other] = [await textsOf(before), await textsOf(after)];
+  // No build has the operator panels; a commit does.
+  const withPanels = typeof before !== "number" && typeof after !== "number";
+  const [one, other] = [await textsOf(before, withPanels), await textsOf(after, withPanels)];
   if (mine !== turn) return;
   const found = differences(one, other);
   const { chosen } = get();
   set({ found, chosen: found.some(({ path }) => path === chosen) ? chosen : (found[0]?.path ?? null) });
 }
 
-async function textsOf(side: Side): Promise<Readonly<Record<string, string>>> {
+async function textsOf(side: Side, withPanels: boolean): Promise<Texts> {
   const { project, files } = useDocuments.getState();
   if (project === null) return {};
   if (side !== "now") {
-    const known = texts.get(side) ?? (await rest.version(project, side)).files;
+    const known = texts.get(side) ?? (await storedTexts(project, side));
     if (useDocuments.getState().project === project) texts.set(side, known);
-    return known;
+    return withPanels ? known : Object.fromEntries(Object.entries(known).filter(([path]) => !isPanelFile(path)));
   }
   const now: Record<string, string> = {};
   for (const { path } of files) {
-    if (isPanelFile(path)) continue; // no build has it
+    if (isPanelFile(path) && !withPanels) continue;
     const text = textHere(path) ?? (await savedText(path));
     if (text === null) throw new Error(path);
     now[path] = text;
@@ -78,22 +98,69 @@ async function textsOf(side: Side): Promise<Readonly<Record<string, string>>> {
   return now;
 }
 
-/** Takes the texts of a version into the editor, where they are not saved yet; a file that is missing is made again. */
-export const takeVersion = (version: number) =>
+async function storedTexts(project: number, side: Exclude<Side, "now">): Promise<Texts> {
+  if (typeof side === "number") return (await rest.version(project, side)).files;
+  return (await git.commit(project, commitOf(side))).files;
+}
+
+/**
+ * Takes the texts of a version or commit into the editor, or only the one of a file: they are not saved yet. A file that is
+ * missing is made again. An operator panel is saved at once, as panels always are.
+ */
+export const takeVersion = (side: Exclude<Side, "now">, only: string | null = null) =>
   guarded(async () => {
-    for (const { path, before } of differences(await textsOf(version), await textsOf("now"))) {
-      if (before === null) continue; // that version has no such file: it stays
-      if (!useDocuments.getState().files.some((file) => file.path === path)) {
-        await createFile(path, before);
-        continue;
+    const withPanels = typeof side !== "number";
+    for (const { path, before } of differences(await textsOf(side, withPanels), await textsOf("now", withPanels))) {
+      if (before === null || (only !== null && path !== only)) continue; // that version has no such file: it stays
+      if (!useDocuments.getState().files.some((file) => file.path === path)) await createFile(path, before);
+      else if (isPanelFile(path)) await savePanel(path, before);
+      else {
+        await openDocument(path);
+        openFile(path);
+        edit(path, before);
       }
-      await openDocument(path);
-      openFile(path);
-      edit(path, before);
     }
     openPage("versions");
     await compare();
   });
+
+async function savePanel(path: string, text: string): Promise<void> {
+  const { project, files } = useDocuments.getState();
+  const version = files.find((file) => file.path === path)?.version;
+  if (project === null || version === undefined) return;
+  const result = await rest.save(project, path, text, version);
+  if ("conflict" in result) throw new Error(result.conflict.message);
+}
+
+/** Gives a version a label and a message. Throws the server's refusal. */
+export async function describeVersion(version: number, label: string, message: string): Promise<void> {
+  const { project } = useDocuments.getState();
+  if (project === null) return;
+  const described = await rest.describeVersion(project, version, label, message);
+  set({ all: get().all.map((each) => (each.version === version ? described : each)) });
+}
+
+/** Makes the project's folder under git. */
+export const beginGit = () =>
+  guarded(async () => {
+    const { project } = useDocuments.getState();
+    if (project !== null) set({ git: await git.begin(project), trouble: null });
+  });
+
+/** Saves everything, and commits it. Throws the server's refusal. */
+export async function commitNow(message: string): Promise<void> {
+  const { project } = useDocuments.getState();
+  const { git: status } = get();
+  if (project === null || status === null) return;
+  try {
+    for (const path of Object.keys(useDocuments.getState().open))
+      if (!(await save(path))) throw new Error(t("git.unsaved", { path }));
+    // Who sees which files another program committed, and commits all the same, has agreed.
+    await git.commitNow(project, { message, head: status.head, agreed: status.elsewhere.length > 0 });
+  } finally {
+    await refresh();
+  }
+}
 
 async function guarded(deed: () => Promise<void>): Promise<void> {
   try {
@@ -103,8 +170,15 @@ async function guarded(deed: () => Promise<void>): Promise<void> {
   }
 }
 
-useDocuments.subscribe(({ project }, before) => {
-  if (project === before.project) return;
-  texts.clear();
-  set(nothing);
+/** What is saved or built while the page is there changes what a commit would keep, and the versions. */
+let pending: ReturnType<typeof setTimeout> | undefined;
+useDocuments.subscribe(({ project, files, build }, before) => {
+  if (project !== before.project) {
+    texts.clear();
+    set(nothing);
+    return;
+  }
+  if ((files === before.files && build === before.build) || get().git === null) return;
+  clearTimeout(pending);
+  pending = setTimeout(() => void guarded(refresh), 300);
 });

@@ -251,4 +251,11 @@ export const plc = {
   "picker.export": "Export the project",
   "picker.export.hint": "as it is saved",
   "newproject.archive.model": "The project in the file is written for {model}.",
+  "newproject.template": "Begin with",
+  "newproject.template.empty": "An empty program",
+  "newproject.template.model": "The program is written for {model}.",
+  "newproject.template.sample": "Sample: {name}",
+  "template.error-handler": "A program with an error handler",
+  "template.instruction-list": "A program in Instruction List",
+  "template.sequence": "A sequence of steps",
 } as const;

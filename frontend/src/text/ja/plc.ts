@@ -251,4 +251,11 @@ export const plc: Record<keyof typeof english, string> = {
   "picker.export": "プロジェクトをエクスポート",
   "picker.export.hint": "保存済みの内容",
   "newproject.archive.model": "ファイルのプロジェクトは {model} 用です。",
+  "newproject.template": "最初の内容",
+  "newproject.template.empty": "空のプログラム",
+  "newproject.template.model": "このプログラムは {model} 用です。",
+  "newproject.template.sample": "サンプル: {name}",
+  "template.error-handler": "エラー処理付きのプログラム",
+  "template.instruction-list": "IL のプログラム",
+  "template.sequence": "ステップのシーケンス",
 };

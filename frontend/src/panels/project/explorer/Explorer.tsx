@@ -1,6 +1,7 @@
 import { type DragEvent, useState } from "react";
 import { askNewPanel, useOperatorPanels } from "../../../store/operator/panels";
 import { useDocuments } from "../../../store/project/documents";
+import { dropArchive } from "../../../store/project/newProject";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
@@ -26,14 +27,17 @@ export function Explorer() {
   const newPanel = useOperatorPanels(({ asking }) => asking);
 
   function onDrag(event: DragEvent): void {
-    if (project !== null && event.dataTransfer.types.includes("Files")) event.preventDefault();
+    if (event.dataTransfer.types.includes("Files")) event.preventDefault();
   }
 
   function onDrop(event: DragEvent): void {
     const files = [...event.dataTransfer.files];
-    if (project === null || files.length === 0) return;
+    if (files.length === 0) return;
     event.preventDefault();
-    void adding.add(files);
+    const [archive] = files.filter(({ name }) => /\.zip$/i.test(name));
+    if (archive) dropArchive(archive);
+    const single = files.filter(({ name }) => !/\.zip$/i.test(name));
+    if (project !== null && single.length > 0) void adding.add(single);
   }
 
   return (

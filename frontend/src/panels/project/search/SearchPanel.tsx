@@ -1,11 +1,13 @@
 /** Search and replace in all files of the project, with what each place becomes. */
-import { type KeyboardEvent, useEffect, useRef } from "react";
+import { type KeyboardEvent, useEffect, useMemo, useRef } from "react";
 import { type Match, MOST } from "../../../logic/project/search";
 import { openFile } from "../../../store/page/navigate";
-import { becomes, type FileMatches, look, replace, replaceBy, useSearch } from "../../../store/project/search";
+import { becomes, look, replace, replaceBy, useSearch } from "../../../store/project/search";
+import type { FileMatches } from "../../../store/project/searching";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
+import { useGrid } from "../../../ui/useGrid";
 import "./search.css";
 
 const OPTIONS = [
@@ -15,7 +17,7 @@ const OPTIONS = [
 ] as const;
 
 export function SearchPanel() {
-  const { text, by, found, unread, bad, asked } = useSearch();
+  const { text, by, found, unread, bad, slow, asked } = useSearch();
   const field = useRef<HTMLInputElement>(null);
   const count = sum(found);
   useEffect(() => {
@@ -54,7 +56,7 @@ export function SearchPanel() {
           {t("search.all", { count })}
         </button>
         <span className="faint" role="status">
-          {says(text, bad, found)}
+          {slow ? t("search.slow") : says(text, bad, found)}
         </span>
       </div>
       {unread.length > 0 && (
@@ -63,11 +65,7 @@ export function SearchPanel() {
           {t("search.unread", { paths: unread.join(", ") })}
         </p>
       )}
-      <div className="scroll grow" role="region" aria-label={t("search.found")}>
-        {found.map((file) => (
-          <File key={file.path} file={file} />
-        ))}
-      </div>
+      <Results />
     </div>
   );
 }
@@ -106,39 +104,77 @@ function Options() {
   );
 }
 
-function File({ file: { path, matches } }: { file: FileMatches }) {
+interface Row {
+  file: FileMatches;
+  /** Null: the line with the name of the file. */
+  match: Match | null;
+}
+
+/** Files and their matches, line by line: of thousands only those that can be seen are in the page. */
+function Results() {
+  const found = useSearch((search) => search.found);
+  const rows = useMemo(
+    () => found.flatMap((file): Row[] => [{ file, match: null }, ...file.matches.map((match) => ({ file, match }))]),
+    [found],
+  );
+  const { scroll, items, body, topOf } = useGrid({ count: rows.length, head: 0 });
+  return (
+    <div className="scroll grow" ref={scroll} role="region" aria-label={t("search.found")}>
+      <div {...body} role="list">
+        {items.map((item) => {
+          const row = rows[item.index];
+          return (
+            row && (
+              <div
+                key={item.key}
+                className={row.match ? "line" : "line head"}
+                role="listitem"
+                aria-setsize={rows.length}
+                aria-posinset={item.index + 1}
+                style={{ transform: `translateY(${topOf(item)}px)` }}
+              >
+                {row.match ? <Hit path={row.file.path} match={row.match} /> : <Head file={row.file} />}
+              </div>
+            )
+          );
+        })}
+      </div>
+    </div>
+  );
+}
+
+function Head({ file: { path, matches } }: { file: FileMatches }) {
+  return (
+    <>
+      <span className="mono">{path}</span>
+      <span className="faint">{matches.length}</span>
+      <IconButton
+        icon="swap"
+        label={t("search.file", { path, count: matches.length })}
+        onClick={() => void replace([{ path, matches }])}
+      />
+    </>
+  );
+}
+
+function Hit({ path, match }: { path: string; match: Match }) {
   const by = useSearch((search) => search.by);
   return (
-    <section aria-label={path}>
-      <h3>
-        <span className="mono">{path}</span>
-        <span className="faint">{matches.length}</span>
-        <IconButton
-          icon="swap"
-          label={t("search.file", { path, count: matches.length })}
-          onClick={() => void replace([{ path, matches }])}
-        />
-      </h3>
-      <ul>
-        {matches.map((match) => (
-          <li key={match.at}>
-            <button type="button" className="hit" onClick={() => open(path, match)}>
-              <span className="mono faint line">{match.line}</span>
-              <span className="mono cut">
-                {match.before}
-                <mark className={by === "" ? "" : "gone"}>{match.groups[0]?.split("\n")[0]}</mark>
-                {by !== "" && <ins>{becomes(match)}</ins>}
-                {match.after}
-              </span>
-            </button>
-            <IconButton
-              icon="swap"
-              label={t("search.one", { path, line: match.line })}
-              onClick={() => void replace([{ path, matches: [match] }])}
-            />
-          </li>
-        ))}
-      </ul>
-    </section>
+    <>
+      <button type="button" className="hit" onClick={() => open(path, match)}>
+        <span className="mono faint number">{match.line}</span>
+        <span className="mono cut">
+          {match.before}
+          <mark className={by === "" ? "" : "gone"}>{match.groups[0]?.split("\n")[0]}</mark>
+          {by !== "" && <ins>{becomes(match)}</ins>}
+          {match.after}
+        </span>
+      </button>
+      <IconButton
+        icon="swap"
+        label={t("search.one", { path, line: match.line })}
+        onClick={() => void replace([{ path, matches: [match] }])}
+      />
+    </>
   );
 }

@@ -1,4 +1,4 @@
-import { useRef, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
 import { lookAtArchive } from "../../../store/project/newProject";
 import { t } from "../../../text";
@@ -6,6 +6,8 @@ import { Icon } from "../../../ui/Icon";
 import type { ProjectArchive } from "../../../wire/types";
 
 interface Props {
+  /** Looked at without being chosen here. */
+  dropped?: File | null;
   onChoose: (chosen: Chosen) => void;
 }
 
@@ -13,10 +15,11 @@ interface Props {
 export type Chosen = "none" | "not yet" | { file: File; found: ProjectArchive };
 
 /** Asks for a zip file with the files of a new project, and tells what it has. */
-export function ArchiveField({ onChoose }: Props) {
+export function ArchiveField({ dropped = null, onChoose }: Props) {
   const [found, setFound] = useState<ProjectArchive | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
 
+  const [chosen, setChosen] = useState(false);
   const turn = useRef(0);
 
   async function choose(file: File | null): Promise<void> {
@@ -36,6 +39,9 @@ export function ArchiveField({ onChoose }: Props) {
     }
   }
 
+  const begin = useRef(() => void choose(dropped));
+  useEffect(() => begin.current(), []);
+
   return (
     <label className="field">
       <span>{t("newproject.archive")}</span>
@@ -44,9 +50,12 @@ export function ArchiveField({ onChoose }: Props) {
         accept=".zip"
         className="inp file"
         aria-invalid={refused !== null}
-        onChange={({ target }) => void choose(target.files?.[0] ?? null)}
+        onChange={({ target }) => {
+          setChosen(true);
+          void choose(target.files?.[0] ?? null);
+        }}
       />
-      {found && <span className="hint">{says(found)}</span>}
+      {found && <span className="hint">{`${dropped && !chosen ? `${dropped.name}: ` : ""}${says(found)}`}</span>}
       {refused && (
         <span className="hint bad" role="alert">
           <Icon name="error" small />

@@ -2,16 +2,23 @@ import { useCallback, useEffect, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
 import { useBench } from "../../../store/plc/bench";
 import { listModels } from "../../../store/plc/models";
-import { createProject } from "../../../store/project/newProject";
+import { createProject, listTemplates } from "../../../store/project/newProject";
 import { t } from "../../../text";
 import { Field } from "../../../ui/Field";
 import { FormDialog } from "../../../ui/FormDialog";
-import type { ModelSummary } from "../../../wire/types";
+import type { ModelSummary, ProjectTemplate } from "../../../wire/types";
 import { ArchiveField, type Chosen } from "./ArchiveField";
 import { ModelFacts } from "./ModelFacts";
+import { TemplateField } from "./TemplateField";
+
+interface Props {
+  /** A zip file that was dropped on the page. */
+  dropped?: File | null;
+  onClose: () => void;
+}
 
 /** Asks for the name, the PLC model and the first instance of a new project. */
-export function NewProject({ onClose }: { onClose: () => void }) {
+export function NewProject({ dropped = null, onClose }: Props) {
   const [models, setModels] = useState<readonly ModelSummary[]>([]);
   const [name, setName] = useState("");
   /** Empty until somebody chooses: then it is the model of the archive, or a usual one. */
@@ -21,17 +28,23 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   const [unreachable, setUnreachable] = useState<string | null>(null);
   const [wrongInstance, setWrongInstance] = useState(false);
   const [archive, setArchive] = useState<Chosen>("none");
+  const [templates, setTemplates] = useState<readonly ProjectTemplate[]>([]);
+  const [template, setTemplate] = useState("");
 
   const isKnown = (wanted: string) => models.some((known) => known.name === wanted);
-  const offered = typeof archive === "object" && isKnown(archive.found.model) ? archive.found.model : usual(models);
-  const model = picked || offered;
+  const written =
+    typeof archive === "object" ? archive.found.model : (templates.find(({ id }) => id === template)?.model ?? "");
+  const model = picked || (isKnown(written) ? written : usual(models));
 
   const isTaken = (wanted: string) => taken?.some((known) => known.name === wanted) === true;
 
   const loadModels = useCallback(() => {
     setUnreachable(null);
-    listModels()
-      .then(setModels)
+    Promise.all([listModels(), listTemplates()])
+      .then(([found, begun]) => {
+        setModels(found);
+        setTemplates(begun);
+      })
       .catch((error: unknown) => setUnreachable(messageOf(error)));
   }, []);
   useEffect(loadModels, [loadModels]);
@@ -47,7 +60,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
     if (project === "" || first === "") throw new Error(t("name.missing"));
     // Checked before anything is created: otherwise a project without an instance would remain after a failure.
     if (isTaken(first)) throw new Error(t("newproject.taken", { name: first }));
-    await createProject(project, model, first, typeof archive === "object" ? archive.file : null);
+    await createProject(project, model, first, typeof archive === "object" ? archive.file : template);
     return true;
   }
 
@@ -86,7 +99,17 @@ export function NewProject({ onClose }: { onClose: () => void }) {
             </select>
           </label>
           <ModelFacts model={models.find((known) => known.name === model)} />
+          <TemplateField
+            templates={templates}
+            value={template}
+            disabled={archive !== "none"}
+            onChoose={(id) => {
+              setTemplate(id);
+              setPicked("");
+            }}
+          />
           <ArchiveField
+            dropped={dropped}
             onChoose={(chosen) => {
               setArchive(chosen);
               if (typeof chosen !== "object") return;
@@ -95,8 +118,12 @@ export function NewProject({ onClose }: { onClose: () => void }) {
               if (isKnown(found.model)) setPicked("");
             }}
           />
-          {typeof archive === "object" && archive.found.model !== "" && archive.found.model !== model && (
-            <p className="hint">{t("newproject.archive.model", { model: archive.found.model })}</p>
+          {written !== "" && written !== model && (
+            <p className="hint">
+              {t(typeof archive === "object" ? "newproject.archive.model" : "newproject.template.model", {
+                model: written,
+              })}
+            </p>
           )}
           <Field
             label={t("newproject.instance")}

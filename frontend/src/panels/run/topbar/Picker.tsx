@@ -2,7 +2,7 @@ import { useState } from "react";
 import { showCompare } from "../../../store/past/comparisons";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../../store/plc/bench";
 import { showInstances } from "../../../store/plc/instances";
-import { exportProject } from "../../../store/project/newProject";
+import { dropArchive, exportProject, useDropped } from "../../../store/project/newProject";
 import { useShownProgram } from "../../../store/project/shownProgram";
 import { openVersions } from "../../../store/project/versions";
 import { openTraceImport } from "../../../store/verify/traceImport";
@@ -20,6 +20,7 @@ type Asking = "project" | "instance" | null;
 export function Picker() {
   const { app, project, instance } = useBench();
   const [asking, setAsking] = useState<Asking>(null);
+  const dropped = useDropped(({ archive }) => archive);
   const shown = useShownProgram(({ version }) => version);
   const model = instance?.model ?? project?.model ?? "";
   return (
@@ -40,7 +41,16 @@ export function Picker() {
         </span>
         <Icon name="chev-d" />
       </MenuButton>
-      {asking === "project" && <NewProject onClose={() => setAsking(null)} />}
+      {(asking === "project" || dropped) && (
+        <NewProject
+          key={dropped?.name}
+          dropped={dropped}
+          onClose={() => {
+            dropArchive(null);
+            setAsking(null);
+          }}
+        />
+      )}
       {asking === "instance" && project && <NewInstance project={project} onClose={() => setAsking(null)} />}
     </>
   );

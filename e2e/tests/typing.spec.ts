@@ -1,0 +1,119 @@
+import { expect, test } from '../fixtures/test';
+
+/** POUs whose lines end with names, keywords and half of a name that a longer one begins with: what a list of completions could take. */
+const POUS = [
+  `FUNCTION_BLOCK Valve
+VAR_INPUT
+  open : BOOL;
+  wait : TIME := T#2s;
+END_VAR
+VAR_OUTPUT
+  isOpen, failed : BOOL;
+END_VAR
+VAR
+  late : TON;
+END_VAR
+late(IN := open AND NOT isOpen,
+  PT := wait);
+IF late.Q THEN
+  failed := TRUE;
+ELSIF NOT open THEN
+  failed := FALSE;
+END_IF
+isOpen := open AND NOT
+  failed;
+END_FUNCTION_BLOCK
+`,
+  `FUNCTION Clamp : INT
+VAR_INPUT
+  value, low, high : INT;
+END_VAR
+IF value < low THEN
+  Clamp := low;
+ELSE
+  Clamp := MIN(value,
+    high);
+END_IF;
+END_FUNCTION
+`,
+  `TYPE
+  Phase : (idle, filling, draining);
+  Recipe : STRUCT
+    name : STRING[20] := 'water $'hot$'';
+    amount : REAL;
+    steps : ARRAY[1..4] OF
+      Phase;
+  END_STRUCT;
+END_TYPE
+`,
+  `FUNCTION_BLOCK Counter
+VAR_IN_OUT
+  total : DINT;
+END_VAR
+VAR
+  edge : R_TRIG;
+  i : INT;
+END_VAR
+(* counts
+   in two lines *)
+FOR i := 1 TO 3 DO
+  total := total
+    + 1;
+END_FOR;
+WHILE i > 0 DO
+  i := i - 1;
+  EXIT
+END_WHILE;
+END_FUNCTION_BLOCK
+`,
+  `PROGRAM Typed
+VAR
+  valve : Valve;
+  count : Counter;
+  sum AT %MD10 : DINT;
+  phase : Phase;
+END_VAR
+valve(open := phase = Phase#filling);
+CASE phase OF
+  Phase#idle:
+    phase := Phase#filling
+    ;
+  Phase#filling:
+    IF valve.isOpen THEN
+      phase := Phase#draining;
+    END_IF;
+  ELSE
+    phase := Phase#idle;
+END_CASE;
+count(total := sum);
+END_PROGRAM
+`,
+];
+const QUICK_MS = 25;
+const SLOW_MS = 110;
+
+for (const { name, texts, delay } of [
+  { name: 'five POUs typed quickly', texts: POUS, delay: QUICK_MS },
+  { name: 'one POU typed slowly', texts: POUS.slice(1, 2), delay: SLOW_MS },
+]) {
+  test(`${name}, with Enter at every line end, are stored as they were typed`, { tag: '@nightly' }, async ({
+    openAs,
+    server,
+  }) => {
+    const mika = await openAs('Mika');
+    await mika.runs();
+    const { keyboard } = mika.page;
+    const main = mika.editor('Main.st');
+    await main.replaceWith('');
+    // The list of completions is on: it is there for a word that is not finished.
+    await keyboard.type('PROG', { delay });
+    await expect(main.suggestions).toBeVisible();
+    await keyboard.press('Escape');
+    await main.replaceWith('');
+    for (const line of texts.join('\n').split('\n').slice(0, -1)) {
+      await keyboard.type(line, { delay });
+      await keyboard.press('Enter', { delay });
+    }
+    expect(await main.stored(server)).toBe(texts.join('\n'));
+  });
+}
