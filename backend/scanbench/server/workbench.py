@@ -115,6 +115,7 @@ class Workbench:
             asyncio.to_thread(zygote().close),  # a process that is on its way does not come any more
         )
         await self._reactions.close()
+        await self.projects.drafts.end()
         await self._write_behind.close()
 
     async def delete_project(self, id: int) -> None:

@@ -19,6 +19,7 @@ from scanbench.web.messages_errors import (
     ErrorHistoryRow,
     SweepProgress,
 )
+from scanbench.web.messages_together import Draft
 from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
@@ -78,6 +79,10 @@ class SaveFile(Wire):
 
     text: str
     version: Version
+    draft: str | None = Field(
+        default=None,
+        description="the draft that has this text: without it, what is different in the text becomes a change of the draft",
+    )
 
 
 class SaveConflict(Wire):
@@ -420,6 +425,8 @@ ServerMessage = Annotated[
     | Built
     | Saved
     | events.FileDeleted
+    | events.DraftEdited
+    | Draft
     | events.ForcesChanged
     | Diagnostics
     | events.TimelineChanged

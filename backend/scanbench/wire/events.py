@@ -144,6 +144,18 @@ class FileDeleted(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class DraftEdited(Public):
+    """Somebody edited a file that this subscriber has open: Yjs changes in base64."""
+
+    PUBLIC: ClassVar = "DraftEdited"
+
+    path: str
+    draft: str
+    update: str
+    type: Literal["draft_edited"] = "draft_edited"
+
+
+@dataclass(frozen=True, slots=True)
 class ValueWritten(Public):
     """Somebody wrote or forced a variable."""
 
@@ -383,6 +395,7 @@ Told = (
     | ProgramBuilt
     | FileSaved
     | FileDeleted
+    | DraftEdited
     | ValueWritten
     | ForcesChanged
     | DiagnosticsChanged

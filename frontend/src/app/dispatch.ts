@@ -17,6 +17,7 @@ import { onTimeline } from "../store/plc/timeline";
 import { apply } from "../store/plc/values";
 import { onWatching, watchAgain } from "../store/plc/watches";
 import { catchUp, onBuilt, onDeleted, onSaved } from "../store/project/documents";
+import { onDraft, onDraftEdited } from "../store/project/drafts";
 import { onRetrospective, onTraces, refreshTraces } from "../store/trace/traces";
 import { onDisturbances } from "../store/verify/disturb";
 import { onVerifications, refreshVerifications } from "../store/verify/verify";
@@ -101,6 +102,12 @@ function dispatch(message: ServerMessage): void {
       return;
     case "deleted":
       void onDeleted(message.path, message.author);
+      return;
+    case "draft":
+      onDraft(message);
+      return;
+    case "draft_edited":
+      onDraftEdited(message);
       return;
     case "forces":
       onForces(message.forces);

@@ -2978,7 +2978,19 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"];
+        /** CloseDraft */
+        CloseDraft: {
+            /** Path */
+            path: string;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "close_draft";
+        };
         /**
          * CommandResult
          * @description What became of a command that came by REST.
@@ -3392,6 +3404,53 @@ export interface components {
             type: "done";
         };
         /**
+         * Draft
+         * @description The text of a file as it is edited now; `version` is that of the saved text.
+         */
+        Draft: {
+            /**
+             * Draft
+             * @description a file that was deleted and made again has a different one
+             */
+            draft: string;
+            /** Path */
+            path: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "draft";
+            /**
+             * Update
+             * @description what the browser has not yet
+             */
+            update: string;
+            /**
+             * Vector
+             * @description what the server has: the browser sends the rest
+             */
+            vector: string;
+            /** Version */
+            version: number;
+        };
+        /**
+         * DraftEdited
+         * @description Somebody edited a file that this subscriber has open: Yjs changes in base64.
+         */
+        DraftEdited: {
+            /** Draft */
+            draft: string;
+            /** Path */
+            path: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "draft_edited";
+            /** Update */
+            update: string;
+        };
+        /**
          * Drive
          * @description As `Run` on the socket.
          */
@@ -3427,6 +3486,28 @@ export interface components {
             memory?: ("recorded" | "set") | null;
             /** Pace */
             pace?: ("free" | "scan" | "step") | null;
+        };
+        /**
+         * EditDraft
+         * @description Changes of a draft that is open; `Done` when they are kept. The same once more changes nothing.
+         */
+        EditDraft: {
+            /** Draft */
+            draft: string;
+            /** Path */
+            path: string;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "edit_draft";
+            /**
+             * Update
+             * Format: base64
+             */
+            update: string;
         };
         /**
          * EmbeddedCheck
@@ -4654,6 +4735,33 @@ export interface components {
             state: string;
         };
         /**
+         * OpenDraft
+         * @description Begins to edit a file together with everybody who has it open: `Draft` is the answer, before `Done`.
+         */
+        OpenDraft: {
+            /**
+             * Draft
+             * @description the draft that is here already, as after a lost connection
+             * @default null
+             */
+            draft: string | null;
+            /** Path */
+            path: string;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "open_draft";
+            /**
+             * Vector
+             * @description what is here of it
+             * @default null
+             */
+            vector: string | null;
+        };
+        /**
          * PastInfo
          * @description What is shown is the past: the PLC waits at `live_scan`.
          */
@@ -5528,6 +5636,11 @@ export interface components {
          * @description Optimistic save: `version` is the one the edit began from (0 for a new file).
          */
         SaveFile: {
+            /**
+             * Draft
+             * @description the draft that has this text: without it, what is different in the text becomes a change of the draft
+             */
+            draft?: string | null;
             /** Text */
             text: string;
             /** Version */
@@ -5570,7 +5683,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /** SetCell */
         SetCell: {
             /** Call */

@@ -158,8 +158,15 @@ export const rest = {
   packProject: (project: number) => blob(`/projects/${project}/archive`),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),
   file: (project: number, path: string) => json<FileText>("GET", filePath(project, path)),
-  save: async (project: number, path: string, text: string, version: number): Promise<SaveResult> => {
-    const response = await request("PUT", filePath(project, path), { text, version }, [409]);
+  /** `draft`: that the text is of; without one the server makes a change of its draft of it. */
+  save: async (
+    project: number,
+    path: string,
+    text: string,
+    version: number,
+    draft?: string | undefined,
+  ): Promise<SaveResult> => {
+    const response = await request("PUT", filePath(project, path), { text, version, draft }, [409]);
     if (response.status === 409) return { conflict: (await response.json()) as SaveConflict };
     return { saved: (await response.json()) as FileInfo };
   },

@@ -13,15 +13,18 @@ from contextlib import suppress
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
+from scanbench.server.drafts import Drafts
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import messages_client as client
 from scanbench.web import messages_commands as commands
 from scanbench.web import messages_debug as debugger
+from scanbench.web import messages_together as together
 from scanbench.web import translate, translate_debug, translate_verify
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
 from scanbench.web.invalid import said
+from scanbench.web.socket.drafting import Drafting
 from scanbench.web.socket.waiting import Waiting
 from scanbench.wire import events
 from scanbench.wire.commands import read_command
@@ -41,6 +44,9 @@ _Wanted = (
     | client.NewRun
     | client.RollBack
     | debugger.SetCoverage
+    | together.OpenDraft
+    | together.EditDraft
+    | together.CloseDraft
 )
 
 _INCOMING: TypeAdapter[client.ClientMessage] = TypeAdapter(client.ClientMessage)
@@ -50,7 +56,7 @@ _OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
 class Client:
     """A subscriber that is connected by a WebSocket."""
 
-    def __init__(self, socket: WebSocket, session: Session, user: User) -> None:
+    def __init__(self, socket: WebSocket, session: Session, user: User, drafts: Drafts) -> None:
         self.user = user
         self._socket, self._session = socket, session
         self._id = 0
@@ -65,6 +71,7 @@ class Client:
         self._dap: Conversation | None = None
         self._pressed: set[str] = set()
         """Variables that a push button of this browser holds at TRUE."""
+        self._drafting = Drafting(drafts, session.project_id, self, self._say_draft)
 
     # ---- from the session -----------------------------------------------------------------------------------------
 
@@ -147,6 +154,7 @@ class Client:
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
+            await self._drafting.end()
             if self._dap is not None:
                 await self._dap.close()
 
@@ -192,14 +200,22 @@ class Client:
             case client.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.watching.unwatch(self._id, message.ids)
-            case (
-                client.Travel() | client.NewRun() | client.RollBack()
-            ):  # may take a build: the rest must not wait for it
-                task = asyncio.get_running_loop().create_task(self._serve(message))
-                self._slow.add(task)
-                task.add_done_callback(self._slow.discard)
+            # A build, or a database: the rest must not wait for it.
+            case client.Travel() | client.NewRun() | client.RollBack():
+                self._serve_aside(message)
+            case together.OpenDraft() | together.EditDraft() | together.CloseDraft():
+                self._serve_aside(message)
             case _:
                 await self._serve(message)
+
+    def _serve_aside(self, message: _Wanted) -> None:
+        task = asyncio.get_running_loop().create_task(self._serve(message))
+        self._slow.add(task)
+        task.add_done_callback(self._slow.discard)
+
+    def _say_draft(self, draft: together.Draft) -> None:
+        self._texts.add(_text(draft))
+        self._wake.set()
 
     def _debugger(self) -> Conversation:
         """The browser's debug session, which begins with its first word."""
@@ -249,6 +265,9 @@ class Client:
                 return await session.new_run(author)
             case client.RollBack():
                 return await session.roll_back(author)
+            case together.OpenDraft() | together.EditDraft() | together.CloseDraft():
+                await self._drafting.serve(message)
+                return Ack(0, True, "", session.state.scan)
             case debugger.SetCoverage():
                 return await session.debugging.cover(message.on, message.reset, author)
             case _:
