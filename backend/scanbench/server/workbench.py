@@ -21,6 +21,7 @@ from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.server.history import RunHistory
 from scanbench.server.missing import stand_in, why_missing
+from scanbench.server.people import People
 from scanbench.server.projects import Projects
 from scanbench.server.samples import samples
 from scanbench.server.states import States
@@ -60,6 +61,7 @@ class Workbench:
         self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
+        self.people = People()
         self._reactions = SharedJob(self._cache)
         self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
         self.watch_lists = WatchLists(store, self._sessions_of)

@@ -422,6 +422,7 @@ ServerMessage = Annotated[
     | Errors
     | events.Logged
     | Users
+    | events.PeopleChanged
     | Built
     | Saved
     | events.FileDeleted

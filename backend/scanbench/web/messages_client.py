@@ -9,7 +9,7 @@ from pydantic import Field
 from scanbench.web.messages_base import Scan, Wire
 from scanbench.web.messages_commands import Command
 from scanbench.web.messages_debug import DapOut, SetCoverage
-from scanbench.web.messages_together import CloseDraft, EditDraft, OpenDraft
+from scanbench.web.messages_together import CloseDraft, EditDraft, Here, OpenDraft
 
 
 class Watch(Wire):
@@ -82,6 +82,7 @@ ClientMessage = Annotated[
     | DapOut
     | OpenDraft
     | EditDraft
-    | CloseDraft,
+    | CloseDraft
+    | Here,
     Field(discriminator="type"),
 ]

@@ -40,6 +40,23 @@ class CloseDraft(Wire):
     path: DraftPath
 
 
+Mark = Annotated[str, Field(max_length=200)]
+
+
+class Here(Wire):
+    """Where this browser's user is now: `file` and `line`, and in a draft their selection as relative positions of Yjs in base64. Not answered."""
+
+    type: Literal["here"] = "here"
+    file: DraftPath | None
+    line: Annotated[int, Field(ge=1, lt=1 << 31)] | None = None
+    anchor: Mark | None = None
+    head: Mark | None = None
+
+
+class Invitation(Wire):
+    token: str = Field(description="as `token` in the query of the page's address")
+
+
 class Draft(Wire):
     """The text of a file as it is edited now; `version` is that of the saved text."""
 

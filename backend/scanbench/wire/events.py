@@ -70,6 +70,42 @@ class User:
 
     name: str
 
+    @property
+    def initials(self) -> str:
+        """Of the first two words, digits whole (`Guest 12` is G12)."""
+        letters = [word if word.isdigit() else word[0].upper() for word in self.name.split()[:2]]
+        return "".join(letters) or "?"
+
+
+@dataclass(frozen=True, slots=True)
+class Person(Public):
+    """Somebody at a browser, and where they are in the project. Two windows of somebody are two of them."""
+
+    PUBLIC: ClassVar = "Person"
+
+    id: int
+    name: str
+    initials: str
+    colour: int
+    """From 0 to 7: the same in every browser, and of different people different ones while there are enough."""
+    instance: int
+    file: str | None = None
+    line: int | None = None
+    anchor: str | None = None
+    """Where their selection begins and where its caret is: places of the draft (Yjs), which stay where they are when others type."""
+    head: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PeopleChanged(Public):
+    """All who are at the project, whenever somebody comes, moves or goes. `you` is the one who is told."""
+
+    PUBLIC: ClassVar = "People"
+
+    you: int
+    people: tuple[Person, ...]
+    type: Literal["people"] = "people"
+
 
 @dataclass(frozen=True, slots=True)
 class LogEntry(Public):
@@ -392,6 +428,7 @@ Told = (
     | ErrorsChanged
     | Logged
     | UsersChanged
+    | PeopleChanged
     | ProgramBuilt
     | FileSaved
     | FileDeleted

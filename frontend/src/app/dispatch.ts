@@ -18,6 +18,7 @@ import { apply } from "../store/plc/values";
 import { onWatching, watchAgain } from "../store/plc/watches";
 import { catchUp, onBuilt, onDeleted, onSaved } from "../store/project/documents";
 import { onDraft, onDraftEdited } from "../store/project/drafts";
+import { onPeople } from "../store/project/people";
 import { onRetrospective, onTraces, refreshTraces } from "../store/trace/traces";
 import { onDisturbances } from "../store/verify/disturb";
 import { onVerifications, refreshVerifications } from "../store/verify/verify";
@@ -90,6 +91,9 @@ function dispatch(message: ServerMessage): void {
       return;
     case "users":
       usePlc.setState({ users: message.users });
+      return;
+    case "people":
+      onPeople(message);
       return;
     case "built":
       onBuilt(message.result, message.author === usePlc.getState().you?.name ? null : message.author);

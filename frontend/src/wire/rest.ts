@@ -15,6 +15,7 @@ import type {
   HistoryVersion,
   ImportedRecord,
   Instance,
+  Invitation,
   MemoryPlace,
   MemoryWord,
   ModelInfo,
@@ -148,6 +149,8 @@ async function savedErrors(answer: Promise<Response>): Promise<{ saved: UserErro
 export const rest = {
   app: (signal?: AbortSignal) => json<AppInfo>("GET", "", undefined, signal),
 
+  /** The token that lets somebody else in. */
+  invite: () => json<Invitation>("POST", "/invitations"),
   createProject: (name: string, model: string) => json<Project>("POST", "/projects", { name, model }),
   /** What a zip file has of a project. */
   lookAtArchive: (file: Blob) => json<ProjectArchive>("POST", "/archives", file),

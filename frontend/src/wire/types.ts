@@ -50,7 +50,11 @@ export type ProjectVersion = Shapes["ProjectVersion"];
 export type VersionText = Shapes["VersionText"];
 export type RecordInfo = Shapes["RecordInfo"];
 export type TestRecord = Shapes["TestRecord"];
+export type Here = Shapes["Here"];
+export type People = Shapes["People"];
+export type Person = Shapes["Person"];
 export type Hello = Shapes["Hello"];
+export type Invitation = Shapes["Invitation"];
 export type Instance = Shapes["Instance"];
 export type InstanceLimits = Shapes["InstanceLimits"];
 export type InstanceLoad = Shapes["InstanceLoad"];
@@ -122,7 +126,7 @@ type Run = Extract<ClientMessage, { type: "run" }>;
 export type RunOrder = Pick<Run, "action"> & Partial<Pick<Run, "speed" | "scans" | "until">>;
 
 /** What a panel may send: answered by one `Done`; the reference is added when it is sent. */
-export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" }>>;
+export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" } | { type: "here" }>>;
 
 export type UserText = Shapes["UserText"];
 export type UserAddress = Omit<Shapes["UserAddress"], "texts"> & { texts: UserText[] };

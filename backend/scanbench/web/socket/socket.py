@@ -14,6 +14,7 @@ from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
 from scanbench.server.drafts import Drafts
+from scanbench.server.people import People
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import messages_client as client
@@ -56,7 +57,7 @@ _OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
 class Client:
     """A subscriber that is connected by a WebSocket."""
 
-    def __init__(self, socket: WebSocket, session: Session, user: User, drafts: Drafts) -> None:
+    def __init__(self, socket: WebSocket, session: Session, user: User, drafts: Drafts, people: People) -> None:
         self.user = user
         self._socket, self._session = socket, session
         self._id = 0
@@ -71,18 +72,22 @@ class Client:
         self._dap: Conversation | None = None
         self._pressed: set[str] = set()
         """Variables that a push button of this browser holds at TRUE."""
+        self._people, self._person = people, 0
+        self._others: events.PeopleChanged | None = None
         self._drafting = Drafting(drafts, session.project_id, self, self._say_draft)
 
     # ---- from the session -----------------------------------------------------------------------------------------
 
     def on_event(self, event: Event) -> None:
-        """Queues it; of states only the newest is worth sending."""
+        """Queues it; of states, and of where people are, only the newest is worth sending."""
         if isinstance(event, events.LogpointSaid | events.WrittenInside):
             return
         if isinstance(event, events.WatchListChanged) and event.owner not in ("", self.user.name):
             return
         if isinstance(event, events.StateChanged):
             self._state = event
+        elif isinstance(event, events.PeopleChanged):
+            self._others = event
         elif isinstance(event, events.Watching):
             self._on_watching(event)
         else:
@@ -122,6 +127,7 @@ class Client:
         """Speaks with the browser until it goes."""
         await self._socket.accept()
         self._id = self._session.join(self)
+        self._person = self._people.come(self._session.project_id, self._session.id, self)
         hello = wire.Hello(
             you=translate.user(self.user),
             users=list(map(translate.user, self._session.users)),
@@ -148,6 +154,7 @@ class Client:
             if not self._texts.over:
                 raise
         finally:
+            self._people.leave(self._person)
             await self._let_go()
             self._session.leave(self._id)
             tasks = (writer, *self._slow)
@@ -172,6 +179,9 @@ class Client:
             if self._state is not None:
                 state, self._state = self._state, None
                 await self._socket.send_text(_text(translate.event(state)))
+            if self._others is not None:
+                others, self._others = self._others, None
+                await self._socket.send_text(_text(translate.event(others)))
             while self._frames:
                 await self._socket.send_bytes(self._frames.popleft())
             if self._stale and not self._asked:
@@ -200,6 +210,8 @@ class Client:
             case client.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.watching.unwatch(self._id, message.ids)
+            case together.Here():
+                self._people.move(self._person, message.file, message.line, message.anchor, message.head)
             # A build, or a database: the rest must not wait for it.
             case client.Travel() | client.NewRun() | client.RollBack():
                 self._serve_aside(message)

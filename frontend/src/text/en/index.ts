@@ -9,6 +9,7 @@ import { past } from "./past";
 import { plc } from "./plc";
 import { project } from "./project";
 import { sweep } from "./sweep";
+import { together } from "./together";
 import { trace } from "./trace";
 import { userErrors } from "./userErrors";
 import { verify } from "./verify";
@@ -24,6 +25,7 @@ export const english = {
   ...sweep,
   ...userErrors,
   ...debug,
+  ...together,
   ...trace,
   ...verify,
   ...disturb,

@@ -10,6 +10,7 @@ import { past } from "./past";
 import { plc } from "./plc";
 import { project } from "./project";
 import { sweep } from "./sweep";
+import { together } from "./together";
 import { trace } from "./trace";
 import { userErrors } from "./userErrors";
 import { verify } from "./verify";
@@ -25,6 +26,7 @@ export const japanese: Record<TextKey, string> = {
   ...sweep,
   ...userErrors,
   ...debug,
+  ...together,
   ...trace,
   ...verify,
   ...disturb,

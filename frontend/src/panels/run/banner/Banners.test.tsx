@@ -1,7 +1,9 @@
-import { render, screen, waitFor } from "@testing-library/react";
+import { act, cleanup, render, screen, waitFor } from "@testing-library/react";
+import type { UserEvent } from "@testing-library/user-event";
 import { expect, test } from "vitest";
 import { grouped } from "../../../logic/format/numbers";
 import { useLinks } from "../../../store/plc/links";
+import { follow } from "../../../store/project/people";
 import { BATTERY, RAISED, row } from "../../../testing/catalogue";
 import { box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
@@ -140,4 +142,37 @@ test("without a connection the page says since when, and tries again when told t
   expect(alert()).toContain(grouped(server.instance.state.scan));
   await user.click(button(t("lost.now")));
   await waitFor(() => expect(screen.queryByRole("alert")).toBeNull());
+});
+
+test("a guest is asked for a name once somebody else is here, and once only", async () => {
+  const guest = { name: "Guest 3", initials: "G3" };
+  const { server, user } = await openBanners((server) => {
+    server.greeting = { you: guest, users: [guest] };
+  });
+  expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();
+  server.say({ type: "users", users: [guest, JO] });
+  await user.click(await screen.findByRole("button", { name: t("name.stay", { name: "Guest 3" }) }));
+  expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();
+  cleanup();
+  render(<Banners />);
+  expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();
+});
+
+test.each([
+  ["Escape", (user: UserEvent) => user.keyboard("{Escape}")],
+  ["a click", (user: UserEvent) => user.click(document.body)],
+  ["the button", (user: UserEvent) => user.click(button(t("follow.end")))],
+] as const)("whom one follows is said; %s ends it, and so does their leaving", async (_, end) => {
+  const { server, user } = await openBanners();
+  const nowhere = { file: null, line: null, anchor: null, head: null, instance: server.instance.id };
+  const people = [MIKA, JO].map((each, at) => ({ ...each, ...nowhere, id: at + 1, colour: at }));
+  const banner = () => screen.queryByRole("region", { name: t("follow.label") });
+  server.say({ type: "people", you: 1, people });
+  act(() => follow(2));
+  expect(textOf(banner())).toContain(t("follow.title", { name: JO.name }));
+  await end(user);
+  await waitFor(() => expect(banner()).toBeNull());
+  act(() => follow(2));
+  server.say({ type: "people", you: 1, people: people.slice(0, 1) });
+  await waitFor(() => expect(banner()).toBeNull());
 });

@@ -1,8 +1,10 @@
 import { waitsForSpace } from "../../../logic/plc/plcstate";
 import { usePlc } from "../../../store/plc/plc";
 import { FatalBanner } from "./FatalBanner";
+import { FollowBanner } from "./FollowBanner";
 import { LinkBanner } from "./LinkBanner";
 import { LostBanner } from "./LostBanner";
+import { NameBanner } from "./NameBanner";
 import { OffBanner } from "./OffBanner";
 import { PastBanner } from "./PastBanner";
 import { RecordingBanner } from "./RecordingBanner";
@@ -12,7 +14,7 @@ import { SpaceBanner } from "./SpaceBanner";
 import { TrapBanner } from "./TrapBanner";
 
 /** At most one banner about the PLC, the most severe: no connection, then a stop; and one about its recording. Below: the link that was
- * opened, and replays of the run. */
+ * opened, whom one follows, one's name, and replays of the run. */
 export function Banners() {
   const link = usePlc((plc) => plc.link);
   if (link.state === "lost") return <LostBanner link={link} />;
@@ -21,6 +23,8 @@ export function Banners() {
       <PlcBanner />
       <RecordingBanner />
       <LinkBanner />
+      <FollowBanner />
+      <NameBanner />
       <RerunBanners />
     </>
   );
