@@ -51,15 +51,16 @@ async function open(ide: Ide): Promise<Editor> {
 
 /** All that is to be seen, for a file that fits. */
 const textOf = (editor: Editor) =>
-  editor.region
-    .locator('.view-line')
-    .evaluateAll((lines) =>
-      lines
-        .map((line) => ({ top: line.getBoundingClientRect().top, text: (line.textContent ?? '').replaceAll('\u00a0', ' ') }))
-        .sort((a, b) => a.top - b.top)
-        .map(({ text }) => text)
-        .join('\n'),
-    );
+  editor.region.locator('.view-line').evaluateAll((lines) =>
+    lines
+      .map((line) => ({
+        top: line.getBoundingClientRect().top,
+        text: (line.textContent ?? '').replaceAll('\u00a0', ' '),
+      }))
+      .sort((a, b) => a.top - b.top)
+      .map(({ text }) => text)
+      .join('\n'),
+  );
 
 const savedText = async (server: Server) =>
   (await server.get<{ text: string }>(`/projects/${server.project}/files/${FILE}`)).text;
@@ -125,5 +126,95 @@ test('two people type in one file at once; one loses the connection, the server 
       await expect(editor.line('(* from Jo, 4 *)')).toBeVisible();
     }
     await expect(jo.statusBar).toContainText('Not saved');
+  });
+});
+
+test('what was typed without a connection survives a reload of the page and a restart of the server', {
+  tag: '@nightly',
+}, async ({ openAs, server }) => {
+  await server.put(`/projects/${server.project}/files/${FILE}`, { text: BEGUN, version: 0 });
+  const [mika, jo] = [await openAs('Mika'), await openAs('Jo')];
+  const cable = await cableOf(jo);
+  const [mine, theirs] = [await open(mika), await open(jo)];
+  await cable.pull();
+  await expect(jo.banner).toContainText('No connection');
+  await theirs.addBelow('(* Jo *)', '(* kept in the browser *)');
+  await mine.addBelow('(* Mika *)', '(* kept by the server *)');
+  await expect(mika.statusBar).toContainText('Not saved');
+  await server.kill();
+  await server.startAgain();
+  cable.plugIn();
+  await jo.page.reload();
+  for (const editor of [mine, theirs])
+    for (const part of ['(* kept in the browser *)', '(* kept by the server *)'])
+      await expect(editor.line(part)).toHaveCount(1, { timeout: LONG });
+  expect(await textOf(mine)).toBe(await textOf(theirs));
+});
+
+test('ten turns of typing, cutting off and killing end with one text', { tag: '@nightly' }, async ({
+  openAs,
+  server,
+}) => {
+  await server.put(`/projects/${server.project}/files/${FILE}`, { text: BEGUN, version: 0 });
+  const people = [await openAs('Mika'), await openAs('Jo')] as const;
+  const cables = [await cableOf(people[0]), await cableOf(people[1])] as const;
+  const editors = [await open(people[0]), await open(people[1])] as const;
+  const deeds = ['type', 'cut', 'type', 'kill', 'type', 'plug', 'type', 'cut', 'type', 'kill'] as const;
+  const all: string[] = [];
+  await editors[0].caretAfter('(* Mika *)');
+  await editors[1].caretAfter('(* Jo *)');
+  for (const [turn, deed] of deeds.entries()) {
+    const who = turn % 3 === 0 ? 0 : 1;
+    if (deed === 'cut') await cables[who].pull();
+    else if (deed === 'plug') for (const cable of cables) cable.plugIn();
+    else if (deed === 'kill') {
+      await server.kill();
+      await server.startAgain();
+    } else {
+      const words = [`(* Mika ${turn} *)`, `(* Jo ${turn} *)`];
+      all.push(...words);
+      await Promise.all(editors.map((editor, at) => editor.type(`\n${words[at]}`)));
+    }
+  }
+  for (const cable of cables) cable.plugIn();
+  for (const editor of editors)
+    for (const word of all) await expect(editor.line(word)).toHaveCount(1, { timeout: LONG });
+  expect(await textOf(editors[0])).toBe(await textOf(editors[1]));
+});
+
+test('people see where the others are, follow them, and look at the past alone', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
+  const [mika, jo] = [await openAs('Mika'), await openAs('Jo')];
+  await mika.runs();
+  const main = mika.editor('Main.st');
+  await jo.editor('Main.st').caretAfter('END_VAR');
+
+  await test.step('Jo has a caret with her name', async () => {
+    await expect(main.region.getByText('Jo', { exact: true })).toBeVisible();
+  });
+
+  await test.step('Mika follows Jo to a different file, until he moves', async () => {
+    await mika.page.getByRole('button', { name: /^People/ }).click();
+    await mika.page.getByRole('menuitem', { name: 'Follow Jo' }).click();
+    await expect(mika.page.getByRole('region', { name: 'Following somebody' })).toBeVisible();
+    await jo.explorer.item('Belt').click();
+    await expect(mika.editor('Belt.st').region).toBeVisible();
+    await mika.page.keyboard.press('Escape');
+    await expect(mika.page.getByRole('region', { name: 'Following somebody' })).toBeHidden();
+  });
+
+  await test.step('Jo looks at the past alone: for Mika the PLC goes on', async () => {
+    await mika.top.scansGoOn(50);
+    await jo.timeline.want(20);
+    await jo.page.getByRole('button', { name: 'Look alone' }).click();
+    const alone = jo.page.getByRole('region', { name: 'Looking alone' });
+    await expect(alone).toContainText('scan 20');
+    await expect.poll(() => jo.top.scan()).toBe(20);
+    await mika.top.scansGoOn(await mika.top.scan());
+    await expect(mika.top.state).toContainText('Running');
+    await alone.getByRole('button', { name: 'Return to line-1' }).click();
+    await expect(alone).toBeHidden();
+    await jo.runs();
   });
 });

@@ -63,7 +63,7 @@ function follow(scan: number): void {
 export function answerLink(go: boolean): void {
   const { question } = get();
   set({ question: null });
-  if (go && question !== null) void travel(question);
+  if (go && question !== null) void travel(question, 0, true);
   writeAddress();
 }
 

@@ -1,5 +1,15 @@
 /** English: people at one project. */
 export const together = {
+  "alone.about": "The PLC goes on for the others. What you do here happens only here, and is deleted when you return.",
+  "alone.ask.about": "Others use this PLC. Show it to everybody, and the PLC waits; or look alone, and it goes on.",
+  "alone.ask.label": "Going to the past",
+  "alone.ask.title": "To scan {scan}:",
+  "alone.end": "Return to {name}",
+  "alone.everybody": "Show everybody",
+  "alone.label": "Looking alone",
+  "alone.look": "Look alone",
+  "alone.title": "Only you look at {name} as it was before scan {scan}.",
+  "alone.trouble": "To look alone is not possible now: {message}",
   "follow.about": "You see what they see. Any key, click or scroll of your own ends it.",
   "follow.end": "Stop following",
   "follow.label": "Following somebody",

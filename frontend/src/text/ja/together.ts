@@ -2,6 +2,17 @@
 import type { together as english } from "../en/together";
 
 export const together: Record<keyof typeof english, string> = {
+  "alone.about": "PLC はほかの人のために動き続けます。ここでの操作はここだけのもので、戻ると削除されます。",
+  "alone.ask.about":
+    "ほかの人もこの PLC を使っています。全員に見せると PLC は待ちます。自分だけで見ると PLC は動き続けます。",
+  "alone.ask.label": "過去へ移動",
+  "alone.ask.title": "スキャン {scan} へ:",
+  "alone.end": "{name} に戻る",
+  "alone.everybody": "全員に見せる",
+  "alone.label": "自分だけで見ています",
+  "alone.look": "自分だけで見る",
+  "alone.title": "スキャン {scan} の前の {name} を自分だけで見ています。",
+  "alone.trouble": "今は自分だけで見ることができません: {message}",
   "follow.about": "同じものが見えます。自分でキー、クリック、スクロールを使うと終わります。",
   "follow.end": "追うのをやめる",
   "follow.label": "だれかを追っています",

@@ -1,8 +1,9 @@
-import { act, cleanup, render, screen, waitFor } from "@testing-library/react";
+import { act, cleanup, render, screen, waitFor, within } from "@testing-library/react";
 import type { UserEvent } from "@testing-library/user-event";
 import { expect, test } from "vitest";
 import { grouped } from "../../../logic/format/numbers";
 import { useLinks } from "../../../store/plc/links";
+import { travel } from "../../../store/plc/timeline";
 import { follow } from "../../../store/project/people";
 import { BATTERY, RAISED, row } from "../../../testing/catalogue";
 import { box, button, textOf } from "../../../testing/find";
@@ -175,4 +176,35 @@ test.each([
   act(() => follow(2));
   server.say({ type: "people", you: 1, people: people.slice(0, 1) });
   await waitFor(() => expect(banner()).toBeNull());
+});
+
+test("who would take others to the past is asked: everybody, or oneself alone at a branch that is deleted afterwards", async () => {
+  const { server, user } = await openBanners((server) => {
+    server.greeting = { users: [MIKA, JO] };
+    server.on("POST", "/instances/*/branch", ({ body }) => {
+      const made = someInstance(server.instance.id + 6000, server.instance.project);
+      server.instance = { ...made, name: body.name };
+      return server.instance;
+    });
+    server.on("DELETE", "/instances/*", () => undefined);
+  });
+  const { id } = server.instance;
+  void travel(500);
+  const question = () => screen.findByRole("region", { name: t("alone.ask.label") });
+  await user.click(within(await question()).getByRole("button", { name: t("link.not") }));
+  expect(server.sentOf("travel")).toEqual([]);
+  void travel(500);
+  await question();
+  await user.click(button(t("alone.everybody")));
+  await waitFor(() => expect(server.sentOf("travel")).toMatchObject([{ scan: 500 }]));
+  void travel(400);
+  await question();
+  await user.click(button(t("alone.look")));
+  const alone = await screen.findByRole("region", { name: t("alone.label") });
+  expect(textOf(alone)).toContain("400");
+  expect(server.askedOf("POST", `/instances/${id}/branch`)).toMatchObject([{ scan: 400 }]);
+  expect(server.sentOf("travel")).toHaveLength(1);
+  await user.click(within(alone).getByRole("button"));
+  await waitFor(() => expect(screen.queryByRole("region", { name: t("alone.label") })).toBeNull());
+  expect(server.askedOf("DELETE", `/instances/${id + 6000}`)).toHaveLength(1);
 });

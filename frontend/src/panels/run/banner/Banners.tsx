@@ -1,5 +1,6 @@
 import { waitsForSpace } from "../../../logic/plc/plcstate";
 import { usePlc } from "../../../store/plc/plc";
+import { AloneBanner } from "./AloneBanner";
 import { FatalBanner } from "./FatalBanner";
 import { FollowBanner } from "./FollowBanner";
 import { LinkBanner } from "./LinkBanner";
@@ -22,6 +23,7 @@ export function Banners() {
     <>
       <PlcBanner />
       <RecordingBanner />
+      <AloneBanner />
       <LinkBanner />
       <FollowBanner />
       <NameBanner />
