@@ -54,7 +54,7 @@ test('no text is lost silently: closing asks, a failed build says why, Save and 
   await test.step('Save in the question stores the text and closes the tab', async () => {
     await main.addBelow('broken : NOTYPE;', '  stored : INT;');
     await close();
-    await dialog.getByRole('button', { name: 'Save' }).click();
+    await dialog.getByRole('button', { name: 'Save', exact: true }).click();
     await expect(main.region).toBeHidden();
     await mika.explorer.tree.getByRole('treeitem', { name: 'Main', exact: true }).first().dblclick();
     await expect(main.line('stored : INT;')).toBeVisible();

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from scanbench.server.draft import Draft
 from scanbench.store.store import Store
-from scanbench.wire.events import DraftEdited, Subscriber
+from scanbench.wire.events import Subscriber
 from scanbench.wire.refused import Refused
+from scanbench.wire.together import DraftEdited
 
 MOST_PARTS = 200
 """So many changes kept one by one: a draft that is opened is kept as a whole again."""

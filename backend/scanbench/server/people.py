@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from scanbench.wire.events import PeopleChanged, Person, Subscriber
+from scanbench.wire.events import Subscriber
+from scanbench.wire.together import PeopleChanged, Person
 
 COLOURS = 8
 

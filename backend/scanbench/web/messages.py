@@ -26,6 +26,7 @@ from scanbench.wire import events
 from scanbench.wire.debugging import Coverage
 from scanbench.wire.events import Comparison, Disturbances, LogEntry, Rerun
 from scanbench.wire.symbols import SymbolInfo
+from scanbench.wire.together import DraftEdited, PeopleChanged
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
 
@@ -422,11 +423,11 @@ ServerMessage = Annotated[
     | Errors
     | events.Logged
     | Users
-    | events.PeopleChanged
+    | PeopleChanged
     | Built
     | Saved
     | events.FileDeleted
-    | events.DraftEdited
+    | DraftEdited
     | Draft
     | events.ForcesChanged
     | Diagnostics

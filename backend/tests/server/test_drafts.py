@@ -18,8 +18,9 @@ from scanbench.store.store import Store
 from scanbench.web.messages_together import CloseDraft, EditDraft, OpenDraft
 from scanbench.web.messages_together import Draft as DraftMessage
 from scanbench.web.socket.drafting import Drafting
-from scanbench.wire.events import DraftEdited, Event, User
+from scanbench.wire.events import Event, User
 from scanbench.wire.refused import Refused
+from scanbench.wire.together import DraftEdited
 
 PATH = "Main.st"
 BEGUN = "PROGRAM Main\nEND_PROGRAM\n"

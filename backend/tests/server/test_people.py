@@ -1,7 +1,8 @@
 """Who is at a project, and where."""
 
 from scanbench.server.people import COLOURS, People
-from scanbench.wire.events import Event, PeopleChanged, User
+from scanbench.wire.events import Event, User
+from scanbench.wire.together import PeopleChanged
 
 
 class Window:

@@ -32,6 +32,7 @@ from scanbench.wire.commands import read_command
 from scanbench.wire.events import Event, User
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused, Unavailable
+from scanbench.wire.together import PeopleChanged
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
@@ -73,7 +74,7 @@ class Client:
         self._pressed: set[str] = set()
         """Variables that a push button of this browser holds at TRUE."""
         self._people, self._person = people, 0
-        self._others: events.PeopleChanged | None = None
+        self._others: PeopleChanged | None = None
         self._drafting = Drafting(drafts, session.project_id, self, self._say_draft)
 
     # ---- from the session -----------------------------------------------------------------------------------------
@@ -86,7 +87,7 @@ class Client:
             return
         if isinstance(event, events.StateChanged):
             self._state = event
-        elif isinstance(event, events.PeopleChanged):
+        elif isinstance(event, PeopleChanged):
             self._others = event
         elif isinstance(event, events.Watching):
             self._on_watching(event)
