@@ -1,6 +1,7 @@
 /** English: people at one project. */
 export const together = {
-  "alone.about": "The PLC goes on for the others. What you do here happens only here, and is deleted when you return.",
+  "alone.about":
+    "The PLC goes on for the others. What you write and force is only here, and is deleted when you return.",
   "alone.ask.about": "Others use this PLC. Show it to everybody, and the PLC waits; or look alone, and it goes on.",
   "alone.ask.label": "Going to the past",
   "alone.ask.title": "To scan {scan}:",

@@ -2,7 +2,7 @@
 import type { together as english } from "../en/together";
 
 export const together: Record<keyof typeof english, string> = {
-  "alone.about": "PLC はほかの人のために動き続けます。ここでの操作はここだけのもので、戻ると削除されます。",
+  "alone.about": "PLC はほかの人のために動き続けます。ここでの書き込みと強制はここだけのもので、戻ると削除されます。",
   "alone.ask.about":
     "ほかの人もこの PLC を使っています。全員に見せると PLC は待ちます。自分だけで見ると PLC は動き続けます。",
   "alone.ask.label": "過去へ移動",
