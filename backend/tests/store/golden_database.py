@@ -2,7 +2,7 @@
 the files that lie beside the database, and `golden/VERSION.json`: what all of it says (`tests.store.said`).
 
 It is made once for each release: every later version must read it and say the same. Where tables come between two releases, it gets a name of
-its own: `python -m tests.store.golden_database 0.1.0.9` is that of revision 0009 after release 0.1.0.
+its own: `python -m tests.store.golden_database 0.1.0.10` is that of revision 0010 after release 0.1.0.
 """
 
 import json
