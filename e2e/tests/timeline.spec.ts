@@ -8,8 +8,9 @@ test('everybody goes back in time, sees the old values, and returns to live', as
   await ann.watch.shows('motor', 'TRUE');
   await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(1);
 
-  await test.step('a click on the mark of the write leads to its scan', async () => {
+  await test.step('a click on the mark of the write leads to its scan, after a question as Bob goes along', async () => {
     await ann.timeline.mark(/Write: .*start/).click();
+    await ann.page.getByRole('button', { name: 'Show everybody' }).click();
     await expect(ann.timeline.banner).toContainText(/Scan .* the past, shown by Ann/);
     await expect(ann.top.state).toContainText('In the past');
     await ann.watch.shows('start', 'TRUE');

@@ -26,9 +26,9 @@ test('no text is lost silently: closing asks, a failed build says why, Save and 
     await expect(main.line('kept : INT;')).toBeVisible();
   });
 
-  await test.step('a text kept in the browser comes back, a discarded one does not', async () => {
+  await test.step('a text that is not saved comes back, a discarded one does not', async () => {
     await close();
-    await dialog.getByRole('button', { name: 'Keep in this browser' }).click();
+    await dialog.getByRole('button', { name: 'Close, not saved' }).click();
     await expect(main.region).toBeHidden();
     await mika.explorer.tree.getByRole('treeitem', { name: 'Main', exact: true }).first().dblclick();
     await expect(main.line('kept : INT;')).toBeVisible();
@@ -54,7 +54,7 @@ test('no text is lost silently: closing asks, a failed build says why, Save and 
   await test.step('Save in the question stores the text and closes the tab', async () => {
     await main.addBelow('broken : NOTYPE;', '  stored : INT;');
     await close();
-    await dialog.getByRole('button', { name: 'Save' }).click();
+    await dialog.getByRole('button', { name: 'Save', exact: true }).click();
     await expect(main.region).toBeHidden();
     await mika.explorer.tree.getByRole('treeitem', { name: 'Main', exact: true }).first().dblclick();
     await expect(main.line('stored : INT;')).toBeVisible();

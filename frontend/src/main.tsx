@@ -5,6 +5,7 @@ import { start } from "./store/plc/bench";
 import { Boundary } from "./ui/Boundary";
 import "./ui/tokens.css";
 import "./ui/base.css";
+import "./ui/people.css";
 import "./ui/controls.css";
 import "./ui/floating.css";
 import "./ui/grid.css";

@@ -2,15 +2,17 @@
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 
 from scanbench.jobs.checker import INTERVAL_NS, Checker
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.archive import Archive, pack
+from scanbench.server.drafts import Drafts
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
 from scanbench.server.samples import templates
 from scanbench.session.session import Session
-from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
+from scanbench.store.records import BuildInfo, FileInfo, FileRow, NotFound, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
@@ -26,6 +28,8 @@ class Projects:
     ) -> None:
         self._store, self._models, self._checker, self._sessions_of = store, models, checker, sessions_of
         self._building: dict[int, asyncio.Lock] = {}
+        self.drafts = Drafts(store)
+        """The files as people edit them."""
 
     async def all(self) -> list[ProjectRow]:
         """Every project."""
@@ -55,6 +59,7 @@ class Projects:
         """Deletes a project that no PLC runs (`refuse_running`)."""
         await self.refuse_running(id)
         await asyncio.to_thread(self._store.projects.delete, id)
+        self.drafts.forget(id)
 
     async def refuse_running(self, id: int) -> None:
         """A project that a PLC runs cannot be deleted."""
@@ -79,12 +84,22 @@ class Projects:
         """One file."""
         return await asyncio.to_thread(self._store.files.get, id, path)
 
-    async def save(self, id: int, path: str, text: str, version: int, author: str) -> FileRow:
-        """Saves what was edited from `version` on; `store.records.Conflict` when somebody else was first."""
+    async def save(self, id: int, path: str, text: str, version: int, author: str, draft: str | None = None) -> FileRow:
+        """Saves what was edited from `version` on; `store.records.Conflict` when somebody else was first.
+
+        A text that is not of the `draft` of the file was made elsewhere: its change is made in the draft as well.
+        """
         _check_path(path)
         if is_panel_file(path):
             refuse_broken(path, text)
+        elsewhere = version > 0 and not (draft and self.drafts.is_of(id, path, draft))
+        before = ""
+        if elsewhere:
+            with suppress(NotFound):  # it was deleted: to save it is a conflict
+                before = (await self.file(id, path)).text
         file = await asyncio.to_thread(self._store.files.save, id, path, text, version, author)
+        if elsewhere:
+            await self.drafts.wrote(id, path, before, text)
         for session in self._sessions_of(id):
             session.tell(FileSaved(author, file.path, file.version))
         return file
@@ -92,6 +107,7 @@ class Projects:
     async def delete_file(self, id: int, path: str, author: str) -> None:
         """Deletes a file."""
         await asyncio.to_thread(self._store.files.delete, id, path)
+        self.drafts.forget(id, path)
         for session in self._sessions_of(id):
             session.tell(FileDeleted(author, path))
 

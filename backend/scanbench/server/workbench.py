@@ -21,6 +21,7 @@ from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.server.history import RunHistory
 from scanbench.server.missing import stand_in, why_missing
+from scanbench.server.people import People
 from scanbench.server.projects import Projects
 from scanbench.server.repositories import Repositories
 from scanbench.server.samples import samples
@@ -61,6 +62,7 @@ class Workbench:
         self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
+        self.people = People()
         self.repositories = Repositories(store, data / "projects")
         self._reactions = SharedJob(self._cache)
         self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
@@ -117,6 +119,7 @@ class Workbench:
             asyncio.to_thread(zygote().close),  # a process that is on its way does not come any more
         )
         await self._reactions.close()
+        await self.projects.drafts.end()
         await self._write_behind.close()
 
     async def delete_project(self, id: int) -> None:

@@ -2,6 +2,7 @@
 
 from scanbench.store.breakpoints import Breakpoints
 from scanbench.store.connected import Database
+from scanbench.store.drafts import Drafts
 from scanbench.store.errors import Errors
 from scanbench.store.imported import ImportedRecords
 from scanbench.store.instances import Instances, Logs
@@ -20,6 +21,7 @@ class Store:
         """As `Database`."""
         database = self._database = Database(url, server)
         self.projects, self.files, self.builds = Projects(database), Files(database), Builds(database)
+        self.drafts = Drafts(database)
         self.instances, self.log, self.errors = Instances(database), Logs(database), Errors(database)
         self.breakpoints, self.traces, self.watch_lists = Breakpoints(database), Traces(database), WatchLists(database)
         self.states, self.sweeps, self.findings = States(database), Sweeps(database), Findings(database)

@@ -9,7 +9,9 @@ from sqlalchemy import (
     Dialect,
     Double,
     ForeignKey,
+    ForeignKeyConstraint,
     Index,
+    LargeBinary,
     MetaData,
     String,
     Text,
@@ -83,6 +85,39 @@ class File(Base):
     version: Mapped[int]
     author: Mapped[str] = mapped_column(String(AUTHOR))
     saved: Mapped[datetime] = mapped_column(Moment)
+
+
+class Draft(Base):
+    """A file as people edit it together, from the first time that somebody opened it."""
+
+    __tablename__ = "draft"
+    __table_args__ = (
+        ForeignKeyConstraint(
+            ["project_id", "path"], ["file.project_id", "file.path"], name="fk_draft_file", ondelete="CASCADE"
+        ),
+    )
+
+    project_id: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
+    path: Mapped[str] = mapped_column(String(PATH), primary_key=True)
+    key: Mapped[str] = mapped_column(String(ID))
+    """Nobody else's: a file that was deleted and made again has a different draft."""
+
+
+class DraftPart(Base):
+    """Changes of a draft; all of them together are the draft."""
+
+    __tablename__ = "draft_part"
+    __table_args__ = (
+        ForeignKeyConstraint(
+            ["project_id", "path"], ["draft.project_id", "draft.path"], name="fk_draft_part_draft", ondelete="CASCADE"
+        ),
+        Index(None, "project_id", "path"),
+    )
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int]
+    path: Mapped[str] = mapped_column(String(PATH))
+    data: Mapped[bytes] = mapped_column(LargeBinary)
 
 
 class ProgramVersion(Base):

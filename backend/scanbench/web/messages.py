@@ -19,12 +19,14 @@ from scanbench.web.messages_errors import (
     ErrorHistoryRow,
     SweepProgress,
 )
+from scanbench.web.messages_together import Draft
 from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
 from scanbench.wire.debugging import Coverage
 from scanbench.wire.events import Comparison, Disturbances, LogEntry, Rerun
 from scanbench.wire.symbols import SymbolInfo
+from scanbench.wire.together import DraftEdited, PeopleChanged
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
 
@@ -90,6 +92,10 @@ class SaveFile(Wire):
 
     text: str
     version: Version
+    draft: str | None = Field(
+        default=None,
+        description="the draft that has this text: without it, what is different in the text becomes a change of the draft",
+    )
 
 
 class SaveConflict(Wire):
@@ -417,9 +423,12 @@ ServerMessage = Annotated[
     | Errors
     | events.Logged
     | Users
+    | PeopleChanged
     | Built
     | Saved
     | events.FileDeleted
+    | DraftEdited
+    | Draft
     | events.ForcesChanged
     | Diagnostics
     | events.TimelineChanged

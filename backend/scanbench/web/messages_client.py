@@ -9,6 +9,7 @@ from pydantic import Field
 from scanbench.web.messages_base import Scan, Wire
 from scanbench.web.messages_commands import Command
 from scanbench.web.messages_debug import DapOut, SetCoverage
+from scanbench.web.messages_together import CloseDraft, EditDraft, Here, OpenDraft
 
 
 class Watch(Wire):
@@ -69,6 +70,19 @@ class RollBack(Wire):
 
 
 ClientMessage = Annotated[
-    Watch | Unwatch | Command | Press | Run | NewRun | Travel | RollBack | SetCoverage | DapOut,
+    Watch
+    | Unwatch
+    | Command
+    | Press
+    | Run
+    | NewRun
+    | Travel
+    | RollBack
+    | SetCoverage
+    | DapOut
+    | OpenDraft
+    | EditDraft
+    | CloseDraft
+    | Here,
     Field(discriminator="type"),
 ]

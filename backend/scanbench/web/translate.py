@@ -26,10 +26,8 @@ from scanbench.wire.symbols import WatchItem
 
 
 def user(who: User) -> wire.User:
-    """A user with initials: of the first two words, digits whole (`Guest 12` is G12)."""
-    words = who.name.split()
-    letters = [word if word.isdigit() else word[0].upper() for word in words[:2]]
-    return wire.User(name=who.name, initials="".join(letters) or "?")
+    """A user with initials."""
+    return wire.User(name=who.name, initials=who.initials)
 
 
 def project(row: ProjectRow) -> wire.Project:

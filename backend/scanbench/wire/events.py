@@ -21,6 +21,7 @@ from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire.host import MarkKind, PlcState, Previewed, RunMark
 from scanbench.wire.symbols import WatchItem
+from scanbench.wire.together import DraftEdited, PeopleChanged
 from scanbench.wire.traces import TraceStatus
 
 VerifyPace = Literal["free", "scan", "step"]
@@ -69,6 +70,12 @@ class User:
     """Somebody at a browser."""
 
     name: str
+
+    @property
+    def initials(self) -> str:
+        """Of the first two words, digits whole (`Guest 12` is G12)."""
+        letters = [word if word.isdigit() else word[0].upper() for word in self.name.split()[:2]]
+        return "".join(letters) or "?"
 
 
 @dataclass(frozen=True, slots=True)
@@ -380,9 +387,11 @@ Told = (
     | ErrorsChanged
     | Logged
     | UsersChanged
+    | PeopleChanged
     | ProgramBuilt
     | FileSaved
     | FileDeleted
+    | DraftEdited
     | ValueWritten
     | ForcesChanged
     | DiagnosticsChanged

@@ -1,17 +1,21 @@
 """Makes the golden database: `python -m tests.store.golden_database` has a server do what people do, and writes `golden/VERSION.sql`,
 the files that lie beside the database, and `golden/VERSION.json`: what all of it says (`tests.store.said`).
 
-It is made once for each release: every later version must read it and say the same. It is made again only while that version is
-not released.
+It is made once for each release: every later version must read it and say the same. Where tables come between two releases, it gets a name of
+its own: `python -m tests.store.golden_database 0.1.0.10` is that of revision 0010 after release 0.1.0.
 """
 
 import json
 import shutil
 import sqlite3
+import sys
+from base64 import b64decode, b64encode
 from contextlib import closing
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+from pycrdt import Doc, Text
 
 from scanbench import __version__
 from scanbench.faults.reaction.reaction import WINDOW
@@ -96,6 +100,7 @@ class Maker:
         self.kept(browser, trace)
         self.logs()
         self.later(browser)
+        self.drafted(browser)
 
     def lists(self) -> None:
         entries = [{"path": "Main.n", "group": "belt", "format": "hex"}, {"path": "W10:8"}]
@@ -194,6 +199,18 @@ class Maker:
         other = self.post("/api/instances", {"project": self.project, "name": "line 2"})["id"]
         self.call("PATCH", f"/api/instances/{other}", {"power": False, "limits": {"memory_mib": 2000, "run_mib": 100}})
 
+    def drafted(self, browser: Browser) -> None:
+        """Somebody types in a file, and does not save it."""
+        assert browser.ask(type="open_draft", path="main.st")["ok"]
+        opened = browser.wait_for("draft")
+        doc: Doc[Text] = Doc()
+        text = doc.get("text", type=Text)
+        doc.apply_update(b64decode(opened["update"]))
+        before = doc.get_state()
+        text.insert(0, "(* not saved *) ")
+        update = b64encode(doc.get_update(before)).decode()
+        assert browser.ask(type="edit_draft", path="main.st", draft=opened["draft"], update=update)["ok"]
+
 
 def drive(data: Path) -> None:
     """Leaves a data directory in which each table has rows."""
@@ -222,15 +239,15 @@ def dump(data: Path, to: Path) -> None:
         shutil.copytree(data / name, to / name)
 
 
-def main() -> None:
+def main(name: str) -> None:
     """Makes it, beside those of other releases."""
     with TemporaryDirectory() as directory:
         data = Path(directory) / "data"
         drive(data)
-        dump(data, GOLDEN / __version__)
+        dump(data, GOLDEN / name)
         told = json.dumps(said(data), indent=1, ensure_ascii=False)
-    (GOLDEN / f"{__version__}.json").write_text(told + "\n", "utf-8")
+    (GOLDEN / f"{name}.json").write_text(told + "\n", "utf-8")
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1] if len(sys.argv) > 1 else __version__)

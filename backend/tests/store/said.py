@@ -10,6 +10,7 @@ from typing import TypeVar
 from scanbench.reports.reaction_json import from_json
 from scanbench.reports.record import TestRecord
 from scanbench.reports.record_read import from_xml
+from scanbench.server.draft import Draft
 from scanbench.server.missing import stand_in
 from scanbench.server.trace_records import TraceRecords
 from scanbench.server.uploads import mapping_of
@@ -38,6 +39,11 @@ def said(data: Path) -> object:
         store.close()
 
 
+def _draft(store: Store, project: int, path: str) -> object:
+    row = store.drafts.get(project, path)
+    return None if row is None else {"key": row.key, "text": Draft(row.key, row.parts).text}
+
+
 def _project(store: Store, data: Path, project: ProjectRow) -> object:
     id = project.id
     errors = [
@@ -46,6 +52,7 @@ def _project(store: Store, data: Path, project: ProjectRow) -> object:
     return {
         "project": project,
         "files": [store.files.get(id, each.path) for each in store.files.all(id)],
+        "drafts": [_draft(store, id, each.path) for each in store.files.all(id)],
         "builds": [store.builds.get(id, version + 1) for version in range(project.version)],
         "instances": [_instance(store, each) for each in store.instances.all() if each.project == id],
         "states": store.states.all(id),

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { baseName } from "../logic/format/paths";
 import { discard, isEdited, saveUserErrors, useUserErrors } from "../store/errors/userErrors";
 import { discardEdits, isDirty, isKept, save, useDocuments } from "../store/project/documents";
+import { sharedText } from "../store/project/drafts";
 import { t } from "../text";
 import { Dialog } from "../ui/Dialog";
 import { Icon } from "../ui/Icon";
@@ -12,6 +13,8 @@ interface Held {
   name: string;
   /** The text is also kept in this browser, so closing the tab loses nothing. */
   kept: boolean;
+  /** It is a draft that everybody shares, so nobody loses it, and who discards it discards it for all. */
+  shared: boolean;
   /** Why saving failed; null when it did not. */
   save: () => Promise<string | null>;
   discard: () => Promise<void> | void;
@@ -40,7 +43,7 @@ function Question({ held, onDone }: { held: Held; onDone: () => void }) {
   return (
     <Dialog
       title={t("close.title", { name: held.name })}
-      about={t(held.kept ? "close.about" : "close.unkept")}
+      about={t(held.shared ? "close.about.shared" : held.kept ? "close.about" : "close.unkept")}
       width={520}
       onClose={stay}
       onSubmit={() => void saveAndClose()}
@@ -55,7 +58,7 @@ function Question({ held, onDone }: { held: Held; onDone: () => void }) {
           </button>
           {held.kept && (
             <button type="button" className="btn" onClick={close}>
-              {t("close.keep")}
+              {t(held.shared ? "close.keep.shared" : "close.keep")}
             </button>
           )}
           <button type="submit" className="btn primary">
@@ -65,7 +68,7 @@ function Question({ held, onDone }: { held: Held; onDone: () => void }) {
       }
     >
       {refused === null ? (
-        <p className="desc">{t("close.hint")}</p>
+        <p className="desc">{t(held.shared ? "close.hint.shared" : "close.hint")}</p>
       ) : (
         <p className="hint bad" role="alert">
           <Icon name="error" small />
@@ -79,6 +82,7 @@ function Question({ held, onDone }: { held: Held; onDone: () => void }) {
 const file = (path: string): Held => ({
   name: baseName(path),
   kept: isKept(path),
+  shared: sharedText(path) !== undefined,
   save: async () => {
     if (await save(path)) return null;
     const { open, trouble } = useDocuments.getState();
@@ -91,6 +95,7 @@ const file = (path: string): Held => ({
 const errors: Held = {
   name: t("usererrors.title"),
   kept: true,
+  shared: false,
   save: async () => {
     await saveUserErrors();
     const now = useUserErrors.getState();

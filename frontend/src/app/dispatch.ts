@@ -17,7 +17,10 @@ import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc/plc";
 import { onTimeline } from "../store/plc/timeline";
 import { apply } from "../store/plc/values";
 import { onWatching, watchAgain } from "../store/plc/watches";
-import { catchUp, onBuilt, onDeleted, onSaved, scheduleCheck } from "../store/project/documents";
+import { scheduleCheck } from "../store/project/checking";
+import { catchUp, onBuilt, onDeleted, onSaved } from "../store/project/documents";
+import { onDraft, onDraftEdited } from "../store/project/drafts";
+import { onPeople } from "../store/project/people";
 import { onRetrospective, onTraces, refreshTraces } from "../store/trace/traces";
 import { onDisturbances } from "../store/verify/disturb";
 import { onVerifications, refreshVerifications } from "../store/verify/verify";
@@ -101,6 +104,9 @@ function dispatch(message: ServerMessage): void {
     case "users":
       usePlc.setState({ users: message.users });
       return;
+    case "people":
+      onPeople(message);
+      return;
     case "built":
       onBuilt(message.result, message.author === usePlc.getState().you?.name ? null : message.author);
       if (message.result.ok) newProgram(message.result.project);
@@ -112,6 +118,12 @@ function dispatch(message: ServerMessage): void {
       return;
     case "deleted":
       void onDeleted(message.path, message.author);
+      return;
+    case "draft":
+      onDraft(message);
+      return;
+    case "draft_edited":
+      onDraftEdited(message);
       return;
     case "forces":
       onForces(message.forces);

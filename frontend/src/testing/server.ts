@@ -163,6 +163,7 @@ export class FakeServer {
   private answer(message: ClientMessage): void {
     if (message.type === "watch") this.watch(message);
     else if (message.type === "unwatch") for (const id of message.ids) this.ids.delete(id);
+    else if (message.type === "here") return;
     else if (message.type === "dap") this.debugAnswer(requestIn(message.message));
     else {
       const verdict = this.verdicts.get(message.type)?.(message);

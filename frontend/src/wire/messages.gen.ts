@@ -1280,6 +1280,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/invitations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The token, for an address that lets somebody in who has none: they may do everything that you may
+         * @description The token, for an address that lets somebody in who has none: they may do everything that you may.
+         */
+        post: operations["create_invitation"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/models": {
         parameters: {
             query?: never;
@@ -3076,7 +3096,19 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
+        /** CloseDraft */
+        CloseDraft: {
+            /** Path */
+            path: string;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "close_draft";
+        };
         /**
          * CommandResult
          * @description What became of a command that came by REST.
@@ -3512,6 +3544,53 @@ export interface components {
             type: "done";
         };
         /**
+         * Draft
+         * @description The text of a file as it is edited now; `version` is that of the saved text.
+         */
+        Draft: {
+            /**
+             * Draft
+             * @description a file that was deleted and made again has a different one
+             */
+            draft: string;
+            /** Path */
+            path: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "draft";
+            /**
+             * Update
+             * @description what the browser has not yet
+             */
+            update: string;
+            /**
+             * Vector
+             * @description what the server has: the browser sends the rest
+             */
+            vector: string;
+            /** Version */
+            version: number;
+        };
+        /**
+         * DraftEdited
+         * @description Somebody edited a file that this subscriber has open: Yjs changes in base64.
+         */
+        DraftEdited: {
+            /** Draft */
+            draft: string;
+            /** Path */
+            path: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "draft_edited";
+            /** Update */
+            update: string;
+        };
+        /**
          * Drive
          * @description As `Run` on the socket.
          */
@@ -3547,6 +3626,28 @@ export interface components {
             memory?: ("recorded" | "set") | null;
             /** Pace */
             pace?: ("free" | "scan" | "step") | null;
+        };
+        /**
+         * EditDraft
+         * @description Changes of a draft that is open; `Done` when they are kept. The same once more changes nothing.
+         */
+        EditDraft: {
+            /** Draft */
+            draft: string;
+            /** Path */
+            path: string;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "edit_draft";
+            /**
+             * Update
+             * Format: base64
+             */
+            update: string;
         };
         /**
          * EmbeddedCheck
@@ -4151,6 +4252,34 @@ export interface components {
             you: components["schemas"]["User"];
         };
         /**
+         * Here
+         * @description Where this browser's user is now: `file` and `line`, and in a draft their selection as relative positions of Yjs in base64. Not answered.
+         */
+        Here: {
+            /**
+             * Anchor
+             * @default null
+             */
+            anchor: string | null;
+            /** File */
+            file: string | null;
+            /**
+             * Head
+             * @default null
+             */
+            head: string | null;
+            /**
+             * Line
+             * @default null
+             */
+            line: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "here";
+        };
+        /**
          * HistoryOfVersion
          * @description The error history of one version, in the order of the catalogue.
          */
@@ -4337,6 +4466,14 @@ export interface components {
             /** Time Ns */
             time_ns: number;
             trap: components["schemas"]["TrapInfo"] | null;
+        };
+        /** Invitation */
+        Invitation: {
+            /**
+             * Token
+             * @description as `token` in the query of the page's address
+             */
+            token: string;
         };
         JsonValue: unknown;
         /** KeepTrace */
@@ -4866,6 +5003,33 @@ export interface components {
             state: string;
         };
         /**
+         * OpenDraft
+         * @description Begins to edit a file together with everybody who has it open: `Draft` is the answer, before `Done`.
+         */
+        OpenDraft: {
+            /**
+             * Draft
+             * @description the draft that is here already, as after a lost connection
+             * @default null
+             */
+            draft: string | null;
+            /** Path */
+            path: string;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "open_draft";
+            /**
+             * Vector
+             * @description what is here of it
+             * @default null
+             */
+            vector: string | null;
+        };
+        /**
          * PastInfo
          * @description What is shown is the past: the PLC waits at `live_scan`.
          */
@@ -4877,6 +5041,51 @@ export interface components {
             by: string;
             /** Live Scan */
             live_scan: number;
+        };
+        /**
+         * People
+         * @description All who are at the project, whenever somebody comes, moves or goes. `you` is the one who is told.
+         */
+        People: {
+            /** People */
+            people: components["schemas"]["Person"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "people";
+            /** You */
+            you: number;
+        };
+        /**
+         * Person
+         * @description Somebody at a browser, and where they are in the project. Two windows of somebody are two of them.
+         */
+        Person: {
+            /**
+             * Anchor
+             * @description Where their selection begins and where its caret is: places of the draft (Yjs), which stay where they are when others type.
+             */
+            anchor: string | null;
+            /**
+             * Colour
+             * @description From 0 to 7: the same in every browser, and of different people different ones while there are enough.
+             */
+            colour: number;
+            /** File */
+            file: string | null;
+            /** Head */
+            head: string | null;
+            /** Id */
+            id: number;
+            /** Initials */
+            initials: string;
+            /** Instance */
+            instance: number;
+            /** Line */
+            line: number | null;
+            /** Name */
+            name: string;
         };
         /**
          * PlcCommand
@@ -5767,6 +5976,11 @@ export interface components {
          * @description Optimistic save: `version` is the one the edit began from (0 for a new file).
          */
         SaveFile: {
+            /**
+             * Draft
+             * @description the draft that has this text: without it, what is different in the text becomes a change of the draft
+             */
+            draft?: string | null;
             /** Text */
             text: string;
             /** Version */
@@ -5809,7 +6023,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /** SetCell */
         SetCell: {
             /** Call */
@@ -10007,6 +10221,35 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ImportedInstance"];
+                };
+            };
+        };
+    };
+    create_invitation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Invitation"];
                 };
             };
         };

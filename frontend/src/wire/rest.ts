@@ -15,6 +15,7 @@ import type {
   HistoryVersion,
   ImportedRecord,
   Instance,
+  Invitation,
   MemoryPlace,
   MemoryWord,
   ModelInfo,
@@ -149,6 +150,8 @@ async function savedErrors(answer: Promise<Response>): Promise<{ saved: UserErro
 export const rest = {
   app: (signal?: AbortSignal) => json<AppInfo>("GET", "", undefined, signal),
 
+  /** The token that lets somebody else in. */
+  invite: () => json<Invitation>("POST", "/invitations"),
   /** `template`: what it begins with; empty is a project without files. */
   createProject: (name: string, model: string, template: string) =>
     json<Project>("POST", "/projects", { name, model, ...(template && { template }) }),
@@ -164,8 +167,15 @@ export const rest = {
   packProject: (project: number) => blob(`/projects/${project}/archive`),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),
   file: (project: number, path: string) => json<FileText>("GET", filePath(project, path)),
-  save: async (project: number, path: string, text: string, version: number): Promise<SaveResult> => {
-    const response = await request("PUT", filePath(project, path), { text, version }, [409]);
+  /** `draft`: that the text is of; without one the server makes a change of its draft of it. */
+  save: async (
+    project: number,
+    path: string,
+    text: string,
+    version: number,
+    draft?: string | undefined,
+  ): Promise<SaveResult> => {
+    const response = await request("PUT", filePath(project, path), { text, version, draft }, [409]);
     if (response.status === 409) return { conflict: (await response.json()) as SaveConflict };
     return { saved: (await response.json()) as FileInfo };
   },

@@ -27,6 +27,8 @@ export type ChangeInstance = Shapes["ChangeInstance"];
 export type Channel = Shapes["Channel"];
 export type Diagnostics = Shapes["Diagnostics"];
 export type Done = Shapes["Done"];
+export type Draft = Shapes["Draft"];
+export type DraftEdited = Shapes["DraftEdited"];
 export type EmbeddedCheck = Shapes["EmbeddedCheck"];
 export type ErrorDetail = Shapes["ErrorDetail"];
 export type ErrorGroup = Shapes["ErrorGroup"];
@@ -53,7 +55,11 @@ export type NewCommit = Shapes["NewCommit"];
 export type VersionText = Shapes["VersionText"];
 export type RecordInfo = Shapes["RecordInfo"];
 export type TestRecord = Shapes["TestRecord"];
+export type Here = Shapes["Here"];
+export type People = Shapes["People"];
+export type Person = Shapes["Person"];
 export type Hello = Shapes["Hello"];
+export type Invitation = Shapes["Invitation"];
 export type Instance = Shapes["Instance"];
 export type InstanceLimits = Shapes["InstanceLimits"];
 export type InstanceLoad = Shapes["InstanceLoad"];
@@ -125,7 +131,7 @@ type Run = Extract<ClientMessage, { type: "run" }>;
 export type RunOrder = Pick<Run, "action"> & Partial<Pick<Run, "speed" | "scans" | "until">>;
 
 /** What a panel may send: answered by one `Done`; the reference is added when it is sent. */
-export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" }>>;
+export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" } | { type: "here" }>>;
 
 export type UserText = Shapes["UserText"];
 export type UserAddress = Omit<Shapes["UserAddress"], "texts"> & { texts: UserText[] };

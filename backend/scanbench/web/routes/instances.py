@@ -180,7 +180,8 @@ async def on_socket(bench: SocketBench, socket: WebSocket, instance: Id) -> None
     except NotFound as error:
         await socket.close(1008, str(error))
         return
-    await Client(socket, session, user_of(socket)).serve(described, bench.verifications.of(session))
+    client = Client(socket, session, user_of(socket), bench.projects.drafts, bench.people)
+    await client.serve(described, bench.verifications.of(session))
 
 
 async def _instance(bench: Workbench, session: Session) -> wire.Instance:

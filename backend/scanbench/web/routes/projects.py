@@ -52,7 +52,8 @@ async def on_file(bench: Bench, project: Id, path: str) -> wire.FileText:
 @router.put("/{project}/files/{path:path}", responses={409: {"model": wire.SaveConflict}})
 async def on_save_file(bench: Bench, request: Request, project: Id, path: str, save: wire.SaveFile) -> wire.FileInfo:
     """Saves a file, if nobody else did since it was read."""
-    row = await bench.projects.save(project, path, save.text, save.version, user_of(request).name)
+    author = user_of(request).name
+    row = await bench.projects.save(project, path, save.text, save.version, author, save.draft)
     return translate.file_info(row)
 
 

@@ -13,21 +13,26 @@ from contextlib import suppress
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
+from scanbench.server.drafts import Drafts
+from scanbench.server.people import People
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import messages_client as client
 from scanbench.web import messages_commands as commands
 from scanbench.web import messages_debug as debugger
+from scanbench.web import messages_together as together
 from scanbench.web import translate, translate_debug, translate_verify
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
 from scanbench.web.invalid import said
+from scanbench.web.socket.drafting import Drafting
 from scanbench.web.socket.waiting import Waiting
 from scanbench.wire import events
 from scanbench.wire.commands import read_command
 from scanbench.wire.events import Event, User
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused, Unavailable
+from scanbench.wire.together import PeopleChanged
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
@@ -41,6 +46,9 @@ _Wanted = (
     | client.NewRun
     | client.RollBack
     | debugger.SetCoverage
+    | together.OpenDraft
+    | together.EditDraft
+    | together.CloseDraft
 )
 
 _INCOMING: TypeAdapter[client.ClientMessage] = TypeAdapter(client.ClientMessage)
@@ -50,7 +58,7 @@ _OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
 class Client:
     """A subscriber that is connected by a WebSocket."""
 
-    def __init__(self, socket: WebSocket, session: Session, user: User) -> None:
+    def __init__(self, socket: WebSocket, session: Session, user: User, drafts: Drafts, people: People) -> None:
         self.user = user
         self._socket, self._session = socket, session
         self._id = 0
@@ -65,17 +73,22 @@ class Client:
         self._dap: Conversation | None = None
         self._pressed: set[str] = set()
         """Variables that a push button of this browser holds at TRUE."""
+        self._people, self._person = people, 0
+        self._others: PeopleChanged | None = None
+        self._drafting = Drafting(drafts, session.project_id, self, self._say_draft)
 
     # ---- from the session -----------------------------------------------------------------------------------------
 
     def on_event(self, event: Event) -> None:
-        """Queues it; of states only the newest is worth sending."""
+        """Queues it; of states, and of where people are, only the newest is worth sending."""
         if isinstance(event, events.LogpointSaid | events.WrittenInside):
             return
         if isinstance(event, events.WatchListChanged) and event.owner not in ("", self.user.name):
             return
         if isinstance(event, events.StateChanged):
             self._state = event
+        elif isinstance(event, PeopleChanged):
+            self._others = event
         elif isinstance(event, events.Watching):
             self._on_watching(event)
         else:
@@ -115,6 +128,7 @@ class Client:
         """Speaks with the browser until it goes."""
         await self._socket.accept()
         self._id = self._session.join(self)
+        self._person = self._people.come(self._session.project_id, self._session.id, self)
         hello = wire.Hello(
             you=translate.user(self.user),
             users=list(map(translate.user, self._session.users)),
@@ -141,12 +155,14 @@ class Client:
             if not self._texts.over:
                 raise
         finally:
+            self._people.leave(self._person)
             await self._let_go()
             self._session.leave(self._id)
             tasks = (writer, *self._slow)
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
+            await self._drafting.end()
             if self._dap is not None:
                 await self._dap.close()
 
@@ -164,6 +180,9 @@ class Client:
             if self._state is not None:
                 state, self._state = self._state, None
                 await self._socket.send_text(_text(translate.event(state)))
+            if self._others is not None:
+                others, self._others = self._others, None
+                await self._socket.send_text(_text(translate.event(others)))
             while self._frames:
                 await self._socket.send_bytes(self._frames.popleft())
             if self._stale and not self._asked:
@@ -192,14 +211,24 @@ class Client:
             case client.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.watching.unwatch(self._id, message.ids)
-            case (
-                client.Travel() | client.NewRun() | client.RollBack()
-            ):  # may take a build: the rest must not wait for it
-                task = asyncio.get_running_loop().create_task(self._serve(message))
-                self._slow.add(task)
-                task.add_done_callback(self._slow.discard)
+            case together.Here():
+                self._people.move(self._person, message.file, message.line, message.anchor, message.head)
+            # A build, or a database: the rest must not wait for it.
+            case client.Travel() | client.NewRun() | client.RollBack():
+                self._serve_aside(message)
+            case together.OpenDraft() | together.EditDraft() | together.CloseDraft():
+                self._serve_aside(message)
             case _:
                 await self._serve(message)
+
+    def _serve_aside(self, message: _Wanted) -> None:
+        task = asyncio.get_running_loop().create_task(self._serve(message))
+        self._slow.add(task)
+        task.add_done_callback(self._slow.discard)
+
+    def _say_draft(self, draft: together.Draft) -> None:
+        self._texts.add(_text(draft))
+        self._wake.set()
 
     def _debugger(self) -> Conversation:
         """The browser's debug session, which begins with its first word."""
@@ -249,6 +278,9 @@ class Client:
                 return await session.new_run(author)
             case client.RollBack():
                 return await session.roll_back(author)
+            case together.OpenDraft() | together.EditDraft() | together.CloseDraft():
+                await self._drafting.serve(message)
+                return Ack(0, True, "", session.state.scan)
             case debugger.SetCoverage():
                 return await session.debugging.cover(message.on, message.reset, author)
             case _:

@@ -64,7 +64,7 @@ function follow(scan: number): void {
 export function answerLink(go: boolean): void {
   const { question } = get();
   set({ question: null });
-  if (go && question !== null) void travel(question);
+  if (go && question !== null) void travel(question, 0, true);
   writeAddress();
 }
 
@@ -83,7 +83,7 @@ export function panelLink(file: string): string {
 }
 
 /** The beginning of shared links: the public address of the server, else that of this page. */
-const linkOrigin = () => useBench.getState().app?.public_url || location.origin;
+export const linkOrigin = () => useBench.getState().app?.public_url || location.origin;
 
 /** The labels of a button that copies a link, before and after the click: they say for whom the link works. */
 export function linkWords(): { title: string; done: string } {

@@ -10,6 +10,12 @@ import { onInstanceChange } from "./reset";
 
 const MARK_LIMIT = 5000;
 
+interface Moment {
+  scan: number;
+  /** Inside of the scan, before its statement of this count. */
+  count: number;
+}
+
 interface Run {
   info: TimelineInfo | null;
   marks: readonly Mark[];
@@ -20,6 +26,8 @@ interface Run {
   /** The scan that the page is going to, until the PLC is there. */
   aim: number | null;
   refused: string | null;
+  /** Where somebody wants to go who would take others along: they choose first. */
+  asking: Moment | null;
   /** The scans that are selected, both included; null while none are. */
   selection: Axis | null;
   /** The damage report that was dismissed. */
@@ -33,6 +41,7 @@ const nothing: Run = {
   follows: true,
   aim: null,
   refused: null,
+  asking: null,
   selection: null,
   read: "",
 };
@@ -77,9 +86,13 @@ let underWay = false;
 let next: { scan: number | null; count: number } | null = null;
 
 /** Shows the PLC as it was before a scan, or before its statement of this `count`; null returns to live. While one
- * request is running, only the last further request is kept. */
-export async function travel(scan: number | null, count = 0): Promise<void> {
-  set({ aim: scan ?? liveScan(), ...inSight(scan) });
+ * request is running, only the last further request is kept. Before it takes others along from the live PLC, it asks. */
+export async function travel(scan: number | null, count = 0, everybody = false): Promise<void> {
+  set({ aim: scan ?? liveScan(), ...inSight(scan), asking: null });
+  if (scan !== null && !everybody && takesOthersAlong()) {
+    set({ asking: { scan, count } });
+    return;
+  }
   next = { scan, count };
   if (underWay) return;
   underWay = true;
@@ -93,6 +106,18 @@ export async function travel(scan: number | null, count = 0): Promise<void> {
   }
   underWay = false;
   arrive(last);
+}
+
+function takesOthersAlong(): boolean {
+  const { state, users, you } = usePlc.getState();
+  return !state?.past && users.some(({ name }) => name !== you?.name);
+}
+
+/** The question is answered: goes there with everybody, or stays. */
+export function answerTravel(go: boolean): void {
+  const { asking } = get();
+  if (go && asking) void travel(asking.scan, asking.count, true);
+  else set({ asking: null, aim: null });
 }
 
 /** The playhead stays at the target until the state confirms it: the answer may arrive before the state. */

@@ -1,108 +1,43 @@
 /** The files of the project being edited: texts, unsaved changes, live problems and builds. */
 
-import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { forbidden } from "../../logic/plc/permits";
 import { skeleton } from "../../logic/project/explorer";
 import { isPanelFile } from "../../logic/project/panelFiles";
 import { t } from "../../text";
 import { rest } from "../../wire/rest";
-import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../../wire/types";
+import type { BuildResult, FileInfo, FileText } from "../../wire/types";
 import { inTurn } from "../page/inTurn";
-import { forget, keep, recall } from "../page/localStorage";
 import { openFile, showPanel } from "../page/navigate";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
+import { check, scheduleCheck } from "./checking";
+import { type BuildState, type Document, isDirty, nothing, patch, useDocuments, withLineFeeds } from "./documentState";
+import { drop, dropAll, followDrafts, join, joinAgain, leave, sharedText, unsent } from "./drafts";
+import { forgetDraft, type KeptDraft, keepDraft, recallDraft } from "./keptDrafts";
 
-export interface Document {
-  path: string;
-  text: string;
-  savedText: string;
-  /** The stored version on which the text is based. */
-  version: number;
-  savedAt: number | null;
-  /** The version of somebody who saved meanwhile, to be shown beside one's own. */
-  conflict: FileText | null;
-  /** The file was deleted, but its edited text stays: who deleted it; empty when that is not known. */
-  deletedBy: string | null;
-}
-
-interface Draft {
-  text: string;
-  version: number;
-}
-
-type BuildState =
-  | { phase: "idle" }
-  | { phase: "running" }
-  | { phase: "done"; ok: boolean; message: string; author: string | null; changes: readonly OnlineChange[] };
-
-interface Documents {
-  project: number | null;
-  files: readonly FileInfo[];
-  open: Readonly<Record<string, Document>>;
-  active: string | null;
-  cursor: { line: number; column: number } | null;
-  pous: readonly Pou[];
-  problems: readonly Problem[];
-  /** Subrange checks of the edited texts; the last good ones while there are errors. */
-  checks: readonly EmbeddedCheck[];
-  build: BuildState;
-  /** A build that waits for confirmation: variables of running PLCs would be reinitialized. */
-  asking: BuildResult | null;
-  /** What the last online change did to the running PLCs; null when it was rolled back, or there was none. */
-  change: readonly OnlineChange[] | null;
-  /** A failure that is not about one line: shown at the top of the problem list. */
-  trouble: string | null;
-}
-
-const nothing: Omit<Documents, "project"> = {
-  files: [],
-  open: {},
-  active: null,
-  cursor: null,
-  pous: [],
-  problems: [],
-  checks: [],
-  build: { phase: "idle" },
-  asking: null,
-  change: null,
-  trouble: null,
-};
-
-export const useDocuments = create<Documents>(() => ({ project: null, ...nothing }));
+export { type Document, isDirty, useDocuments } from "./documentState";
 
 const get = useDocuments.getState;
 const set = useDocuments.setState;
-
-export const isDirty = (document: Document | undefined) =>
-  document !== undefined && document.text !== document.savedText;
 
 /** True when this browser has a text of the file that is stored nowhere else. */
 export function holdsUnsaved(path: string): boolean {
   const { project, open } = get();
   if (open[path]) return isDirty(open[path]);
-  return project !== null && recall<Draft | null>(draftKey(project, path), null) !== null;
+  return project !== null && recallDraft(project, path) !== null;
 }
 
 /** The text of a file as this browser has it; null where it has none but the saved one. */
 export function textHere(path: string): string | null {
   const { project, open } = get();
   if (project === null) return null;
-  return open[path]?.text ?? recall<Draft | null>(draftKey(project, path), null)?.text ?? null;
-}
-
-const draftKey = (project: number, path: string) => `draft.${project}.${path}`;
-
-function patch(path: string, change: Partial<Document>): void {
-  set(({ open }) => {
-    const document = open[path];
-    return document ? { open: { ...open, [path]: { ...document, ...change } } } : {};
-  });
+  return open[path]?.text ?? recallDraft(project, path)?.text ?? null;
 }
 
 /** Shows a different project: its files, and the compiler's problems with them. */
 async function loadProject(project: number): Promise<void> {
+  dropAll();
   set({ project, ...nothing });
   await refreshFiles();
   await check();
@@ -117,24 +52,74 @@ export async function refreshFiles(): Promise<void> {
   if (get().project === project) set({ files });
 }
 
-/** Fetches a file for editing; an unsaved text of the last visit is restored. */
+/** Fetches a file for editing: the draft that everybody shares; with what was typed here at the last visit and reached nobody. */
 export async function openDocument(path: string): Promise<void> {
   const { project, open } = get();
   if (project === null || open[path]) return;
-  const draft = recall<Draft | null>(draftKey(project, path), null);
-  const stored = await storedFile(project, path, draft !== null);
+  const kept = recallDraft(project, path);
+  const stored = await storedFile(project, path, kept !== null);
   if (get().project !== project || get().open[path]) return;
-  const document: Document = {
+  const plain: Document = {
     path,
-    text: draft?.text ?? stored?.text ?? "",
+    text: kept?.text ?? stored?.text ?? "",
     savedText: stored?.text ?? "",
-    version: stored ? (draft?.version ?? stored.version) : 0,
+    version: stored ? (kept?.version ?? stored.version) : 0,
     savedAt: null,
     conflict: null,
     deletedBy: stored ? null : "",
   };
+  if (stored) await join(path, () => before(plain, kept));
+  if (get().project !== project || get().open[path]) return;
+  const shared = sharedText(path);
+  const document = shared && stored ? { ...plain, text: shared.value, version: stored.version } : plain;
   set((state) => ({ open: { ...state.open, [path]: document } }));
-  if (draft) scheduleCheck();
+  keepUnsent(path);
+  if (isDirty(document)) scheduleCheck();
+}
+
+/** What is here of a file when its draft comes. A text of a draft that is gone is a text of no version: it is not merged. */
+function before({ text, savedText, version }: Document, kept: KeptDraft | null) {
+  const ofDraft = kept?.unsent ?? null;
+  return {
+    text: withLineFeeds(text),
+    saved: withLineFeeds(savedText),
+    version: ofDraft ? null : version,
+    kept: ofDraft,
+  };
+}
+
+/** Edits an open file together with the others, if it is not yet. */
+async function share(path: string): Promise<void> {
+  const { project, open } = get();
+  const document = open[path];
+  if (project === null || !document || document.deletedBy !== null || sharedText(path)) return;
+  await join(path, () => before(get().open[path] ?? document, recallDraft(project, path)));
+}
+
+followDrafts({
+  onText: (path) => {
+    const shared = sharedText(path);
+    if (shared) patch(path, { text: shared.value });
+    scheduleCheck();
+  },
+  onUnsent: keepUnsent,
+  onEnd: (path) => {
+    const document = get().open[path];
+    // With the saved version that it is not of: to save it is a conflict, and shows both.
+    if (isDirty(document)) patch(path, { version: 0 });
+    else void share(path);
+  },
+});
+
+/** What the server did not acknowledge is kept in this browser. */
+function keepUnsent(path: string): void {
+  const { project, open } = get();
+  const document = open[path];
+  const shared = sharedText(path);
+  if (project === null || !document || !shared) return;
+  const pending = unsent(path);
+  if (pending) keepDraft(project, path, { text: shared.value, version: document.version, unsent: pending });
+  else forgetDraft(project, path);
 }
 
 /** Null when there is no such file; that is not a failure if the browser still has a text of it. */
@@ -150,6 +135,7 @@ async function storedFile(project: number, path: string, mayBeGone: boolean): Pr
 /** Stores an unsaved text in the browser; it is restored when the file is opened again. */
 export function closeDocument(path: string): void {
   if (isDirty(get().open[path])) scheduleCheck();
+  leave(path);
   set(({ open, active }) => {
     const { [path]: _closed, ...rest } = open;
     return { open: rest, active: active === path ? null : active };
@@ -159,7 +145,8 @@ export function closeDocument(path: string): void {
 /** Whether this browser really stored the unsaved text: its storage may be full or switched off. */
 export function isKept(path: string): boolean {
   const { project, open } = get();
-  return project !== null && recall<Draft | null>(draftKey(project, path), null)?.text === open[path]?.text;
+  if (sharedText(path) && !unsent(path)) return true;
+  return project !== null && recallDraft(project, path)?.text === open[path]?.text;
 }
 
 /** Discards the unsaved text, here and in the browser's storage. */
@@ -167,7 +154,12 @@ export function discardEdits(path: string): void {
   const { project, open } = get();
   const document = open[path];
   if (project === null || !document) return;
-  forget(draftKey(project, path));
+  const shared = sharedText(path);
+  if (shared) {
+    shared.replace(withLineFeeds(document.savedText));
+    return;
+  }
+  forgetDraft(project, path);
   patch(path, { text: document.savedText });
   scheduleCheck();
 }
@@ -176,9 +168,14 @@ export function edit(path: string, text: string): void {
   const { project, open } = get();
   const document = open[path];
   if (project === null || !document || document.text === text) return;
+  const shared = sharedText(path);
+  if (shared) {
+    shared.replace(text);
+    return;
+  }
   patch(path, { text });
-  if (text === document.savedText) forget(draftKey(project, path));
-  else keep(draftKey(project, path), { text, version: document.version } satisfies Draft);
+  if (text === document.savedText) forgetDraft(project, path);
+  else keepDraft(project, path, { text, version: document.version });
   scheduleCheck();
 }
 
@@ -200,10 +197,17 @@ async function saveNow(project: number | null, path: string): Promise<boolean> {
   if (!isDirty(document)) return true;
   if (isCutOff()) return false;
   const { text } = document;
+  const shared = sharedText(path);
   try {
-    const result = await rest.save(project, path, text, document.version);
+    const result = await rest.save(project, path, text, document.version, shared?.draft);
     if ("conflict" in result) {
-      patch(path, { conflict: result.conflict.theirs });
+      const { theirs } = result.conflict;
+      if (shared && shared === sharedText(path) && theirs.version > document.version) {
+        // The draft has what they saved, too: nothing is lost.
+        patch(path, { savedText: theirs.text, version: theirs.version });
+        return saveNow(project, path);
+      }
+      patch(path, { conflict: theirs });
       return false;
     }
     stored(path, text, result.saved);
@@ -225,7 +229,8 @@ function isCutOff(): boolean {
 function stored(path: string, text: string, file: FileInfo): void {
   const { project, open, files } = get();
   patch(path, { savedText: text, version: file.version, savedAt: Date.now(), conflict: null, deletedBy: null });
-  if (project !== null && open[path]?.text === text) forget(draftKey(project, path));
+  if (project !== null && open[path]?.text === text && !unsent(path)) forgetDraft(project, path);
+  void share(path);
   const others = files.filter((known) => known.path !== path);
   set({ files: [...others, file].sort((a, b) => a.path.localeCompare(b.path)) });
 }
@@ -236,14 +241,15 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
   const theirs = open[path]?.conflict;
   if (project === null || !theirs) return;
   if (choice === "theirs" && theirs.version === 0) {
-    forget(draftKey(project, path));
+    forgetDraft(project, path);
     closeDocument(path);
     await refreshFiles();
     return;
   }
   if (choice === "theirs") {
     patch(path, { text: theirs.text, savedText: theirs.text, version: theirs.version, conflict: null });
-    forget(draftKey(project, path));
+    forgetDraft(project, path);
+    void share(path);
     scheduleCheck();
     return;
   }
@@ -328,15 +334,21 @@ export async function onSaved(file: FileInfo): Promise<void> {
   if (document?.deletedBy != null) patch(file.path, { deletedBy: null });
   if (!files.some((known) => known.path === file.path)) await refreshFiles();
   else set({ files: files.map((known) => (known.path === file.path && known.version < file.version ? file : known)) });
-  if (project === null || !document || isDirty(document) || file.version <= document.version) {
+  if (sharedText(file.path)) await saving(`${project} ${file.path}`, async () => undefined); // perhaps it is an own one
+  const shared = () => sharedText(file.path) !== undefined;
+  const known = get().open[file.path];
+  if (project === null || !known || (isDirty(known) && !shared()) || file.version <= known.version) {
     if (!isPanelFile(file.path)) scheduleCheck(); // no program has a panel
     return;
   }
   const fresh = await rest.file(project, file.path);
   const now = get().open[file.path];
-  if (now && !isDirty(now) && fresh.version > now.version) {
-    patch(file.path, { text: fresh.text, savedText: fresh.text, version: fresh.version });
+  if (now && fresh.version > now.version) {
+    const saved = { savedText: fresh.text, version: fresh.version };
+    if (shared()) patch(file.path, saved);
+    else if (!isDirty(now)) patch(file.path, { text: fresh.text, ...saved });
   }
+  void share(file.path);
   scheduleCheck();
 }
 
@@ -345,11 +357,12 @@ const deleting = new Set<string>();
 /** Somebody deleted a file: its tab closes with the list of files, unless its text was edited. */
 export async function onDeleted(path: string, author: string): Promise<void> {
   if (deleting.has(path)) return;
+  drop(path);
   const { project, open } = get();
   const document = open[path];
   if (project !== null && document && isDirty(document)) {
     patch(path, { savedText: "", version: 0, conflict: null, deletedBy: author });
-    keep(draftKey(project, path), { text: document.text, version: 0 } satisfies Draft);
+    keepDraft(project, path, { text: document.text, version: 0 });
   }
   set(({ files }) => ({ files: files.filter((file) => file.path !== path) }));
   scheduleCheck();
@@ -359,6 +372,7 @@ export async function onDeleted(path: string, author: string): Promise<void> {
 export async function catchUp(): Promise<void> {
   const { project } = get();
   if (project === null) return;
+  joinAgain();
   let files: FileInfo[];
   try {
     files = await rest.files(project);
@@ -371,6 +385,7 @@ export async function catchUp(): Promise<void> {
     const file = known.get(document.path);
     if (file && file.version > document.version) await onSaved(file);
     else if (!file && document.version > 0) await onDeleted(document.path, "");
+    else void share(document.path);
   }
   if (get().project === project) set({ files });
 }
@@ -391,41 +406,11 @@ export async function deleteFile(path: string): Promise<void> {
   deleting.add(path);
   try {
     await rest.deleteFile(project, path);
-    forget(draftKey(project, path));
+    forgetDraft(project, path);
     closeDocument(path);
     await refreshFiles();
   } finally {
     deleting.delete(path);
   }
   scheduleCheck();
-}
-
-/** A check takes the server some 15 ms: a problem should be visible while the finger leaves the key. */
-const CHECK_DELAY = 50;
-let checkTimer: ReturnType<typeof setTimeout> | undefined;
-let checkTurn = 0;
-
-export function scheduleCheck(): void {
-  clearTimeout(checkTimer);
-  checkTimer = setTimeout(() => void check(), CHECK_DELAY);
-}
-
-/** Asks the compiler about the edited texts; an outdated answer is dropped. */
-async function check(): Promise<void> {
-  const { project, open } = get();
-  if (project === null) return;
-  checkTurn += 1;
-  const turn = checkTurn;
-  const dirty = Object.values(open).filter(isDirty);
-  try {
-    const result = await rest.check(
-      project,
-      Object.fromEntries(dirty.map((document) => [document.path, document.text])),
-    );
-    if (turn !== checkTurn || get().project !== project) return;
-    const broken = result.problems.some((problem) => problem.severity === "error");
-    set({ problems: result.problems, pous: result.pous, ...(broken ? {} : { checks: result.checks }) });
-  } catch (error) {
-    if (turn === checkTurn) set({ trouble: messageOf(error) });
-  }
 }

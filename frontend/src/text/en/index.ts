@@ -9,6 +9,7 @@ import { past } from "./past";
 import { plc } from "./plc";
 import { project } from "./project";
 import { sweep } from "./sweep";
+import { together } from "./together";
 import { tour } from "./tour";
 import { trace } from "./trace";
 import { userErrors } from "./userErrors";
@@ -25,6 +26,7 @@ export const english = {
   ...sweep,
   ...userErrors,
   ...debug,
+  ...together,
   ...trace,
   ...tour,
   ...verify,

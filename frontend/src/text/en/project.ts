@@ -22,10 +22,14 @@ export const project = {
   close: "Close",
   "close.about":
     "This file is not saved. Keep it in this browser to continue when you open it here again; nobody else sees it.",
+  "close.about.shared":
+    "This file is not saved. What was typed stays here for everybody at the project, also when you close the tab.",
   "close.conflict": "Somebody else saved this file first. Go back and choose one of the two texts.",
   "close.discard": "Discard",
   "close.hint": "Discard deletes your text for good.",
+  "close.hint.shared": "Discard goes back to the saved text, for everybody.",
   "close.keep": "Keep in this browser",
+  "close.keep.shared": "Close, not saved",
   "close.title": "Save the changes of {name}?",
   "close.unkept": "This file is not saved, and this browser has no space to keep it.",
   "checks.embedded": "Checked at run time: `{variable}` must be in {low}..{high}",

@@ -10,6 +10,7 @@ import { past } from "./past";
 import { plc } from "./plc";
 import { project } from "./project";
 import { sweep } from "./sweep";
+import { together } from "./together";
 import { tour } from "./tour";
 import { trace } from "./trace";
 import { userErrors } from "./userErrors";
@@ -26,6 +27,7 @@ export const japanese: Record<TextKey, string> = {
   ...sweep,
   ...userErrors,
   ...debug,
+  ...together,
   ...trace,
   ...tour,
   ...verify,

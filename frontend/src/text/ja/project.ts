@@ -25,10 +25,13 @@ export const project: Record<keyof typeof english, string> = {
   close: "閉じる",
   "close.about":
     "保存されていません。このブラウザに残しておくと、次にここで開いたときに戻ります。他の人には見えません。",
+  "close.about.shared": "保存されていません。入力した内容は、タブを閉じてもプロジェクトの全員のために残ります。",
   "close.conflict": "他の人が先に保存しました。戻って、どちらの内容にするか選んでください。",
   "close.discard": "破棄",
   "close.hint": "破棄すると元に戻せません。",
+  "close.hint.shared": "破棄すると、全員が保存済みの内容に戻ります。",
   "close.keep": "このブラウザに残す",
+  "close.keep.shared": "保存せずに閉じる",
   "close.title": "{name} の変更を保存しますか?",
   "close.unkept": "保存されていません。このブラウザには残す空きがありません。",
   "checks.embedded": "ここで検査: `{variable}` は {low}..{high}",

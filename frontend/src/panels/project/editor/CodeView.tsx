@@ -28,6 +28,7 @@ import "./layout";
 import { modelOf, pastModel } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import "./navigation";
+import { showOthers } from "./others";
 import { markReaction } from "./reaction";
 import "./rename";
 import "./semanticTokens";
@@ -95,6 +96,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     const unmarkHalt = markHalt(code, path);
     const unmarkCoverage = markCoverage(code, path);
     const hideValues = showInlineValues(code, path);
+    const hideOthers = ran === null ? showOthers(code, path) : null;
     const stop = useNavigation.subscribe(({ place }) => go(code, path, place));
     go(code, path, useNavigation.getState().place);
     return () => {
@@ -104,6 +106,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
       unmarkHalt();
       unmarkCoverage();
       hideValues();
+      hideOthers?.();
       noDrag();
       noCommands();
       breakpoints.dispose();

@@ -2,9 +2,10 @@
 
 import { isTable } from "../../../logic/project/explorer";
 import { usePlc } from "../../../store/plc/plc";
-import { edit, useDocuments } from "../../../store/project/documents";
+import { useDocuments } from "../../../store/project/documents";
 import { savedText } from "../../../store/project/sourceText";
 import type { Problem, Violation } from "../../../wire/types";
+import { bind, follow } from "./binding";
 import { editor, MarkerSeverity, Uri } from "./monaco";
 import { LANGUAGE } from "./st";
 
@@ -49,7 +50,7 @@ export function modelOf(path: string, text: string): editor.ITextModel {
   shown.delete(path);
   const model = editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, uriOfPath(path));
   model.setEOL(editor.EndOfLineSequence.LF);
-  model.onDidChangeContent(() => edit(path, model.getValue()));
+  bind(path, model);
   models.set(path, model);
   markModel(path, model);
   markViolations(path, model);
@@ -106,7 +107,7 @@ useDocuments.subscribe((now, before) => {
       continue;
     }
     if (document.text !== before.open[path]?.text && document.text !== model.getValue()) {
-      model.pushEditOperations([], [{ range: model.getFullModelRange(), text: document.text }], () => null);
+      follow(model, document.text);
     }
     if (now.problems !== before.problems) markModel(path, model);
   }

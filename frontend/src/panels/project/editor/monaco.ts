@@ -195,7 +195,7 @@ export function monospaceFont(): string {
   return getComputedStyle(document.documentElement).getPropertyValue("--font-mono").trim();
 }
 
-export type { IPosition, IRange } from "monaco-editor/editor";
+export type { IPosition, IRange, ISelection } from "monaco-editor/editor";
 export { Emitter, editor, KeyCode, KeyMod, languages, MarkerSeverity, Uri } from "monaco-editor/editor";
 
 /** Ends a comparison of two texts. Its editors made all hovers depend on them; one that is made after it frees them again. */

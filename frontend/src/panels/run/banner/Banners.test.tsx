@@ -1,7 +1,10 @@
-import { render, screen, waitFor } from "@testing-library/react";
+import { act, cleanup, render, screen, waitFor, within } from "@testing-library/react";
+import type { UserEvent } from "@testing-library/user-event";
 import { expect, test } from "vitest";
 import { grouped } from "../../../logic/format/numbers";
 import { useLinks } from "../../../store/plc/links";
+import { travel } from "../../../store/plc/timeline";
+import { follow } from "../../../store/project/people";
 import { BATTERY, RAISED, row } from "../../../testing/catalogue";
 import { box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
@@ -147,4 +150,68 @@ test("a fatal error says how to go on: by the button of the banner where a mode 
   server.becomes({ state: "fatal", mode: "MONITOR", scan: 70 });
   await waitFor(() => expect(alert()).toContain(t("fatal.about.goon", { scan: "70", mode: "MONITOR" })));
   expect(button(t("fatal.goon"))).toBeDefined();
+});
+
+test("a guest is asked for a name once somebody else is here, and once only", async () => {
+  const guest = { name: "Guest 3", initials: "G3" };
+  const { server, user } = await openBanners((server) => {
+    server.greeting = { you: guest, users: [guest] };
+  });
+  expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();
+  server.say({ type: "users", users: [guest, JO] });
+  await user.click(await screen.findByRole("button", { name: t("name.stay", { name: "Guest 3" }) }));
+  expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();
+  cleanup();
+  render(<Banners />);
+  expect(screen.queryByRole("form", { name: t("name.title") })).toBeNull();
+});
+
+test.each([
+  ["Escape", (user: UserEvent) => user.keyboard("{Escape}")],
+  ["a click", (user: UserEvent) => user.click(document.body)],
+  ["the button", (user: UserEvent) => user.click(button(t("follow.end")))],
+] as const)("whom one follows is said; %s ends it, and so does their leaving", async (_, end) => {
+  const { server, user } = await openBanners();
+  const nowhere = { file: null, line: null, anchor: null, head: null, instance: server.instance.id };
+  const people = [MIKA, JO].map((each, at) => ({ ...each, ...nowhere, id: at + 1, colour: at }));
+  const banner = () => screen.queryByRole("region", { name: t("follow.label") });
+  server.say({ type: "people", you: 1, people });
+  act(() => follow(2));
+  expect(textOf(banner())).toContain(t("follow.title", { name: JO.name }));
+  await end(user);
+  await waitFor(() => expect(banner()).toBeNull());
+  act(() => follow(2));
+  server.say({ type: "people", you: 1, people: people.slice(0, 1) });
+  await waitFor(() => expect(banner()).toBeNull());
+});
+
+test("who would take others to the past is asked: everybody, or oneself alone at a branch that is deleted afterwards", async () => {
+  const { server, user } = await openBanners((server) => {
+    server.greeting = { users: [MIKA, JO] };
+    server.on("POST", "/instances/*/branch", ({ body }) => {
+      const made = someInstance(server.instance.id + 6000, server.instance.project);
+      server.instance = { ...made, name: body.name };
+      return server.instance;
+    });
+    server.on("DELETE", "/instances/*", () => undefined);
+  });
+  const { id } = server.instance;
+  void travel(500);
+  const question = () => screen.findByRole("region", { name: t("alone.ask.label") });
+  await user.click(within(await question()).getByRole("button", { name: t("link.not") }));
+  expect(server.sentOf("travel")).toEqual([]);
+  void travel(500);
+  await question();
+  await user.click(button(t("alone.everybody")));
+  await waitFor(() => expect(server.sentOf("travel")).toMatchObject([{ scan: 500 }]));
+  void travel(400);
+  await question();
+  await user.click(button(t("alone.look")));
+  const alone = await screen.findByRole("region", { name: t("alone.label") });
+  expect(textOf(alone)).toContain("400");
+  expect(server.askedOf("POST", `/instances/${id}/branch`)).toMatchObject([{ scan: 400 }]);
+  expect(server.sentOf("travel")).toHaveLength(1);
+  await user.click(within(alone).getByRole("button"));
+  await waitFor(() => expect(screen.queryByRole("region", { name: t("alone.label") })).toBeNull());
+  expect(server.askedOf("DELETE", `/instances/${id + 6000}`)).toHaveLength(1);
 });

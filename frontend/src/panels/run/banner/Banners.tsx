@@ -1,8 +1,11 @@
 import { waitsForSpace } from "../../../logic/plc/plcstate";
 import { usePlc } from "../../../store/plc/plc";
+import { AloneBanner } from "./AloneBanner";
 import { FatalBanner } from "./FatalBanner";
+import { FollowBanner } from "./FollowBanner";
 import { LinkBanner } from "./LinkBanner";
 import { LostBanner } from "./LostBanner";
+import { NameBanner } from "./NameBanner";
 import { OffBanner } from "./OffBanner";
 import { PastBanner } from "./PastBanner";
 import { RecordingBanner } from "./RecordingBanner";
@@ -12,7 +15,7 @@ import { SpaceBanner } from "./SpaceBanner";
 import { TrapBanner } from "./TrapBanner";
 
 /** At most one banner about the PLC, the most severe: no connection, then a stop; and one about its recording. Below: the link that was
- * opened, and replays of the run. */
+ * opened, whom one follows, one's name, and replays of the run. */
 export function Banners() {
   const link = usePlc((plc) => plc.link);
   if (link.state === "lost") return <LostBanner link={link} />;
@@ -20,7 +23,10 @@ export function Banners() {
     <>
       <PlcBanner />
       <RecordingBanner />
+      <AloneBanner />
       <LinkBanner />
+      <FollowBanner />
+      <NameBanner />
       <RerunBanners />
     </>
   );

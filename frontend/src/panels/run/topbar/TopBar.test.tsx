@@ -97,6 +97,57 @@ test("a mode is chosen; in RUN the program cannot be rolled back, and the menu s
   expect(menuItem(t("restart.cold"))).toHaveProperty("disabled", false);
 });
 
+const person = (id: number, name: string, file: string | null = null, line: number | null = null) => ({
+  ...{ id, name, initials: name[0] ?? "", colour: id % 8, file, line, anchor: null, head: null },
+});
+
+test("the menu of people says where the others are, leads there, and follows them", async () => {
+  const { server, user, places } = await openBar();
+  const instance = server.instance.id;
+  const say = (file: string, line: number) =>
+    server.say({
+      type: "people",
+      you: 1,
+      people: [
+        { ...person(1, "Mika"), instance },
+        { ...person(2, "Jo", file, line), instance },
+      ],
+    });
+  say("Belt.st", 4);
+  const menu = t("people.menu", { name: "Mika" });
+  const at = t("people.at", { file: "Belt.st", line: 4 });
+  await choose(user, menu, t("people.goto", { name: "Jo", place: at }));
+  await waitFor(() => expect(places).toEqual(["file Belt.st"]));
+  await choose(user, menu, t("people.follow", { name: "Jo" }));
+  await waitFor(() => expect(places).toEqual(["file Belt.st", "file Belt.st"]));
+  say("Main.st", 9);
+  await waitFor(() => expect(places.at(-1)).toBe("file Main.st"));
+});
+
+test("an invitation is an address with the token, and says what it gives", async () => {
+  const { server, user } = await openBar();
+  server.on("POST", "/invitations", () => ({ token: "secret" }));
+  await choose(user, t("people.menu", { name: "Mika" }), t("invite.menu"));
+  const asking = await dialog(t("invite.title"));
+  await waitFor(() =>
+    expect(box(t("invite.address"), asking).value).toContain(`/i/${server.instance.id}?token=secret`),
+  );
+  expect(textOf(asking)).toContain(t("invite.about"));
+  expect(textOf(asking)).toContain(t("invite.own", { host: "localhost" }));
+});
+
+test("a new name is the browser's, and the server sees it with a new connection", async () => {
+  const { server, user } = await openBar();
+  await choose(user, t("people.menu", { name: "Mika" }), t("name.menu"));
+  const asking = await dialog(t("name.title"));
+  await user.clear(box(t("name.label"), asking));
+  server.greeting = { you: { name: "Mi ka", initials: "MK" }, users: [{ name: "Mi ka", initials: "MK" }] };
+  await user.type(box(t("name.label"), asking), "Mi ka{Enter}");
+  await noDialog();
+  expect(document.cookie).toContain("scanbench_user=Mi%20ka");
+  await screen.findByRole("button", { name: t("people.menu", { name: "Mi ka" }) });
+});
+
 test("in the past one goes scan by scan, and the mode is not to be changed", async () => {
   const { server, user } = await openBar();
   server.becomes({ state: "past", scan: 500, past: { by: "Ann", live_scan: 1000 } });

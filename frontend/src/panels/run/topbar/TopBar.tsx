@@ -1,10 +1,10 @@
 import { chooseTheme, themes, usePrefs } from "../../../store/page/prefs";
-import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { MenuButton } from "../../../ui/Menu";
 import { ModeSwitch } from "./ModeSwitch";
+import { People } from "./People";
 import { Picker } from "./Picker";
 import { PlcState } from "./PlcState";
 import { Readings } from "./Readings";
@@ -44,31 +44,5 @@ export function TopBar({ onResetLayout }: { onResetLayout: () => void }) {
         </MenuButton>
       </div>
     </header>
-  );
-}
-
-function People() {
-  const present = usePlc((plc) => plc.users);
-  const you = usePlc((plc) => plc.you);
-  // A person with two windows counts once.
-  const users = [...new Map(present.map((user) => [user.name, user])).values()];
-  const others = users.filter((user) => user.name !== you?.name);
-  const names = others.map((user) => user.name).join(", ");
-  return (
-    <ul className="people" aria-label={t("people.here")}>
-      {users.map((user) => {
-        const me = user.name === you?.name;
-        return (
-          <li key={user.name} className={`avatar${me ? " me" : ""}`} title={me ? t("people.you", user) : user.name}>
-            {user.initials}
-          </li>
-        );
-      })}
-      {others.length > 0 && (
-        <li className="avatar more" title={t("people.more", { count: others.length, names })} aria-hidden="true">
-          {`+${others.length}`}
-        </li>
-      )}
-    </ul>
   );
 }

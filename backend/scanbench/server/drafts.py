@@ -1,0 +1,142 @@
+"""Files as people edit them together. Everybody who has a file open is told each change of its draft; all of them are kept, so that nothing
+typed is lost when the server ends."""
+
+import asyncio
+from base64 import b64encode
+from dataclasses import dataclass
+
+from scanbench.server.draft import Draft
+from scanbench.store.store import Store
+from scanbench.wire.events import Subscriber
+from scanbench.wire.refused import Refused
+from scanbench.wire.together import DraftEdited
+
+MOST_PARTS = 200
+"""So many changes kept one by one: a draft that is opened is kept as a whole again."""
+
+
+class Shared:
+    """A draft that somebody has open. What is changed is written one after the other, all that waits at once."""
+
+    def __init__(self, store: Store, project: int, path: str, draft: Draft) -> None:
+        self.draft, self.people = draft, set[Subscriber]()
+        self._store, self._project, self._path = store, project, path
+        self._unkept: list[bytes] = []
+        self._writing: asyncio.Task[None] | None = None
+
+    def changed(self, update: bytes, by: Subscriber | None) -> None:
+        """Tells everybody else what is new, and has it written."""
+        if not update:
+            return
+        event = DraftEdited(self._path, self.draft.key, b64encode(update).decode())
+        for person in tuple(self.people):
+            if person is not by:
+                person.on_event(event)
+        self._unkept.append(update)
+
+    async def kept(self) -> None:
+        """Waits until all changes are kept; `StoreError` why they cannot be, then the next call tries again."""
+        if self._unkept and (self._writing is None or self._writing.done()):
+            self._writing = asyncio.get_running_loop().create_task(self._write())
+        if self._writing is not None:
+            await asyncio.shield(self._writing)
+
+    async def _write(self) -> None:
+        while self._unkept:
+            batch, self._unkept = self._unkept, []
+            try:
+                await asyncio.to_thread(self._store.drafts.append, self._project, self._path, self.draft.key, batch)
+            except BaseException:
+                self._unkept = [*batch, *self._unkept]
+                raise
+
+
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """What somebody gets who opens a file."""
+
+    draft: str
+    update: bytes
+    """What they have not."""
+    vector: bytes
+    """What the server has: the rest is theirs to send."""
+    version: int
+    """Of the saved file."""
+
+
+class Drafts:
+    """The drafts of a server, by project and path."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._shared: dict[tuple[int, str], Shared] = {}
+        self._opening = asyncio.Lock()
+
+    async def open(
+        self, project: int, path: str, who: Subscriber, draft: str | None = None, vector: bytes | None = None
+    ) -> Opened:
+        """Somebody begins to edit a file together with the others. `draft` and `vector` are what they have of it already."""
+        async with self._opening:
+            file = await asyncio.to_thread(self._store.files.get, project, path)
+            shared = self._shared.get((project, path))
+            if shared is None:
+                shared = self._shared[project, path] = await self._load(project, path, file.text)
+            known = vector if draft == shared.draft.key else None
+            update = shared.draft.lacking(known)
+            shared.people.add(who)
+            return Opened(shared.draft.key, update, shared.draft.vector, file.version)
+
+    async def close(self, project: int, path: str, who: Subscriber) -> None:
+        """They do not edit it any more."""
+        shared = self._shared.get((project, path))
+        if shared is None:
+            return
+        shared.people.discard(who)
+        await shared.kept()
+        async with self._opening:
+            if not shared.people and self._shared.get((project, path)) is shared:
+                del self._shared[project, path]
+
+    async def edit(self, project: int, path: str, draft: str, update: bytes, by: Subscriber) -> None:
+        """Takes a change in; at the end it is kept. `Refused` where this is not the draft of the file."""
+        shared = self._shared.get((project, path))
+        if shared is None or shared.draft.key != draft or by not in shared.people:
+            raise Refused(f"nothing was changed: open {path} first")
+        shared.changed(shared.draft.apply(update), by)
+        await shared.kept()
+
+    async def wrote(self, project: int, path: str, before: str, text: str) -> None:
+        """A file was saved that was made elsewhere of its text `before`: its draft changes as well."""
+        async with self._opening:
+            shared = self._shared.get((project, path))
+            if shared is None:
+                row = await asyncio.to_thread(self._store.drafts.get, project, path)
+                if row is None:
+                    return
+                shared = Shared(self._store, project, path, Draft(row.key, row.parts))
+            shared.changed(shared.draft.take(before, text), None)
+            await shared.kept()
+
+    def is_of(self, project: int, path: str, draft: str) -> bool:
+        """Whether this is the draft that people edit now."""
+        shared = self._shared.get((project, path))
+        return shared is not None and shared.draft.key == draft
+
+    def forget(self, project: int, path: str | None = None) -> None:
+        """A file was deleted, or all of a project."""
+        for key in [key for key in self._shared if key[0] == project and path in (None, key[1])]:
+            del self._shared[key]
+
+    async def end(self) -> None:
+        """Writes what is still to be written."""
+        await asyncio.gather(*(shared.kept() for shared in self._shared.values()), return_exceptions=True)
+
+    async def _load(self, project: int, path: str, text: str) -> Shared:
+        row = await asyncio.to_thread(self._store.drafts.get, project, path)
+        if row is None:
+            begun = Draft.begun(text)
+            row = await asyncio.to_thread(self._store.drafts.create, project, path, begun.key, begun.lacking(None))
+        draft = Draft(row.key, row.parts)
+        if len(row.parts) > MOST_PARTS:
+            await asyncio.to_thread(self._store.drafts.replace, project, path, row.key, draft.lacking(None))
+        return Shared(self._store, project, path, draft)

@@ -1,0 +1,276 @@
+"""Two people edit one file, with connections that break and servers that are killed: both end with the same text, and nothing typed is lost."""
+
+import asyncio
+import random
+from base64 import b64decode, b64encode
+from collections.abc import Coroutine, Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import pytest
+from pycrdt import Doc, Text
+
+from scanbench.server.draft import Draft, differences, merged
+from scanbench.server.drafts import MOST_PARTS, Drafts
+from scanbench.store.records import NotFound
+from scanbench.store.store import Store
+from scanbench.web.messages_together import CloseDraft, EditDraft, OpenDraft
+from scanbench.web.messages_together import Draft as DraftMessage
+from scanbench.web.socket.drafting import Drafting
+from scanbench.wire.events import Event, User
+from scanbench.wire.refused import Refused
+from scanbench.wire.together import DraftEdited
+
+PATH = "Main.st"
+BEGUN = "PROGRAM Main\nEND_PROGRAM\n"
+
+
+class Page:
+    """The other end of the protocol, as the page speaks it: what was not acknowledged is sent again after each connection."""
+
+    def __init__(self, name: str) -> None:
+        self.user = User(name)
+        self.doc: Doc[Text] = Doc()
+        self.text = self.doc.get("text", type=Text)
+        self.draft: str | None = None
+        self.inbox: list[Event | DraftMessage] = []
+        self.link: Drafting | None = None
+
+    def on_event(self, event: Event) -> None:
+        self.inbox.append(event)
+
+    def on_frame(self, frame: bytes) -> None: ...
+    def on_snapshot(self, frame: bytes) -> None: ...
+
+    async def connect(self, drafts: Drafts, project: int) -> None:
+        self.inbox.clear()
+        self.link = Drafting(drafts, project, self, self.inbox.append)
+        vector = b64encode(self.doc.get_state()) if self.draft else None
+        await self.link.serve(OpenDraft.model_validate({"ref": 1, "path": PATH, "draft": self.draft, "vector": vector}))
+        (opened,) = self.inbox
+        assert isinstance(opened, DraftMessage)
+        self.draft = opened.draft
+        self.doc.apply_update(b64decode(opened.update))
+        self.inbox.clear()
+        await self.send(self.doc.get_update(b64decode(opened.vector)))
+
+    async def lose(self) -> None:
+        link, self.link = self.link, None
+        self.inbox.clear()
+        if link is not None:
+            await link.end()
+
+    async def send(self, update: bytes) -> None:
+        assert self.link is not None
+        given = {"ref": 1, "path": PATH, "draft": self.draft, "update": b64encode(update)}
+        await self.link.serve(EditDraft.model_validate(given))
+
+    def read(self, count: int | None = None) -> None:
+        """Takes in what has come, or as much of it."""
+        for event in self.inbox[:count]:
+            assert isinstance(event, DraftEdited)
+            self.doc.apply_update(b64decode(event.update))
+        del self.inbox[:count]
+
+    def type(self, at: int, text: str) -> bytes:
+        """Between two characters; pycrdt counts bytes."""
+        before = self.doc.get_state()
+        self.text.insert(len(str(self.text)[:at].encode()), text)
+        return self.doc.get_update(before)
+
+    def rub_out(self, at: int) -> bytes:
+        before, now = self.doc.get_state(), str(self.text)
+        start = len(now[:at].encode())
+        del self.text[start : start + len(now[at].encode())]
+        return self.doc.get_update(before)
+
+
+class Bench:
+    """A server's part of it, that can be killed: what it did not write is gone."""
+
+    def __init__(self, store: Store, name: str) -> None:
+        self.store = store
+        self.project = self.store.projects.create(name, "CJ1M").id
+        self.store.files.save(self.project, PATH, BEGUN, 0, "Ada")
+        self.drafts = Drafts(self.store)
+
+    def kill(self) -> None:
+        self.drafts = Drafts(self.store)
+
+
+@pytest.fixture(scope="module")
+def store() -> Iterator[Store]:
+    """One database, in memory where there is such a place: every acknowledged change is one commit."""
+    memory = Path("/dev/shm")
+    with TemporaryDirectory(dir=memory if memory.is_dir() else None) as directory:
+        opened = Store(f"sqlite:///{directory}/bench.db")
+        yield opened
+        opened.close()
+
+
+@pytest.fixture
+def bench(store: Store, request: pytest.FixtureRequest) -> Bench:
+    return Bench(store, request.node.name[:100])
+
+
+def run(story: Coroutine[Any, Any, None]) -> None:
+    asyncio.run(story)
+
+
+@pytest.mark.parametrize("seed", range(100))
+def test_whatever_breaks_both_end_with_the_same_text_and_all_that_was_typed(seed: int, bench: Bench) -> None:
+    run(_schedule(random.Random(seed), bench))
+
+
+async def _schedule(chance: random.Random, bench: Bench) -> None:
+    pages = [Page("Ada"), Page("Grace")]
+    typed: list[str] = []
+    gone: set[str] = set()
+    for page in pages:
+        await page.connect(bench.drafts, bench.project)
+    for _ in range(chance.randint(8, 24)):
+        page = chance.choice(pages)
+        match chance.choices(["edit", "read", "lose", "connect", "kill"], [10, 4, 2, 2, 1])[0]:
+            case "edit":
+                update = _edit(chance, page, typed, gone)
+                if page.link is not None and chance.random() < 0.8:
+                    await page.send(update)
+                else:  # it is lost on its way
+                    await page.lose()
+            case "read":
+                page.read(chance.randint(0, 3))
+            case "lose":
+                await page.lose()
+            case "connect" if page.link is None:
+                await page.connect(bench.drafts, bench.project)
+            case "kill":
+                bench.kill()
+                for each in pages:
+                    each.link = None
+            case _:
+                pass
+    await _end(bench, pages, set(typed) - gone)
+
+
+def _edit(chance: random.Random, page: Page, typed: list[str], gone: set[str]) -> bytes:
+    """Types a letter that nobody typed before, or takes one away. The letters have three bytes, or four and two units of UTF-16."""
+    now = str(page.text)
+    places = [at for at, letter in enumerate(now) if letter in typed]
+    if places and chance.random() < 0.2:
+        at = chance.choice(places)
+        gone.add(now[at])
+        return page.rub_out(at)
+    letter = chr((0x1F300 if chance.random() < 0.3 else 0x3041) + len(typed))
+    typed.append(letter)
+    return page.type(chance.randint(0, len(now)), letter)
+
+
+async def _end(bench: Bench, pages: list[Page], left: set[str]) -> None:
+    """All are connected, and have read everything."""
+    for page in pages * 2:
+        if page.link is None:
+            await page.connect(bench.drafts, bench.project)
+    for page in pages:
+        page.read()
+    text = str(pages[0].text)
+    assert str(pages[1].text) == text
+    assert sorted(letter for letter in text if letter not in BEGUN) == sorted(left)
+    bench.kill()
+    late = Page("Jo")
+    await late.connect(bench.drafts, bench.project)
+    assert str(late.text) == text
+
+
+def test_what_was_acknowledged_is_there_after_a_kill_also_when_it_is_kept_as_a_whole(bench: Bench) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        for _ in range(MOST_PARTS + 1):
+            await ada.send(ada.type(0, "x"))
+        for _ in range(2):
+            bench.kill()
+            grace = Page("Grace")
+            await grace.connect(bench.drafts, bench.project)
+            assert str(grace.text) == "x" * (MOST_PARTS + 1) + BEGUN
+        assert len(bench.store.drafts.get(bench.project, PATH).parts) == 1  # type: ignore[union-attr]
+
+    run(story())
+
+
+def test_a_file_that_was_made_again_has_a_different_draft_and_the_old_one_is_refused(bench: Bench) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        bench.store.files.delete(bench.project, PATH)
+        with pytest.raises(Refused, match=r"no file 'Main\.st'"):
+            await ada.send(ada.type(0, "x"))
+        bench.drafts.forget(bench.project, PATH)
+        with pytest.raises(Refused, match=r"open Main\.st first"):
+            await ada.send(ada.type(0, "x"))
+        bench.store.files.save(bench.project, PATH, "anew", 0, "Grace")
+        grace, old = Page("Grace"), ada.draft
+        await grace.connect(bench.drafts, bench.project)
+        assert (str(grace.text), grace.draft == old) == ("anew", False)
+
+    run(story())
+
+
+def test_what_is_no_change_is_refused_and_changes_nothing(bench: Bench) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        with pytest.raises(Refused, match="no changes of a draft"):
+            await ada.send(b"\xff\xff\x01")
+        assert ada.link is not None
+        wrong = OpenDraft.model_validate({"ref": 1, "path": PATH, "draft": ada.draft, "vector": b64encode(b"\xff")})
+        with pytest.raises(Refused, match="no vector of a draft"):
+            await ada.link.serve(wrong)
+        with pytest.raises(NotFound):
+            await bench.drafts.open(bench.project, "None.st", ada)
+        await ada.link.serve(CloseDraft(ref=1, path=PATH))
+        with pytest.raises(Refused):
+            await ada.send(ada.type(0, "x"))
+
+    run(story())
+
+
+def test_a_save_from_elsewhere_joins_what_is_being_typed(bench: Bench) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        await ada.send(ada.type(len("PROGRAM Main\n"), "x := 1;\n"))
+        await bench.drafts.wrote(bench.project, PATH, BEGUN, BEGUN.replace("Main", "Belt").replace("\n", "\r\n"))
+        ada.read()
+        assert str(ada.text) == "PROGRAM Belt\nx := 1;\nEND_PROGRAM\n"
+        await ada.lose()
+        await bench.drafts.wrote(bench.project, PATH, BEGUN, f"(* new *)\n{BEGUN}")  # while nobody has it open
+        await ada.connect(bench.drafts, bench.project)
+        assert str(ada.text).startswith("(* new *)\n")
+
+    run(story())
+
+
+@pytest.mark.parametrize(
+    ("base", "one", "other", "both"),
+    [
+        ("a\nb\nc\n", "a1\nb\nc\n", "a\nb\nc2\n", "a1\nb\nc2\n"),
+        ("a\nb\n", "a\nb\n", "b\n", "b\n"),
+        ("a\nb\n", "a\n", "a\nb\nc\n", "a\nc\n"),
+        ("a", "b", "b", "b"),
+        ("", "ä😀", "", "ä😀"),
+    ],
+)
+def test_two_changes_of_a_text_are_both_made(base: str, one: str, other: str, both: str) -> None:
+    assert merged(base, one, other) == both
+    assert merged(base, other, one) == both
+
+
+def test_a_text_becomes_any_other_by_its_differences() -> None:
+    chance = random.Random(15)
+    for _ in range(300):
+        before, after = ("".join(chance.choices("ab\nä😀", k=chance.randint(0, 12))) for _ in range(2))
+        draft = Draft.begun(before)
+        draft.become(after)
+        assert draft.text == after
+        assert sum(each.end - each.start for each in differences(before, after)) <= len(before)

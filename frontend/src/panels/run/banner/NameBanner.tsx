@@ -1,0 +1,49 @@
+import { useState } from "react";
+import { isGuest } from "../../../logic/project/people";
+import { chooseName, isNameKept, keepName, LONGEST_NAME } from "../../../store/plc/name";
+import { usePlc } from "../../../store/plc/plc";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+
+/** Asks once for a name, when somebody else is here to see it. */
+export function NameBanner() {
+  const you = usePlc((plc) => plc.you?.name ?? "");
+  const others = usePlc((plc) => plc.users.some(({ name }) => name !== plc.you?.name));
+  const [done, setDone] = useState(isNameKept);
+  const [name, setName] = useState("");
+  if (done || !others || !isGuest(you)) return null;
+  const stay = () => {
+    keepName();
+    setDone(true);
+  };
+  return (
+    <form
+      className="banner info"
+      aria-label={t("name.title")}
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (name.trim() !== "") void chooseName(name.trim()).then(() => setDone(true));
+      }}
+    >
+      <Icon name="users" />
+      <span className="grow">
+        <b>{t("name.ask", { name: you })}</b> <span className="muted">{t("name.ask.about")}</span>
+      </span>
+      <input
+        className="inp sm"
+        aria-label={t("name.label")}
+        placeholder={t("name.label")}
+        maxLength={LONGEST_NAME}
+        autoComplete="name"
+        value={name}
+        onChange={({ target }) => setName(target.value)}
+      />
+      <button type="submit" className="btn sm" disabled={name.trim() === ""}>
+        {t("name.use")}
+      </button>
+      <button type="button" className="btn quiet sm" onClick={stay}>
+        {t("name.stay", { name: you })}
+      </button>
+    </form>
+  );
+}

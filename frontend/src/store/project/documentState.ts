@@ -1,0 +1,70 @@
+/** What the page knows of the files of the project: `documents.ts` changes it. */
+
+import { create } from "zustand";
+import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../../wire/types";
+
+export interface Document {
+  path: string;
+  text: string;
+  savedText: string;
+  /** The stored version on which the text is based. */
+  version: number;
+  savedAt: number | null;
+  /** The version of somebody who saved meanwhile, to be shown beside one's own. */
+  conflict: FileText | null;
+  /** The file was deleted, but its edited text stays: who deleted it; empty when that is not known. */
+  deletedBy: string | null;
+}
+
+export type BuildState =
+  | { phase: "idle" }
+  | { phase: "running" }
+  | { phase: "done"; ok: boolean; message: string; author: string | null; changes: readonly OnlineChange[] };
+
+interface Documents {
+  project: number | null;
+  files: readonly FileInfo[];
+  open: Readonly<Record<string, Document>>;
+  active: string | null;
+  cursor: { line: number; column: number } | null;
+  pous: readonly Pou[];
+  problems: readonly Problem[];
+  /** Subrange checks of the edited texts; the last good ones while there are errors. */
+  checks: readonly EmbeddedCheck[];
+  build: BuildState;
+  /** A build that waits for confirmation: variables of running PLCs would be reinitialized. */
+  asking: BuildResult | null;
+  /** What the last online change did to the running PLCs; null when it was rolled back, or there was none. */
+  change: readonly OnlineChange[] | null;
+  /** A failure that is not about one line: shown at the top of the problem list. */
+  trouble: string | null;
+}
+
+export const nothing: Omit<Documents, "project"> = {
+  files: [],
+  open: {},
+  active: null,
+  cursor: null,
+  pous: [],
+  problems: [],
+  checks: [],
+  build: { phase: "idle" },
+  asking: null,
+  change: null,
+  trouble: null,
+};
+
+export const useDocuments = create<Documents>(() => ({ project: null, ...nothing }));
+
+/** A text is edited with line feeds, also one that was saved elsewhere with other line ends. */
+export const isDirty = (document: Document | undefined) =>
+  document !== undefined && document.text !== document.savedText && document.text !== withLineFeeds(document.savedText);
+
+export const withLineFeeds = (text: string) => (text.includes("\r") ? text.replace(/\r\n?/g, "\n") : text);
+
+export function patch(path: string, change: Partial<Document>): void {
+  useDocuments.setState(({ open }) => {
+    const document = open[path];
+    return document ? { open: { ...open, [path]: { ...document, ...change } } } : {};
+  });
+}
