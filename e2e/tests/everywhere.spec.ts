@@ -1,30 +1,11 @@
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from '../fixtures/test';
+import { eachPanel, LANGUAGES, PAGES, prefer, run } from '../pages/everywhere';
 import type { Ide } from '../pages/ide';
 
 const THEMES = ['dark', 'light', 'contrast'];
-/** Commands that open a page among the files, as the palette of each language calls them. */
-const PAGES = {
-  en: [
-    'Show all inputs and outputs',
-    'Show memory',
-    'Variables the program never reads',
-    'Edit user-defined errors',
-    'Show error sweeps',
-    'Versions of the program',
-  ],
-  ja: [
-    'すべての入出力を表示',
-    'メモリを表示',
-    'プログラムが読み出さない変数',
-    'ユーザー定義異常を編集',
-    '異常スイープを表示',
-    'プログラムの版',
-  ],
-};
-
-for (const language of ['en', 'ja'] as const) {
+for (const language of LANGUAGES) {
   test(`every panel and page in three themes: no finding of axe (${language})`, { tag: '@nightly' }, async ({
     openAs,
   }) => {
@@ -48,7 +29,7 @@ for (const language of ['en', 'ja'] as const) {
   });
 }
 
-for (const language of ['en', 'ja'] as const) {
+for (const language of LANGUAGES) {
   // A page of 1440 x 900 that is enlarged twice has so much room.
   test(`at 200 % nothing scrolls sideways, and F6 reaches every pane (${language})`, { tag: '@nightly' }, async ({
     openAs,
@@ -81,39 +62,6 @@ async function atWork(mika: Ide): Promise<void> {
   await mika.goToPane('editor');
   await mika.page.keyboard.type('x');
   await expect(mika.statusBar).toContainText('Not saved');
-}
-
-/** As if it had been chosen in the menu, whose words are different ones in each language. */
-async function prefer({ page, top }: Ide, prefs: { language: string; theme: string }): Promise<void> {
-  await page.evaluate((wanted) => {
-    const kept = JSON.parse(localStorage.getItem('scanbench.prefs') ?? '{}');
-    localStorage.setItem('scanbench.prefs', JSON.stringify({ ...kept, ...wanted }));
-    for (const key of Object.keys(localStorage)) if (key.startsWith('scanbench.layout')) localStorage.removeItem(key);
-  }, prefs);
-  await page.reload();
-  await expect(page.locator('html')).toHaveAttribute('lang', prefs.language);
-  await expect(page.locator('html')).toHaveAttribute('data-theme', prefs.theme);
-  await expect(page.getByTestId('scan')).toHaveText(/[0-9]/);
-  await top.scansGoOn();
-}
-
-/** A command of the palette. */
-async function run(page: Page, command: string): Promise<void> {
-  await page.keyboard.press('F1');
-  const box = page.getByRole('dialog').getByRole('combobox');
-  await box.pressSequentially(command);
-  await page.keyboard.press('Enter');
-  await expect(page.getByRole('dialog')).toBeHidden();
-}
-
-/** Each tab of the dock, one after the other. */
-async function eachPanel(page: Page, look: (panel: string) => Promise<void>): Promise<void> {
-  const tabs = page.getByRole('tab');
-  await expect(tabs.first()).toBeVisible();
-  for (const tab of await tabs.all()) {
-    await tab.click();
-    await look((await tab.textContent()) ?? '');
-  }
 }
 
 /** What axe finds in the window, or only in the colours of its panels. */

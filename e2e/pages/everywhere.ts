@@ -1,0 +1,58 @@
+/** Every panel and page, in each language. */
+import { expect, type Locator, type Page } from '@playwright/test';
+import type { Ide } from './ide';
+
+export const LANGUAGES = ['en', 'ja'] as const;
+
+/** Commands that open a page among the files, as the palette of each language calls them. */
+export const PAGES = {
+  en: [
+    'Show all inputs and outputs',
+    'Show memory',
+    'Variables the program never reads',
+    'Edit user-defined errors',
+    'Show error sweeps',
+    'Versions of the program',
+  ],
+  ja: [
+    'すべての入出力を表示',
+    'メモリを表示',
+    'プログラムが読み出さない変数',
+    'ユーザー定義異常を編集',
+    '異常スイープを表示',
+    'プログラムの版',
+  ],
+};
+
+/** As if it had been chosen in the menu, whose words are different ones in each language. */
+export async function prefer({ page, top }: Ide, prefs: { language: string; theme: string }): Promise<void> {
+  await page.evaluate((wanted) => {
+    const kept = JSON.parse(localStorage.getItem('scanbench.prefs') ?? '{}');
+    localStorage.setItem('scanbench.prefs', JSON.stringify({ ...kept, ...wanted }));
+    for (const key of Object.keys(localStorage)) if (key.startsWith('scanbench.layout')) localStorage.removeItem(key);
+  }, prefs);
+  await page.reload();
+  await expect(page.locator('html')).toHaveAttribute('lang', prefs.language);
+  await expect(page.locator('html')).toHaveAttribute('data-theme', prefs.theme);
+  await expect(page.getByTestId('scan')).toHaveText(/[0-9]/);
+  await top.scansGoOn();
+}
+
+/** A command of the palette. */
+export async function run(page: Page, command: string): Promise<void> {
+  await page.keyboard.press('Control+Shift+P');
+  const box = page.getByRole('dialog').getByRole('combobox');
+  await box.pressSequentially(command);
+  await page.keyboard.press('Enter');
+  await expect(page.getByRole('dialog')).toBeHidden();
+}
+
+/** Each tab of the dock, one after the other. */
+export async function eachPanel(page: Page, look: (panel: string, tab: Locator) => Promise<void>): Promise<void> {
+  const tabs = page.getByRole('tab');
+  await expect(tabs.first()).toBeVisible();
+  for (const tab of await tabs.all()) {
+    await tab.click();
+    await look((await tab.textContent()) ?? '', tab);
+  }
+}
