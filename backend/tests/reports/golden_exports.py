@@ -18,7 +18,8 @@ from scanbench.reports.record_xml import to_xml
 from scanbench.server.verifications import Format, Verifications
 from scanbench.store.store import Store
 from tests.cli.calling import scanbench
-from tests.store.golden_data import newest, opened
+from tests.store.golden_data import GOLDEN as DATABASES
+from tests.store.golden_data import opened
 from tests.store.golden_database import PROGRAM
 from tests.store.said import plain
 
@@ -29,7 +30,7 @@ A = TypeVar("A")
 
 def with_store(data: Path, ask: Callable[[Store], A]) -> A:
     """What the golden database answers."""
-    store = Store(f"sqlite:///{opened(newest(), data) / 'scanbench.db'}")
+    store = Store(f"sqlite:///{opened(DATABASES / '0.1.0.sql', data) / 'scanbench.db'}")
     try:
         return ask(store)
     finally:
