@@ -42,9 +42,12 @@ function nameOf(cell: Token | undefined): string | undefined {
   return first?.type === "code_inline" ? /^([A-Za-z]\w*)\(/.exec(first.content)?.[1] : undefined;
 }
 
+/** What a page says about how it is made is for those who change it. */
+const GENERATED = /^(?:Made|Written) by [^\n]*; do not edit\.\n/m;
+
 /** A page: its title, its HTML, and the places that a search finds. */
 export function helpPage(text: string): HelpPage {
-  const tokens = markdown.parse(text, {});
+  const tokens = markdown.parse(text.replace(GENERATED, ""), {});
   const entries: HelpEntry[] = [];
   let section: HelpEntry = { id: "", title: "", text: "" };
   let row: HelpEntry | undefined;

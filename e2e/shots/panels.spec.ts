@@ -23,7 +23,9 @@ for (const language of LANGUAGES)
       await around.screenshot({ path, animations: 'disabled' });
     };
     const group = page.locator('.dv-groupview');
-    await eachPanel(page, async (_, tab) => take(group.filter({ has: tab })));
+    await eachPanel(page, async (_, tab) =>
+      take(tab.locator('xpath=ancestor::*[contains(@class, "dv-groupview")][1]')),
+    );
     for (const command of PAGES[language]) {
       await run(page, command);
       await take(group.filter({ has: page.getByRole('tab', { selected: true }) }).first());

@@ -45,6 +45,7 @@ test('the past: the state before the error', async ({ openAs }) => {
   await mika.watch.set('start', 'FALSE');
   const raised = mika.timeline.mark(/^Error: /);
   await raised.click();
+  await mika.page.getByRole('button', { name: 'Show everybody' }).click();
   await expect(mika.timeline.banner).toBeVisible();
   await take(mika, 'past');
 });

@@ -69,19 +69,21 @@ test('no text is lost silently: closing asks, a failed build says why, Save and 
     await mika.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).first().dblclick();
     const belt = mika.editor('Belt.st');
     await expect(belt.region.getByRole('button', { name: /^Belt seen as/ })).toBeVisible();
-    const inReach = async (where: string) => {
-      for (const name of ['Save', 'Build', 'Roll back'])
+    const inReach = async (where: string, names: readonly string[]) => {
+      for (const name of names)
         await expect
           .poll(() => within(belt.region.getByRole('button', { name, exact: true }), belt.region), `${name}, ${where}`)
           .toBe(true);
     };
-    await inReach('1440');
+    await inReach('1440', ['Save', 'Build', 'Roll back']);
     await page.setViewportSize({ width: 1024, height: 700 });
-    await inReach('1024');
+    await inReach('1024', ['Save', 'Build', 'Roll back']);
     await belt.region.evaluate((pane) => {
       pane.style.width = '300px';
     });
-    await inReach('half of a split');
+    await inReach('half of a split', ['Save', 'Build', 'Actions']);
+    await belt.region.getByRole('button', { name: 'Actions', exact: true }).click();
+    await expect(page.getByRole('menuitem', { name: /^Roll back/ })).toBeVisible();
   });
 });
 

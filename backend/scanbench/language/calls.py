@@ -37,10 +37,13 @@ class Calls:
 def party_at(reading: Reading, file: str, position: int) -> Party | None:
     """The POU or method that is named at a position, also by an instance of it; where none is, the one around."""
     found = named_at(reading, file, position)
-    symbol = None if found is None else _runs(reading, found.symbol)
-    if symbol is None:
-        symbol = _around(reading, file, position)
-    return None if symbol is None else next(_parties(reading, symbol, lambda file: extents(reading, file)), None)
+    named = None if found is None else _runs(reading, found.symbol)
+    for symbol in (named, _around(reading, file, position)):
+        # of the library nothing is declared in the project
+        party = None if symbol is None else next(_parties(reading, symbol, lambda file: extents(reading, file)), None)
+        if party is not None:
+            return party
+    return None
 
 
 def _around(reading: Reading, file: str, position: int) -> Symbol | None:

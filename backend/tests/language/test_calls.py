@@ -84,3 +84,10 @@ def test_where_nothing_is_named_that_runs_the_pou_around_is_meant() -> None:
 def test_outside_of_all_pous_there_is_no_party() -> None:
     reading, position = marked(TEXT.replace("\nPROGRAM Main", "\n|\nPROGRAM Main"))
     assert party_at(reading, FILE, position) is None
+
+
+def test_of_a_standard_block_the_pou_around_is_meant() -> None:
+    reading, position = marked("PROGRAM Main VAR beat : T|ON; END_VAR beat(); END_PROGRAM")
+    party = party_at(reading, FILE, position)
+    assert party is not None
+    assert party.entry.name == "Main"

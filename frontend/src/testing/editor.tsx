@@ -21,3 +21,6 @@ vi.mock("../panels/project/editor/CodeView", () => ({
 vi.mock("../panels/project/editor/DiffView", () => ({
   default: ({ theirs }: { theirs: string }) => <pre>{theirs}</pre>,
 }));
+vi.mock("../panels/project/editor/TextsDiff", () => ({
+  default: ({ before, after }: { before: string; after: string }) => <pre>{`${before} -> ${after}`}</pre>,
+}));

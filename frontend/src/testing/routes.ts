@@ -45,6 +45,8 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "/templates", none);
   on("GET", "/instances/*/program", () => ({ version: 1, files: {}, pous: [] }));
   on("GET", "/instances/*/history/versions", none);
+  on("GET", "/projects/*/versions", () => []);
+  on("GET", "/projects/*/git", () => ({ missing: "", folder: "", branch: "", head: "", elsewhere: [], changes: [] }));
   on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems: [] }));
   on("POST", "/projects/*/watch-lists", ({ body }) => storedList(body, 1));
   on("PUT", "/watch-lists/*", ({ body }) => storedList(body, body.version + 1));

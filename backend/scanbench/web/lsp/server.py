@@ -1,5 +1,6 @@
 """The language server of one project, for one client: who asks what is answered by the functions of `language/`, in the shapes of LSP."""
 
+import logging
 from collections.abc import Callable
 from typing import Protocol
 
@@ -16,6 +17,9 @@ from scanbench.translation.inside import said_inside, wanted
 from scanbench.web.lsp import annotations, calls, completion, crossing, mending, navigation, outline, renaming
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.project import Saved, Told
+
+# An editor takes back most of what it asked, often after the answer: pygls warns of each.
+logging.getLogger("pygls.protocol.json_rpc").setLevel(logging.ERROR)
 
 FILES = "scanbench/files"
 """A server tells the files of a project as they are saved now: `{files: [[name, text], ...]}`."""

@@ -1,5 +1,6 @@
 /** Versions of the program and commits: compared with each other and with the texts as they are now, described, taken back. */
 import { create } from "zustand";
+import { spaced } from "../../logic/format/debounce";
 import { messageOf } from "../../logic/format/messageOf";
 import { isPanelFile } from "../../logic/project/panelFiles";
 import { commitOf, type Difference, differences, type Side } from "../../logic/project/versions";
@@ -48,9 +49,27 @@ export async function openVersions(): Promise<void> {
   openPage("versions");
   await guarded(async () => {
     await refresh();
-    set({ before: get().all[0]?.version ?? "now", after: "now" });
+    set({ before: get().all[0]?.version ?? "now", after: "now", found: null });
     await compare();
   });
+}
+
+let shown = false;
+
+/** The page is in sight: it follows what is edited, saved and built, until the returned function is called. */
+export function followVersions(): () => void {
+  shown = true;
+  void guarded(again);
+  return () => {
+    shown = false;
+  };
+}
+
+async function again(): Promise<void> {
+  await refresh();
+  const { before, after, all } = get();
+  if (before === "now" && after === "now") set({ before: all[0]?.version ?? "now" });
+  await compare();
 }
 
 async function refresh(): Promise<void> {
@@ -62,7 +81,7 @@ async function refresh(): Promise<void> {
 }
 
 export function choose(change: Partial<Pick<Versions, "before" | "after" | "chosen">>): void {
-  set(change);
+  set(change.before === undefined && change.after === undefined ? change : { ...change, found: null });
   if (change.before !== undefined || change.after !== undefined) void guarded(compare);
 }
 
@@ -70,7 +89,7 @@ async function compare(): Promise<void> {
   turn += 1;
   const mine = turn;
   const { before, after } = get();
-  set({ found: null, trouble: null });
+  set({ trouble: null });
   // No build has the operator panels; a commit does.
   const withPanels = typeof before !== "number" && typeof after !== "number";
   const [one, other] = [await textsOf(before, withPanels), await textsOf(after, withPanels)];
@@ -170,15 +189,13 @@ async function guarded(deed: () => Promise<void>): Promise<void> {
   }
 }
 
-/** What is saved or built while the page is there changes what a commit would keep, and the versions. */
-let pending: ReturnType<typeof setTimeout> | undefined;
-useDocuments.subscribe(({ project, files, build }, before) => {
+/** What is edited, saved or built while the page is there changes what is compared, what a commit would keep, and the versions. */
+const follow = spaced(() => void guarded(again), 300);
+useDocuments.subscribe(({ project, files, open, build }, before) => {
   if (project !== before.project) {
     texts.clear();
     set(nothing);
     return;
   }
-  if ((files === before.files && build === before.build) || get().git === null) return;
-  clearTimeout(pending);
-  pending = setTimeout(() => void guarded(refresh), 300);
+  if (shown && (files !== before.files || open !== before.open || build !== before.build)) follow();
 });

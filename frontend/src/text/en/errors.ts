@@ -112,7 +112,7 @@ export const errors = {
   "errors.start.pick.rest": "or select several or a whole group, then Generate.",
   "errors.start.see": "Reaction",
   "errors.start.see.rest":
-    "then shows what the program did: reacted to the error, only stored it, read it without effect, did not reach the statement that reads it, or never reads it.",
+    "then shows what the program did, by grade: acted, decided, displayed, stored, read without effect, did not reach the statement that reads it, or never reads it.",
   "errors.start.title": "No error raised yet",
   "errors.user": "User-defined",
   "preview.all": "All {count}",

@@ -113,7 +113,8 @@ export const errors: Record<keyof typeof english, string> = {
   "errors.start.pick": "異常を選び、",
   "errors.start.pick.rest": "または複数やグループをチェックして「発生」を押します。",
   "errors.start.see": "反応",
-  "errors.start.see.rest": "プログラムの動作（反応あり・保存のみ・影響なし・未到達・未参照）が表示されます。",
+  "errors.start.see.rest":
+    "プログラムの動作が段階で表示されます（動作・判断・表示・保存のみ・影響なし・未到達・未参照）。",
   "errors.start.title": "まだ異常を発生させていません",
   "errors.user": "ユーザー定義",
   "preview.all": "全 {count} 件",

@@ -168,6 +168,7 @@ test("a build that is refused opens the problems", async () => {
       project,
     };
     server.on("POST", "/projects/*/build", () => result);
+    server.on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems: [problem] }));
   });
   await user.click(buildButton());
   await waitFor(() => expect(places).toEqual(["panel problems"]));

@@ -1,5 +1,6 @@
-import { render, screen, waitFor, within } from "@testing-library/react";
+import { act, render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { edit, openDocument } from "../../../store/project/documents";
 import { openVersions } from "../../../store/project/versions";
 import { openPage } from "../../../testing/page";
 import { refusal } from "../../../testing/routes";
@@ -92,4 +93,20 @@ test("without git the page says what to do", async () => {
   render(<VersionsPage />);
   await openVersions();
   expect((await screen.findByRole("note")).textContent).toBe(t("git.missing"));
+});
+
+test("the page that was there at the start of a window finds its versions, and compares again what is edited", async () => {
+  const { prepare } = having(NO_GIT, [version(1)]);
+  const file = { path: "Main.st", version: 1, author: "Mika" };
+  await openPage((server) => {
+    prepare(server);
+    server.on("GET", "/projects/*/files", () => [file]);
+    server.on("GET", "/projects/*/files/**", () => ({ ...file, text: "stored" }));
+    server.on("GET", "/projects/*/versions/*", () => ({ version: 1, files: { "Main.st": "stored" } }));
+  });
+  render(<VersionsPage />);
+  await screen.findByText(t("versions.same"));
+  await openDocument("Main.st");
+  act(() => edit("Main.st", "other"));
+  await screen.findByText("stored -> other");
 });

@@ -1,6 +1,7 @@
+import { useEffect } from "react";
 import { dayTime } from "../../../logic/format/numbers";
 import { commitOf, type Difference, type Side, sideOf, sideOfCommit } from "../../../logic/project/versions";
-import { choose, takeVersion, useVersions } from "../../../store/project/versions";
+import { choose, followVersions, takeVersion, useVersions } from "../../../store/project/versions";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { later } from "../../../ui/later";
@@ -13,6 +14,7 @@ const TextsDiff = later(() => afterWords(() => import("./TextsDiff")));
 
 /** Versions of the program and commits: a list, and two of them beside each other, file by file. */
 export function VersionsPage() {
+  useEffect(followVersions, []);
   const { all, commits, git, before, after, found, chosen, trouble } = useVersions();
   const shown = found?.find(({ path }) => path === chosen);
   const any = all.length > 0 || commits.length > 0;

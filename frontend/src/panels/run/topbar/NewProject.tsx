@@ -99,15 +99,7 @@ export function NewProject({ dropped = null, onClose }: Props) {
             </select>
           </label>
           <ModelFacts model={models.find((known) => known.name === model)} />
-          <TemplateField
-            templates={templates}
-            value={template}
-            disabled={archive !== "none"}
-            onChoose={(id) => {
-              setTemplate(id);
-              setPicked("");
-            }}
-          />
+          <TemplateField templates={templates} value={template} disabled={archive !== "none"} onChoose={setTemplate} />
           <ArchiveField
             dropped={dropped}
             onChoose={(chosen) => {
