@@ -2,8 +2,11 @@
 
 import asyncio
 import random
+import threading
 from base64 import b64decode, b64encode
 from collections.abc import Coroutine, Iterator
+from contextlib import suppress
+from difflib import SequenceMatcher
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -11,9 +14,10 @@ from typing import Any
 import pytest
 from pycrdt import Doc, Text
 
-from scanbench.server.draft import Draft, differences, merged
+from scanbench.server import draft as draft_module
+from scanbench.server.draft import MOST_LINES, Draft, differences, merged
 from scanbench.server.drafts import MOST_PARTS, Drafts
-from scanbench.store.records import NotFound
+from scanbench.store.records import Conflict, FileRow, NotFound, StoreError
 from scanbench.store.store import Store
 from scanbench.web.messages_together import CloseDraft, EditDraft, OpenDraft
 from scanbench.web.messages_together import Draft as DraftMessage
@@ -43,7 +47,7 @@ class Page:
     def on_frame(self, frame: bytes) -> None: ...
     def on_snapshot(self, frame: bytes) -> None: ...
 
-    async def connect(self, drafts: Drafts, project: int) -> None:
+    async def connect(self, drafts: Drafts, project: int, sends: bool = True) -> None:
         self.inbox.clear()
         self.link = Drafting(drafts, project, self, self.inbox.append)
         vector = b64encode(self.doc.get_state()) if self.draft else None
@@ -53,7 +57,8 @@ class Page:
         self.draft = opened.draft
         self.doc.apply_update(b64decode(opened.update))
         self.inbox.clear()
-        await self.send(self.doc.get_update(b64decode(opened.vector)))
+        if sends:
+            await self.send(self.doc.get_update(b64decode(opened.vector)))
 
     async def lose(self) -> None:
         link, self.link = self.link, None
@@ -97,6 +102,11 @@ class Bench:
 
     def kill(self) -> None:
         self.drafts = Drafts(self.store)
+
+    async def save(self, text: str, draft: str | None = None) -> None:
+        """Of the version that is saved; without the key of the draft it is a text from elsewhere."""
+        version = self.store.files.get(self.project, PATH).version
+        await self.drafts.save(self.project, PATH, text, version, "Grace", draft)
 
 
 @pytest.fixture(scope="module")
@@ -240,15 +250,107 @@ def test_a_save_from_elsewhere_joins_what_is_being_typed(bench: Bench) -> None:
         ada = Page("Ada")
         await ada.connect(bench.drafts, bench.project)
         await ada.send(ada.type(len("PROGRAM Main\n"), "x := 1;\n"))
-        await bench.drafts.wrote(bench.project, PATH, BEGUN, BEGUN.replace("Main", "Belt").replace("\n", "\r\n"))
+        await bench.save(BEGUN.replace("Main", "Belt").replace("\n", "\r\n"))
         ada.read()
         assert str(ada.text) == "PROGRAM Belt\nx := 1;\nEND_PROGRAM\n"
         await ada.lose()
-        await bench.drafts.wrote(bench.project, PATH, BEGUN, f"(* new *)\n{BEGUN}")  # while nobody has it open
+        await bench.save(f"(* new *)\n{BEGUN}")  # while nobody has it open
         await ada.connect(bench.drafts, bench.project)
         assert str(ada.text).startswith("(* new *)\n")
 
     run(story())
+
+
+def test_a_save_of_the_draft_changes_it_not_though_the_server_was_killed(bench: Bench) -> None:
+    """The changes that it lacks come from the page; made of the saved text as well they would be there twice."""
+
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        await ada.send(ada.type(0, "X"))
+        bench.kill()
+        ada.type(1, "Y")  # on its way when the server ended
+        await bench.save(str(ada.text), ada.draft)
+        await ada.connect(bench.drafts, bench.project)
+        assert str(ada.text) == f"XY{BEGUN}"
+
+    run(story())
+
+
+def test_a_save_from_elsewhere_is_in_the_draft_whenever_the_server_is_killed(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        monkeypatch.setattr(bench.store.drafts, "append", _killed)
+        with suppress(StoreError):
+            await bench.save(f"(* new *)\n{BEGUN}")
+        bench.kill()
+        await ada.connect(bench.drafts, bench.project, sends=False)
+        assert str(ada.text) == bench.store.files.get(bench.project, PATH).text
+
+    run(story())
+
+
+def _killed(*_: object) -> None:
+    raise StoreError("the server was killed")
+
+
+def test_a_save_that_is_a_conflict_changes_no_draft(bench: Bench) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        with pytest.raises(Conflict):
+            await bench.drafts.save(bench.project, PATH, "late", 7, "Grace", None)
+        await ada.lose()
+        await ada.connect(bench.drafts, bench.project)
+        assert str(ada.text) == BEGUN
+
+    run(story())
+
+
+def test_files_do_not_wait_for_each_other(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    async def story() -> None:
+        bench.store.files.save(bench.project, "Big.st", BEGUN, 0, "Ada")
+        asked, go_on, get = asyncio.Event(), threading.Event(), bench.store.files.get
+        loop = asyncio.get_running_loop()
+
+        def slow(project: int, path: str) -> FileRow:
+            if path == "Big.st":
+                loop.call_soon_threadsafe(asked.set)
+                go_on.wait()
+            return get(project, path)
+
+        monkeypatch.setattr(bench.store.files, "get", slow)
+        big = asyncio.ensure_future(bench.drafts.open(bench.project, "Big.st", Page("Ada")))
+        await asked.wait()
+        await bench.drafts.open(bench.project, PATH, Page("Grace"))
+        assert not big.done()
+        go_on.set()
+        await big
+
+    run(story())
+
+
+def test_what_is_long_and_all_different_is_replaced_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To compare thousands of lines, many of them alike, takes minutes. Few that changed in a long text are found all the same."""
+    before = "".join(f"x := {at};\n\n" for at in range(3000))
+    compared: list[int] = []
+    matcher = draft_module.SequenceMatcher
+
+    def counted(junk: None, one: list[str], other: list[str], autojunk: bool) -> SequenceMatcher[str]:
+        compared.append(max(len(one), len(other)))
+        return matcher(junk, one, other, autojunk)
+
+    monkeypatch.setattr(draft_module, "SequenceMatcher", counted)
+    few = before.replace("x := 7;", "y := 7;").replace("x := 17;", "z := 17;")
+    assert [each.text for each in differences(before, few)] == ["y", "z"]
+    indented = "".join(f"  {line}" for line in before.splitlines(keepends=True))
+    draft = Draft.begun(before)
+    draft.become(indented)
+    assert draft.text == indented
+    assert max(compared) <= MOST_LINES
 
 
 @pytest.mark.parametrize(
