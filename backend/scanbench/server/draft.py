@@ -12,6 +12,8 @@ from scanbench.wire.refused import Refused
 
 TEXT = "text"
 """The page knows the text by this name."""
+MOST_BYTES = 2 << 20
+"""A longer text does not grow: a page gets it in one message."""
 MOST_LINES = 300
 """More that may have changed are not compared line by line, but replaced as a whole."""
 
@@ -53,11 +55,26 @@ class Draft:
             raise Refused(f"this is no vector of a draft: {error}") from error
 
     def apply(self, update: bytes) -> bytes:
-        """Takes changes in; those that were new, or nothing."""
+        """Takes changes in that were made here; those that were new, or nothing."""
+        self._doc.apply_update(update)
+        return self._taken()
+
+    def apply_foreign(self, update: bytes) -> bytes:
+        """Takes changes in that a browser sent. `Refused` of what nobody can have typed: the draft may be broken then, and has to be made anew."""
+        before = len(self._text)
         try:
             self._doc.apply_update(update)
-        except ValueError as error:
+            length, real = len(self._text), len(self.text.encode())
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except (
+            BaseException
+        ) as error:  # crafted ones make the library fail in many ways; a panic of Rust is no `Exception`
             raise Refused(f"these are no changes of a draft: {error}") from error
+        if length != real:
+            raise Refused("these are no changes of a draft: they insert what is no text")
+        if length > max(before, MOST_BYTES):
+            raise Refused(f"the text would have {length} bytes, {MOST_BYTES} are possible: make two files of it")
         return self._taken()
 
     def become(self, text: str) -> bytes:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from weakref import WeakValueDictionary
 
 from scanbench.server.draft import Draft, update_of
+from scanbench.store.drafts import DraftRow
 from scanbench.store.records import FileRow, NotFound
 from scanbench.store.store import Store
 from scanbench.wire.events import Subscriber
@@ -15,30 +16,41 @@ from scanbench.wire.refused import Refused
 from scanbench.wire.together import DraftEdited
 
 MOST_PARTS = 200
-"""So many changes kept one by one: a draft that is opened is kept as a whole again."""
+"""So many changes kept one by one: with the next one the draft is kept as a whole again."""
 
 
 class Shared:
     """A draft that somebody has open. What is changed is written one after the other, all that waits at once."""
 
-    def __init__(self, store: Store, project: int, path: str, draft: Draft) -> None:
-        self.draft, self.people = draft, set[Subscriber]()
+    def __init__(self, store: Store, project: int, path: str, row: DraftRow) -> None:
+        self.draft, self.people = Draft(row.key, row.parts), set[Subscriber]()
+        self._parts, self._stored = list(row.parts), len(row.parts)
         self._store, self._project, self._path = store, project, path
         self._unkept: list[bytes] = []
         self._writing: asyncio.Task[None] | None = None
         self.storing = asyncio.Lock()
         """Who has it is alone with what is stored of the draft."""
 
-    def changed(self, update: bytes, by: Subscriber | None) -> None:
-        """Tells everybody else what is new, and has it written."""
-        if update:
-            self.tell(update, by)
-            self._unkept.append(update)
+    def edit(self, update: bytes, by: Subscriber) -> None:
+        """Somebody typed: everybody else is told, and it is to be written. `Refused` why it is no such change."""
+        try:
+            fresh = self.draft.apply_foreign(update)
+        except Refused:
+            self.draft = Draft(self.draft.key, self._parts)
+            raise
+        if fresh:
+            self._tell(fresh, by)
+            self._unkept.append(fresh)
 
-    def tell(self, update: bytes, by: Subscriber | None) -> None:
-        """Tells everybody else what is new."""
-        if not update:
-            return
+    def saved(self, update: bytes) -> None:
+        """A change from elsewhere, which is stored."""
+        self._stored += 1
+        self._tell(self.draft.apply(update), None)
+
+    def _tell(self, update: bytes, by: Subscriber | None) -> None:
+        self._parts.append(update)
+        if len(self._parts) > MOST_PARTS:
+            self._parts = [self.draft.lacking(None)]
         event = DraftEdited(self._path, self.draft.key, b64encode(update).decode())
         for person in tuple(self.people):
             if person is not by:
@@ -55,8 +67,12 @@ class Shared:
         while self._unkept:
             async with self.storing:
                 batch, self._unkept = self._unkept, []
+                too_many = self._stored + len(batch) > MOST_PARTS
+                store = self._store.drafts.replace if too_many else self._store.drafts.append
+                parts = [self.draft.lacking(None)] if too_many else batch
                 try:
-                    await asyncio.to_thread(self._store.drafts.append, self._project, self._path, self.draft.key, batch)
+                    await asyncio.to_thread(store, self._project, self._path, self.draft.key, parts)
+                    self._stored = len(parts) + (0 if too_many else self._stored)
                 except BaseException:
                     self._unkept = [*batch, *self._unkept]
                     raise
@@ -113,7 +129,7 @@ class Drafts:
         shared = self._shared.get((project, path))
         if shared is None or shared.draft.key != draft or by not in shared.people:
             raise Refused(f"nothing was changed: open {path} first")
-        shared.changed(shared.draft.apply(update), by)
+        shared.edit(update, by)
         await shared.kept()
 
     async def save(self, project: int, path: str, text: str, version: int, author: str, draft: str | None) -> FileRow:
@@ -131,7 +147,8 @@ class Drafts:
                         update = await update_of(shared.draft, file.text, text)
                 change = (shared.draft.key, update) if update else None
                 saved = await self._save(project, path, text, version, author, change)
-                shared.tell(shared.draft.apply(update) if update else b"", None)
+                if update:
+                    shared.saved(update)
                 return saved
 
     async def _save(
@@ -144,7 +161,7 @@ class Drafts:
         shared = self._shared.get((project, path))
         if shared is None:
             row = await asyncio.to_thread(self._store.drafts.get, project, path)
-            return None if row is None else Shared(self._store, project, path, Draft(row.key, row.parts))
+            return None if row is None else Shared(self._store, project, path, row)
         return shared
 
     def _lock(self, project: int, path: str) -> asyncio.Lock:
@@ -165,7 +182,4 @@ class Drafts:
         if row is None:
             begun = Draft.begun(text)
             row = await asyncio.to_thread(self._store.drafts.create, project, path, begun.key, begun.lacking(None))
-        draft = Draft(row.key, row.parts)
-        if len(row.parts) > MOST_PARTS:
-            await asyncio.to_thread(self._store.drafts.replace, project, path, row.key, draft.lacking(None))
-        return Shared(self._store, project, path, draft)
+        return Shared(self._store, project, path, row)

@@ -49,9 +49,9 @@ class Drafts(Repository):
         """Adds changes; `NotFound` when the file was deleted, also when there is a new one of that name."""
         self._write(project, path, key, parts, begin_again=False)
 
-    def replace(self, project: int, path: str, key: str, whole: bytes) -> None:
-        """One part in the place of all."""
-        self._write(project, path, key, [whole], begin_again=True)
+    def replace(self, project: int, path: str, key: str, parts: Sequence[bytes]) -> None:
+        """These in the place of all that there are."""
+        self._write(project, path, key, parts, begin_again=True)
 
     def _write(self, project: int, path: str, key: str, parts: Sequence[bytes], begin_again: bool) -> None:
         try:

@@ -4,7 +4,7 @@ import asyncio
 import random
 import threading
 from base64 import b64decode, b64encode
-from collections.abc import Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import suppress
 from difflib import SequenceMatcher
 from pathlib import Path
@@ -15,7 +15,7 @@ import pytest
 from pycrdt import Doc, Text
 
 from scanbench.server import draft as draft_module
-from scanbench.server.draft import MOST_LINES, Draft, differences, merged
+from scanbench.server.draft import MOST_BYTES, MOST_LINES, Draft, differences, merged
 from scanbench.server.drafts import MOST_PARTS, Drafts
 from scanbench.store.records import Conflict, FileRow, NotFound, StoreError
 from scanbench.store.store import Store
@@ -198,12 +198,12 @@ def test_what_was_acknowledged_is_there_after_a_kill_also_when_it_is_kept_as_a_w
         await ada.connect(bench.drafts, bench.project)
         for _ in range(MOST_PARTS + 1):
             await ada.send(ada.type(0, "x"))
+        assert len(bench.store.drafts.get(bench.project, PATH).parts) < MOST_PARTS  # type: ignore[union-attr]
         for _ in range(2):
             bench.kill()
             grace = Page("Grace")
             await grace.connect(bench.drafts, bench.project)
             assert str(grace.text) == "x" * (MOST_PARTS + 1) + BEGUN
-        assert len(bench.store.drafts.get(bench.project, PATH).parts) == 1  # type: ignore[union-attr]
 
     run(story())
 
@@ -241,6 +241,42 @@ def test_what_is_no_change_is_refused_and_changes_nothing(bench: Bench) -> None:
         await ada.link.serve(CloseDraft(ref=1, path=PATH))
         with pytest.raises(Refused):
             await ada.send(ada.type(0, "x"))
+
+    run(story())
+
+
+def _embedded(page: Page) -> bytes:
+    before = page.doc.get_state()
+    page.text.insert_embed(0, {"a": 1})
+    return page.doc.get_update(before)
+
+
+def _within_letters(page: Page) -> bytes:
+    """A letter whose parent is no text, but a letter."""
+    author = page.doc.get_state()[1:-1]
+    return b"\x01\x01\x05\x00\x04\x00" + author + b"\x00\x01x\x00"
+
+
+def _too_long(page: Page) -> bytes:
+    return page.type(0, "x" * MOST_BYTES)
+
+
+@pytest.mark.parametrize(
+    ("craft", "why"), [(_within_letters, "block parent"), (_embedded, "what is no text"), (_too_long, "make two files")]
+)
+def test_what_cannot_be_typed_leaves_the_draft_as_it_was(
+    craft: Callable[[Page], bytes], why: str, bench: Bench
+) -> None:
+    async def story() -> None:
+        ada, grace = Page("Ada"), Page("Grace")
+        await ada.connect(bench.drafts, bench.project)
+        await grace.connect(bench.drafts, bench.project)
+        with pytest.raises(Refused, match=why):
+            await grace.send(craft(grace))
+        await ada.send(ada.type(0, "x"))
+        late = Page("Jo")
+        await late.connect(bench.drafts, bench.project)
+        assert (str(late.text), len(late.text)) == (f"x{BEGUN}", len(BEGUN) + 1)
 
     run(story())
 
@@ -337,11 +373,10 @@ def test_what_is_long_and_all_different_is_replaced_at_once(monkeypatch: pytest.
     """To compare thousands of lines, many of them alike, takes minutes. Few that changed in a long text are found all the same."""
     before = "".join(f"x := {at};\n\n" for at in range(3000))
     compared: list[int] = []
-    matcher = draft_module.SequenceMatcher
 
     def counted(junk: None, one: list[str], other: list[str], autojunk: bool) -> SequenceMatcher[str]:
         compared.append(max(len(one), len(other)))
-        return matcher(junk, one, other, autojunk)
+        return SequenceMatcher(junk, one, other, autojunk)
 
     monkeypatch.setattr(draft_module, "SequenceMatcher", counted)
     few = before.replace("x := 7;", "y := 7;").replace("x := 17;", "z := 17;")
