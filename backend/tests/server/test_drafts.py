@@ -346,25 +346,51 @@ def test_a_save_that_is_a_conflict_changes_no_draft(bench: Bench) -> None:
     run(story())
 
 
+class Slow:
+    """The store takes long to read one file, until it may go on."""
+
+    def __init__(self, bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.asked, self.go_on = asyncio.Event(), threading.Event()
+        self._loop, self._get = asyncio.get_running_loop(), bench.store.files.get
+        monkeypatch.setattr(bench.store.files, "get", self._slow)
+
+    def _slow(self, project: int, path: str) -> FileRow:
+        if path == "Big.st":
+            self._loop.call_soon_threadsafe(self.asked.set)
+            self.go_on.wait()
+        return self._get(project, path)
+
+
 def test_files_do_not_wait_for_each_other(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     async def story() -> None:
         bench.store.files.save(bench.project, "Big.st", BEGUN, 0, "Ada")
-        asked, go_on, get = asyncio.Event(), threading.Event(), bench.store.files.get
-        loop = asyncio.get_running_loop()
-
-        def slow(project: int, path: str) -> FileRow:
-            if path == "Big.st":
-                loop.call_soon_threadsafe(asked.set)
-                go_on.wait()
-            return get(project, path)
-
-        monkeypatch.setattr(bench.store.files, "get", slow)
+        slow = Slow(bench, monkeypatch)
         big = asyncio.ensure_future(bench.drafts.open(bench.project, "Big.st", Page("Ada")))
-        await asked.wait()
+        await slow.asked.wait()
         await bench.drafts.open(bench.project, PATH, Page("Grace"))
         assert not big.done()
-        go_on.set()
+        slow.go_on.set()
         await big
+
+    run(story())
+
+
+def test_what_is_closed_while_it_opens_is_closed(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    async def story() -> None:
+        bench.store.files.save(bench.project, "Big.st", BEGUN, 0, "Ada")
+        slow, ada = Slow(bench, monkeypatch), Page("Ada")
+        link = Drafting(bench.drafts, bench.project, ada, ada.inbox.append)
+        opening = asyncio.ensure_future(link.serve(OpenDraft(ref=1, path="Big.st")))
+        await slow.asked.wait()
+        closing = asyncio.ensure_future(link.serve(CloseDraft(ref=2, path="Big.st")))
+        await asyncio.sleep(0)  # it begins
+        slow.go_on.set()
+        await asyncio.gather(opening, closing)
+        (opened,) = ada.inbox
+        assert isinstance(opened, DraftMessage)
+        given = {"ref": 3, "path": "Big.st", "draft": opened.draft, "update": b64encode(ada.type(0, "x"))}
+        with pytest.raises(Refused, match=r"open Big\.st first"):
+            await link.serve(EditDraft.model_validate(given))
 
     run(story())
 
