@@ -60,7 +60,7 @@ class Draft:
         return self._taken()
 
     def apply_foreign(self, update: bytes) -> bytes:
-        """Takes changes in that a browser sent. `Refused` of what nobody can have typed: the draft may be broken then, and has to be made anew."""
+        """Takes changes in that a browser sent. `Refused` of what nobody can have typed: the draft may be broken then, and has to be made again."""
         before = len(self._text)
         try:
             self._doc.apply_update(update)
