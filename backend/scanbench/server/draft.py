@@ -1,6 +1,7 @@
 """The text of a file as several people edit it at once: a CRDT (Yjs, whose other end is in the page), so that changes merge in whatever order
 they come."""
 
+import asyncio
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from typing import NamedTuple
@@ -11,6 +12,10 @@ from scanbench.wire.refused import Refused
 
 TEXT = "text"
 """The page knows the text by this name."""
+MOST_BYTES = 2 << 20
+"""A longer text does not grow: a page gets it in one message."""
+MOST_LINES = 300
+"""More that may have changed are not compared line by line, but replaced as a whole."""
 
 
 class Draft:
@@ -50,30 +55,43 @@ class Draft:
             raise Refused(f"this is no vector of a draft: {error}") from error
 
     def apply(self, update: bytes) -> bytes:
-        """Takes changes in; those that were new, or nothing."""
+        """Takes changes in that were made here; those that were new, or nothing."""
+        self._doc.apply_update(update)
+        return self._taken()
+
+    def apply_foreign(self, update: bytes) -> bytes:
+        """Takes changes in that a browser sent. `Refused` of what nobody can have typed: the draft may be broken then, and has to be made again."""
+        before = len(self._text)
         try:
             self._doc.apply_update(update)
-        except ValueError as error:
+            length, real = len(self._text), len(self.text.encode())
+        except (KeyboardInterrupt, SystemExit):
+            raise
+        except (
+            BaseException
+        ) as error:  # crafted ones make the library fail in many ways; a panic of Rust is no `Exception`
             raise Refused(f"these are no changes of a draft: {error}") from error
+        if length != real:
+            raise Refused("these are no changes of a draft: they insert what is no text")
+        if length > max(before, MOST_BYTES):
+            raise Refused(f"the text would have {length} bytes, {MOST_BYTES} are possible: make two files of it")
         return self._taken()
 
     def become(self, text: str) -> bytes:
         """Changes only what is different in this text; the changes."""
+        return self.change(list(differences(self.text, text)))
+
+    def change(self, all: Sequence["Difference"]) -> bytes:
+        """Makes these differences; the changes."""
         before = self.text
         with self._doc.transaction():
-            for found in reversed(list(differences(before, text))):
+            for found in reversed(all):
                 at = len(before[: found.start].encode())  # pycrdt counts bytes
                 if gone := len(before[found.start : found.end].encode()):
                     del self._text[at : at + gone]
                 if found.text:
                     self._text.insert(at, found.text)
         return self._taken()
-
-    def take(self, base: str, text: str) -> bytes:
-        """Somebody made `text` of `base` elsewhere: that change is made here as well, beside all others; the changes."""
-        base, text = with_line_feeds(base), with_line_feeds(text)
-        now = self.text
-        return b"" if text == now else self.become(merged(base, text, now))
 
     def _on_change(self, event: TransactionEvent) -> None:
         self._fresh.append(event.update)
@@ -99,31 +117,69 @@ class Difference(NamedTuple):
 def differences(before: str, after: str) -> Iterator[Difference]:
     """What of a text is different in the other, line by line; within changed lines the stretch that is."""
     olds, news = before.splitlines(keepends=True), after.splitlines(keepends=True)
+    head, tail = _alike(olds, news)
     starts = [0]
     for line in olds:
         starts.append(starts[-1] + len(line))
+    old_end, new_end = len(olds) - tail, len(news) - tail
+    for a, b, c, d in _changed(olds[head:old_end], news[head:new_end]):
+        here, there = starts[head + a], starts[head + b]
+        yield _trimmed(here, before[here:there], "".join(news[head + c : head + d]))
+
+
+def _changed(olds: Sequence[str], news: Sequence[str]) -> Iterator[tuple[int, int, int, int]]:
+    """Which lines have others in their place. To compare takes longer than their number says, so of many it is all of them."""
+    if max(len(olds), len(news)) > MOST_LINES:
+        yield 0, len(olds), 0, len(news)
+        return
     for kind, a, b, c, d in SequenceMatcher(None, olds, news, autojunk=False).get_opcodes():
         if kind != "equal":
-            yield _trimmed(starts[a], before[starts[a] : starts[b]], "".join(news[c:d]))
+            yield a, b, c, d
+
+
+def _alike(one: Sequence[str], other: Sequence[str]) -> tuple[int, int]:
+    """How much of two sequences is the same at the beginning, and how much of the rest at the end."""
+    shortest = min(len(one), len(other))
+    head = next((at for at in range(shortest) if one[at] != other[at]), shortest)
+    rest = shortest - head
+    return head, next((at for at in range(rest) if one[-1 - at] != other[-1 - at]), rest)
 
 
 def _trimmed(start: int, old: str, new: str) -> Difference:
     """Without what is the same at both ends."""
-    shortest = min(len(old), len(new))
-    head = next((at for at in range(shortest) if old[at] != new[at]), shortest)
-    rest = shortest - head
-    tail = next((at for at in range(rest) if old[-1 - at] != new[-1 - at]), rest)
+    head, tail = _alike(old, new)
     return Difference(start + head, start + len(old) - tail, new[head : len(new) - tail])
+
+
+async def update_of(draft: Draft, base: str, text: str) -> bytes:
+    """Somebody made `text` of `base` elsewhere: the same change of the draft, beside all others; the draft is not changed yet."""
+    base, text, now = with_line_feeds(base), with_line_feeds(text), draft.text
+    if text in (base, now):
+        return b""
+    copy = Draft(draft.key, [draft.lacking(None)])  # at once: people go on typing while the texts are compared
+    if base != now:
+        text = _both(base, *await asyncio.to_thread(_of_each, base, text, now))
+    return copy.change(await asyncio.to_thread(_of, now, text))
 
 
 def merged(base: str, one: str, other: str) -> str:
     """Both changes of a text."""
     if one == other or other == base:
         return one
-    if one == base:
-        return other
+    return other if one == base else _both(base, *_of_each(base, one, other))
+
+
+def _of(before: str, after: str) -> list[Difference]:
+    return list(differences(before, after))
+
+
+def _of_each(base: str, one: str, other: str) -> tuple[list[Difference], list[Difference]]:
+    return _of(base, one), _of(base, other)
+
+
+def _both(base: str, one: Sequence[Difference], other: Sequence[Difference]) -> str:
     begun = Draft.begun(base)
     ends = [Draft(begun.key, [begun.lacking(None)]) for _ in range(2)]
-    ends[0].become(one)
-    ends[0].apply(ends[1].become(other))
+    ends[0].change(one)
+    ends[0].apply(ends[1].change(other))
     return ends[0].text

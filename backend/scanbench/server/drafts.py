@@ -3,36 +3,58 @@ typed is lost when the server ends."""
 
 import asyncio
 from base64 import b64encode
+from contextlib import suppress
 from dataclasses import dataclass
+from weakref import WeakValueDictionary
 
-from scanbench.server.draft import Draft
+from scanbench.server.draft import Draft, update_of
+from scanbench.store.drafts import DraftRow
+from scanbench.store.records import FileRow, NotFound
 from scanbench.store.store import Store
 from scanbench.wire.events import Subscriber
 from scanbench.wire.refused import Refused
 from scanbench.wire.together import DraftEdited
 
 MOST_PARTS = 200
-"""So many changes kept one by one: a draft that is opened is kept as a whole again."""
+"""So many changes kept one by one: with the next one the draft is kept as a whole again."""
 
 
 class Shared:
     """A draft that somebody has open. What is changed is written one after the other, all that waits at once."""
 
-    def __init__(self, store: Store, project: int, path: str, draft: Draft) -> None:
-        self.draft, self.people = draft, set[Subscriber]()
+    def __init__(self, store: Store, project: int, path: str, row: DraftRow) -> None:
+        self.draft, self.people = Draft(row.key, row.parts), set[Subscriber]()
+        self._parts, self._stored = list(row.parts), len(row.parts)
         self._store, self._project, self._path = store, project, path
         self._unkept: list[bytes] = []
         self._writing: asyncio.Task[None] | None = None
+        self.storing = asyncio.Lock()
+        """Who has it is alone with what is stored of the draft."""
 
-    def changed(self, update: bytes, by: Subscriber | None) -> None:
-        """Tells everybody else what is new, and has it written."""
-        if not update:
-            return
+    def edit(self, update: bytes, by: Subscriber) -> None:
+        """Somebody typed: everybody else is told, and it is to be written. `Refused` why it is no such change."""
+        try:
+            fresh = self.draft.apply_foreign(update)
+        except Refused:
+            self.draft = Draft(self.draft.key, self._parts)
+            raise
+        if fresh:
+            self._tell(fresh, by)
+            self._unkept.append(fresh)
+
+    def saved(self, update: bytes) -> None:
+        """A change from elsewhere, which is stored."""
+        self._stored += 1
+        self._tell(self.draft.apply(update), None)
+
+    def _tell(self, update: bytes, by: Subscriber | None) -> None:
+        self._parts.append(update)
+        if len(self._parts) > MOST_PARTS:
+            self._parts = [self.draft.lacking(None)]
         event = DraftEdited(self._path, self.draft.key, b64encode(update).decode())
         for person in tuple(self.people):
             if person is not by:
                 person.on_event(event)
-        self._unkept.append(update)
 
     async def kept(self) -> None:
         """Waits until all changes are kept; `StoreError` why they cannot be, then the next call tries again."""
@@ -43,12 +65,17 @@ class Shared:
 
     async def _write(self) -> None:
         while self._unkept:
-            batch, self._unkept = self._unkept, []
-            try:
-                await asyncio.to_thread(self._store.drafts.append, self._project, self._path, self.draft.key, batch)
-            except BaseException:
-                self._unkept = [*batch, *self._unkept]
-                raise
+            async with self.storing:
+                batch, self._unkept = self._unkept, []
+                too_many = self._stored + len(batch) > MOST_PARTS
+                store = self._store.drafts.replace if too_many else self._store.drafts.append
+                parts = [self.draft.lacking(None)] if too_many else batch
+                try:
+                    await asyncio.to_thread(store, self._project, self._path, self.draft.key, parts)
+                    self._stored = len(parts) + (0 if too_many else self._stored)
+                except BaseException:
+                    self._unkept = [*batch, *self._unkept]
+                    raise
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,13 +97,13 @@ class Drafts:
     def __init__(self, store: Store) -> None:
         self._store = store
         self._shared: dict[tuple[int, str], Shared] = {}
-        self._opening = asyncio.Lock()
+        self._locks: WeakValueDictionary[tuple[int, str], asyncio.Lock] = WeakValueDictionary()
 
     async def open(
         self, project: int, path: str, who: Subscriber, draft: str | None = None, vector: bytes | None = None
     ) -> Opened:
         """Somebody begins to edit a file together with the others. `draft` and `vector` are what they have of it already."""
-        async with self._opening:
+        async with self._lock(project, path):
             file = await asyncio.to_thread(self._store.files.get, project, path)
             shared = self._shared.get((project, path))
             if shared is None:
@@ -93,7 +120,7 @@ class Drafts:
             return
         shared.people.discard(who)
         await shared.kept()
-        async with self._opening:
+        async with self._lock(project, path):
             if not shared.people and self._shared.get((project, path)) is shared:
                 del self._shared[project, path]
 
@@ -102,25 +129,44 @@ class Drafts:
         shared = self._shared.get((project, path))
         if shared is None or shared.draft.key != draft or by not in shared.people:
             raise Refused(f"nothing was changed: open {path} first")
-        shared.changed(shared.draft.apply(update), by)
+        shared.edit(update, by)
         await shared.kept()
 
-    async def wrote(self, project: int, path: str, before: str, text: str) -> None:
-        """A file was saved that was made elsewhere of its text `before`: its draft changes as well."""
-        async with self._opening:
-            shared = self._shared.get((project, path))
-            if shared is None:
-                row = await asyncio.to_thread(self._store.drafts.get, project, path)
-                if row is None:
-                    return
-                shared = Shared(self._store, project, path, Draft(row.key, row.parts))
-            shared.changed(shared.draft.take(before, text), None)
-            await shared.kept()
+    async def save(self, project: int, path: str, text: str, version: int, author: str, draft: str | None) -> FileRow:
+        """Saves a file (see `store.Files.save`). A text that is not of `draft` was made elsewhere, of the text before: its change
+        is made in the draft as well. Both are kept, or neither."""
+        async with self._lock(project, path):
+            shared = await self._known(project, path) if version > 0 else None
+            if shared is None or shared.draft.key == draft:  # what the draft lacks of it comes from who typed it
+                return await self._save(project, path, text, version, author)
+            async with shared.storing:
+                update = b""
+                with suppress(NotFound):  # it was deleted: to save it is a conflict
+                    file = await asyncio.to_thread(self._store.files.get, project, path)
+                    if file.version == version:
+                        update = await update_of(shared.draft, file.text, text)
+                change = (shared.draft.key, update) if update else None
+                saved = await self._save(project, path, text, version, author, change)
+                if update:
+                    shared.saved(update)
+                return saved
 
-    def is_of(self, project: int, path: str, draft: str) -> bool:
-        """Whether this is the draft that people edit now."""
+    async def _save(
+        self, project: int, path: str, text: str, version: int, author: str, change: tuple[str, bytes] | None = None
+    ) -> FileRow:
+        return await asyncio.to_thread(self._store.files.save, project, path, text, version, author, change)
+
+    async def _known(self, project: int, path: str) -> Shared | None:
+        """A draft that somebody has open, or had; None where nobody edited the file yet."""
         shared = self._shared.get((project, path))
-        return shared is not None and shared.draft.key == draft
+        if shared is None:
+            row = await asyncio.to_thread(self._store.drafts.get, project, path)
+            return None if row is None else Shared(self._store, project, path, row)
+        return shared
+
+    def _lock(self, project: int, path: str) -> asyncio.Lock:
+        """Who has it is alone with what is stored of a file."""
+        return self._locks.setdefault((project, path), asyncio.Lock())
 
     def forget(self, project: int, path: str | None = None) -> None:
         """A file was deleted, or all of a project."""
@@ -136,7 +182,4 @@ class Drafts:
         if row is None:
             begun = Draft.begun(text)
             row = await asyncio.to_thread(self._store.drafts.create, project, path, begun.key, begun.lacking(None))
-        draft = Draft(row.key, row.parts)
-        if len(row.parts) > MOST_PARTS:
-            await asyncio.to_thread(self._store.drafts.replace, project, path, row.key, draft.lacking(None))
-        return Shared(self._store, project, path, draft)
+        return Shared(self._store, project, path, row)

@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 
 from scanbench.jobs.checker import INTERVAL_NS, Checker
 from scanbench.plcmodel.model import Model
@@ -12,7 +11,7 @@ from scanbench.server.drafts import Drafts
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
 from scanbench.server.samples import templates
 from scanbench.session.session import Session
-from scanbench.store.records import BuildInfo, FileInfo, FileRow, NotFound, ProjectRow
+from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
@@ -92,14 +91,7 @@ class Projects:
         _check_path(path)
         if is_panel_file(path):
             refuse_broken(path, text)
-        elsewhere = version > 0 and not (draft and self.drafts.is_of(id, path, draft))
-        before = ""
-        if elsewhere:
-            with suppress(NotFound):  # it was deleted: to save it is a conflict
-                before = (await self.file(id, path)).text
-        file = await asyncio.to_thread(self._store.files.save, id, path, text, version, author)
-        if elsewhere:
-            await self.drafts.wrote(id, path, before, text)
+        file = await self.drafts.save(id, path, text, version, author, draft)
         for session in self._sessions_of(id):
             session.tell(FileSaved(author, file.path, file.version))
         return file

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from sqlalchemy import delete, insert, select
 from sqlalchemy.exc import IntegrityError
+from sqlalchemy.orm import Session
 
 from scanbench.store.connected import Repository
 from scanbench.store.records import NotFound
@@ -48,22 +49,28 @@ class Drafts(Repository):
         """Adds changes; `NotFound` when the file was deleted, also when there is a new one of that name."""
         self._write(project, path, key, parts, begin_again=False)
 
-    def replace(self, project: int, path: str, key: str, whole: bytes) -> None:
-        """One part in the place of all."""
-        self._write(project, path, key, [whole], begin_again=True)
+    def replace(self, project: int, path: str, key: str, parts: Sequence[bytes]) -> None:
+        """These in the place of all that there are."""
+        self._write(project, path, key, parts, begin_again=True)
 
     def _write(self, project: int, path: str, key: str, parts: Sequence[bytes], begin_again: bool) -> None:
         try:
             with self._database.writing() as session:
-                found = session.get(Draft, (project, path), with_for_update=True)
-                if found is None or found.key != key:
-                    raise _gone(path)
-                if begin_again:
-                    session.execute(delete(DraftPart).where(DraftPart.project_id == project, DraftPart.path == path))
-                rows = [{"project_id": project, "path": path, "data": part} for part in parts]
-                session.execute(insert(DraftPart), rows)
+                add_parts(session, project, path, key, parts, begin_again)
         except IntegrityError as error:
             raise _gone(path) from error
+
+
+def add_parts(
+    session: Session, project: int, path: str, key: str, parts: Sequence[bytes], begin_again: bool = False
+) -> None:
+    """Adds changes in a transaction that is under way."""
+    found = session.get(Draft, (project, path), with_for_update=True)
+    if found is None or found.key != key:
+        raise _gone(path)
+    if begin_again:
+        session.execute(delete(DraftPart).where(DraftPart.project_id == project, DraftPart.path == path))
+    session.execute(insert(DraftPart), [{"project_id": project, "path": path, "data": part} for part in parts])
 
 
 def _gone(path: str) -> NotFound:

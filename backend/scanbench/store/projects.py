@@ -10,6 +10,7 @@ from sqlalchemy.exc import IntegrityError
 from scanbench.runtime.clock import wall_time
 from scanbench.store import rows
 from scanbench.store.connected import Repository, check, the_project
+from scanbench.store.drafts import add_parts
 from scanbench.store.records import (
     BuildInfo,
     BuildRow,
@@ -82,8 +83,13 @@ class Files(Repository):
                 raise NotFound(f"there is no file {path!r} in this project")
             return rows.file(found)
 
-    def save(self, project: int, path: str, text: str, version: int, author: str) -> FileRow:
-        """Saves a text that was edited from this `version` (0: a new file). `Conflict` if that is not the last one."""
+    def save(
+        self, project: int, path: str, text: str, version: int, author: str, change: tuple[str, bytes] | None = None
+    ) -> FileRow:
+        """Saves a text that was edited from this `version` (0: a new file). `Conflict` if that is not the last one.
+
+        With it the `change` of its draft is kept, the key of the draft first.
+        """
         check("the path", path, PATH)
         check(path, text)
         saved, author = wall_time(), author[:AUTHOR]
@@ -96,8 +102,10 @@ class Files(Repository):
                     return FileRow(path, text, 1, author, saved)
                 # One statement looks and writes, so of two savers from the same version exactly one finds its row.
                 last = (File.project_id == project) & (File.path == path) & (File.version == version)
-                change = update(File).where(last).values(text=text, author=author, saved=saved, version=version + 1)
-                if session.scalars(change.returning(File.version)).first() is not None:
+                updated = update(File).where(last).values(text=text, author=author, saved=saved, version=version + 1)
+                if session.scalars(updated.returning(File.version)).first() is not None:
+                    if change is not None:
+                        add_parts(session, project, path, change[0], [change[1]])
                     return FileRow(path, text, version + 1, author, saved)
         except IntegrityError:
             pass  # the new file is there already: a conflict like any other

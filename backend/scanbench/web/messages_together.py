@@ -11,6 +11,9 @@ from scanbench.web.messages_base import Wire
 DraftPath = Annotated[str, Field(min_length=1, max_length=255)]
 DraftKey = Annotated[str, Field(min_length=1, max_length=64)]
 
+Vector = Annotated[Base64Bytes, Field(max_length=1 << 20)]
+Update = Annotated[Base64Bytes, Field(max_length=4 << 20)]
+
 
 class OpenDraft(Wire):
     """Begins to edit a file together with everybody who has it open: `Draft` is the answer, before `Done`."""
@@ -21,7 +24,7 @@ class OpenDraft(Wire):
     draft: DraftKey | None = Field(
         default=None, description="the draft that is here already, as after a lost connection"
     )
-    vector: Base64Bytes | None = Field(default=None, description="what is here of it")
+    vector: Vector | None = Field(default=None, description="what is here of it")
 
 
 class EditDraft(Wire):
@@ -31,7 +34,7 @@ class EditDraft(Wire):
     ref: int
     path: DraftPath
     draft: DraftKey
-    update: Base64Bytes
+    update: Update
 
 
 class CloseDraft(Wire):

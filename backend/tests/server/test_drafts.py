@@ -2,8 +2,11 @@
 
 import asyncio
 import random
+import threading
 from base64 import b64decode, b64encode
-from collections.abc import Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import suppress
+from difflib import SequenceMatcher
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -11,9 +14,10 @@ from typing import Any
 import pytest
 from pycrdt import Doc, Text
 
-from scanbench.server.draft import Draft, differences, merged
+from scanbench.server import draft as draft_module
+from scanbench.server.draft import MOST_BYTES, MOST_LINES, Draft, differences, merged
 from scanbench.server.drafts import MOST_PARTS, Drafts
-from scanbench.store.records import NotFound
+from scanbench.store.records import Conflict, FileRow, NotFound, StoreError
 from scanbench.store.store import Store
 from scanbench.web.messages_together import CloseDraft, EditDraft, OpenDraft
 from scanbench.web.messages_together import Draft as DraftMessage
@@ -43,7 +47,7 @@ class Page:
     def on_frame(self, frame: bytes) -> None: ...
     def on_snapshot(self, frame: bytes) -> None: ...
 
-    async def connect(self, drafts: Drafts, project: int) -> None:
+    async def connect(self, drafts: Drafts, project: int, sends: bool = True) -> None:
         self.inbox.clear()
         self.link = Drafting(drafts, project, self, self.inbox.append)
         vector = b64encode(self.doc.get_state()) if self.draft else None
@@ -53,7 +57,8 @@ class Page:
         self.draft = opened.draft
         self.doc.apply_update(b64decode(opened.update))
         self.inbox.clear()
-        await self.send(self.doc.get_update(b64decode(opened.vector)))
+        if sends:
+            await self.send(self.doc.get_update(b64decode(opened.vector)))
 
     async def lose(self) -> None:
         link, self.link = self.link, None
@@ -97,6 +102,11 @@ class Bench:
 
     def kill(self) -> None:
         self.drafts = Drafts(self.store)
+
+    async def save(self, text: str, draft: str | None = None) -> None:
+        """Of the version that is saved; without the key of the draft it is a text from elsewhere."""
+        version = self.store.files.get(self.project, PATH).version
+        await self.drafts.save(self.project, PATH, text, version, "Grace", draft)
 
 
 @pytest.fixture(scope="module")
@@ -188,12 +198,12 @@ def test_what_was_acknowledged_is_there_after_a_kill_also_when_it_is_kept_as_a_w
         await ada.connect(bench.drafts, bench.project)
         for _ in range(MOST_PARTS + 1):
             await ada.send(ada.type(0, "x"))
+        assert len(bench.store.drafts.get(bench.project, PATH).parts) < MOST_PARTS  # type: ignore[union-attr]
         for _ in range(2):
             bench.kill()
             grace = Page("Grace")
             await grace.connect(bench.drafts, bench.project)
             assert str(grace.text) == "x" * (MOST_PARTS + 1) + BEGUN
-        assert len(bench.store.drafts.get(bench.project, PATH).parts) == 1  # type: ignore[union-attr]
 
     run(story())
 
@@ -235,20 +245,173 @@ def test_what_is_no_change_is_refused_and_changes_nothing(bench: Bench) -> None:
     run(story())
 
 
+def _embedded(page: Page) -> bytes:
+    before = page.doc.get_state()
+    page.text.insert_embed(0, {"a": 1})
+    return page.doc.get_update(before)
+
+
+def _within_letters(page: Page) -> bytes:
+    """A letter whose parent is no text, but a letter."""
+    author = page.doc.get_state()[1:-1]
+    return b"\x01\x01\x05\x00\x04\x00" + author + b"\x00\x01x\x00"
+
+
+def _too_long(page: Page) -> bytes:
+    return page.type(0, "x" * MOST_BYTES)
+
+
+@pytest.mark.parametrize(
+    ("craft", "why"), [(_within_letters, "block parent"), (_embedded, "what is no text"), (_too_long, "make two files")]
+)
+def test_what_cannot_be_typed_leaves_the_draft_as_it_was(
+    craft: Callable[[Page], bytes], why: str, bench: Bench
+) -> None:
+    async def story() -> None:
+        ada, grace = Page("Ada"), Page("Grace")
+        await ada.connect(bench.drafts, bench.project)
+        await grace.connect(bench.drafts, bench.project)
+        with pytest.raises(Refused, match=why):
+            await grace.send(craft(grace))
+        await ada.send(ada.type(0, "x"))
+        late = Page("Jo")
+        await late.connect(bench.drafts, bench.project)
+        assert (str(late.text), len(late.text)) == (f"x{BEGUN}", len(BEGUN) + 1)
+
+    run(story())
+
+
 def test_a_save_from_elsewhere_joins_what_is_being_typed(bench: Bench) -> None:
     async def story() -> None:
         ada = Page("Ada")
         await ada.connect(bench.drafts, bench.project)
         await ada.send(ada.type(len("PROGRAM Main\n"), "x := 1;\n"))
-        await bench.drafts.wrote(bench.project, PATH, BEGUN, BEGUN.replace("Main", "Belt").replace("\n", "\r\n"))
+        await bench.save(BEGUN.replace("Main", "Belt").replace("\n", "\r\n"))
         ada.read()
         assert str(ada.text) == "PROGRAM Belt\nx := 1;\nEND_PROGRAM\n"
         await ada.lose()
-        await bench.drafts.wrote(bench.project, PATH, BEGUN, f"(* new *)\n{BEGUN}")  # while nobody has it open
+        await bench.save(f"(* new *)\n{BEGUN}")  # while nobody has it open
         await ada.connect(bench.drafts, bench.project)
         assert str(ada.text).startswith("(* new *)\n")
 
     run(story())
+
+
+def test_a_save_of_the_draft_changes_it_not_though_the_server_was_killed(bench: Bench) -> None:
+    """The changes that it lacks come from the page; made of the saved text as well they would be there twice."""
+
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        await ada.send(ada.type(0, "X"))
+        bench.kill()
+        ada.type(1, "Y")  # on its way when the server ended
+        await bench.save(str(ada.text), ada.draft)
+        await ada.connect(bench.drafts, bench.project)
+        assert str(ada.text) == f"XY{BEGUN}"
+
+    run(story())
+
+
+def test_a_save_from_elsewhere_is_in_the_draft_whenever_the_server_is_killed(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        monkeypatch.setattr(bench.store.drafts, "append", _killed)
+        with suppress(StoreError):
+            await bench.save(f"(* new *)\n{BEGUN}")
+        bench.kill()
+        await ada.connect(bench.drafts, bench.project, sends=False)
+        assert str(ada.text) == bench.store.files.get(bench.project, PATH).text
+
+    run(story())
+
+
+def _killed(*_: object) -> None:
+    raise StoreError("the server was killed")
+
+
+def test_a_save_that_is_a_conflict_changes_no_draft(bench: Bench) -> None:
+    async def story() -> None:
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        with pytest.raises(Conflict):
+            await bench.drafts.save(bench.project, PATH, "late", 7, "Grace", None)
+        await ada.lose()
+        await ada.connect(bench.drafts, bench.project)
+        assert str(ada.text) == BEGUN
+
+    run(story())
+
+
+class Slow:
+    """The store takes long to read one file, until it may go on."""
+
+    def __init__(self, bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.asked, self.go_on = asyncio.Event(), threading.Event()
+        self._loop, self._get = asyncio.get_running_loop(), bench.store.files.get
+        monkeypatch.setattr(bench.store.files, "get", self._slow)
+
+    def _slow(self, project: int, path: str) -> FileRow:
+        if path == "Big.st":
+            self._loop.call_soon_threadsafe(self.asked.set)
+            self.go_on.wait()
+        return self._get(project, path)
+
+
+def test_files_do_not_wait_for_each_other(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    async def story() -> None:
+        bench.store.files.save(bench.project, "Big.st", BEGUN, 0, "Ada")
+        slow = Slow(bench, monkeypatch)
+        big = asyncio.ensure_future(bench.drafts.open(bench.project, "Big.st", Page("Ada")))
+        await slow.asked.wait()
+        await bench.drafts.open(bench.project, PATH, Page("Grace"))
+        assert not big.done()
+        slow.go_on.set()
+        await big
+
+    run(story())
+
+
+def test_what_is_closed_while_it_opens_is_closed(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    async def story() -> None:
+        bench.store.files.save(bench.project, "Big.st", BEGUN, 0, "Ada")
+        slow, ada = Slow(bench, monkeypatch), Page("Ada")
+        link = Drafting(bench.drafts, bench.project, ada, ada.inbox.append)
+        opening = asyncio.ensure_future(link.serve(OpenDraft(ref=1, path="Big.st")))
+        await slow.asked.wait()
+        closing = asyncio.ensure_future(link.serve(CloseDraft(ref=2, path="Big.st")))
+        await asyncio.sleep(0)  # it begins
+        slow.go_on.set()
+        await asyncio.gather(opening, closing)
+        (opened,) = ada.inbox
+        assert isinstance(opened, DraftMessage)
+        given = {"ref": 3, "path": "Big.st", "draft": opened.draft, "update": b64encode(ada.type(0, "x"))}
+        with pytest.raises(Refused, match=r"open Big\.st first"):
+            await link.serve(EditDraft.model_validate(given))
+
+    run(story())
+
+
+def test_what_is_long_and_all_different_is_replaced_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To compare thousands of lines, many of them alike, takes minutes. Few that changed in a long text are found all the same."""
+    before = "".join(f"x := {at};\n\n" for at in range(3000))
+    compared: list[int] = []
+
+    def counted(junk: None, one: list[str], other: list[str], autojunk: bool) -> SequenceMatcher[str]:
+        compared.append(max(len(one), len(other)))
+        return SequenceMatcher(junk, one, other, autojunk)
+
+    monkeypatch.setattr(draft_module, "SequenceMatcher", counted)
+    few = before.replace("x := 7;", "y := 7;").replace("x := 17;", "z := 17;")
+    assert [each.text for each in differences(before, few)] == ["y", "z"]
+    indented = "".join(f"  {line}" for line in before.splitlines(keepends=True))
+    draft = Draft.begun(before)
+    draft.become(indented)
+    assert draft.text == indented
+    assert max(compared) <= MOST_LINES
 
 
 @pytest.mark.parametrize(

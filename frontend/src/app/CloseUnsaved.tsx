@@ -3,6 +3,7 @@ import { baseName } from "../logic/format/paths";
 import { discard, isEdited, saveUserErrors, useUserErrors } from "../store/errors/userErrors";
 import { discardEdits, isDirty, isKept, save, useDocuments } from "../store/project/documents";
 import { sharedText } from "../store/project/drafts";
+import { othersOf, usePeople } from "../store/project/people";
 import { t } from "../text";
 import { Dialog } from "../ui/Dialog";
 import { Icon } from "../ui/Icon";
@@ -15,6 +16,8 @@ interface Held {
   kept: boolean;
   /** It is a draft that everybody shares, so nobody loses it, and who discards it discards it for all. */
   shared: boolean;
+  /** Who else is in it now. To discard would take from them what they typed. */
+  others: readonly string[];
   /** Why saving failed; null when it did not. */
   save: () => Promise<string | null>;
   discard: () => Promise<void> | void;
@@ -23,9 +26,16 @@ interface Held {
 /** Asks what to do with the unsaved text when somebody closes its tab. */
 export function CloseUnsaved({ onClosed }: { onClosed: (panel: string) => void }) {
   const panel = useClosing((closing) => closing.panel);
+  const people = usePeople();
   if (panel === null) return null;
   const path = fileOf(panel);
-  return <Question key={panel} held={path === undefined ? errors : file(path)} onDone={() => onClosed(panel)} />;
+  return (
+    <Question
+      key={panel}
+      held={path === undefined ? errors : file(path, othersAt(path, people))}
+      onDone={() => onClosed(panel)}
+    />
+  );
 }
 
 function Question({ held, onDone }: { held: Held; onDone: () => void }) {
@@ -49,9 +59,15 @@ function Question({ held, onDone }: { held: Held; onDone: () => void }) {
       onSubmit={() => void saveAndClose()}
       footer={
         <>
-          <button type="button" className="btn danger" onClick={() => void Promise.resolve(held.discard()).then(close)}>
-            {t("close.discard")}
-          </button>
+          {held.others.length === 0 && (
+            <button
+              type="button"
+              className="btn danger"
+              onClick={() => void Promise.resolve(held.discard()).then(close)}
+            >
+              {t("close.discard")}
+            </button>
+          )}
           <span className="grow" />
           <button type="button" className="btn quiet" onClick={stay}>
             {t("cancel")}
@@ -68,7 +84,7 @@ function Question({ held, onDone }: { held: Held; onDone: () => void }) {
       }
     >
       {refused === null ? (
-        <p className="desc">{t(held.shared ? "close.hint.shared" : "close.hint")}</p>
+        <p className="desc">{hint(held)}</p>
       ) : (
         <p className="hint bad" role="alert">
           <Icon name="error" small />
@@ -79,10 +95,19 @@ function Question({ held, onDone }: { held: Held; onDone: () => void }) {
   );
 }
 
-const file = (path: string): Held => ({
+function hint({ shared, others }: Held): string {
+  if (others.length > 0) return t("close.hint.others", { names: others.join(", ") });
+  return t(shared ? "close.hint.shared" : "close.hint");
+}
+
+const othersAt = (path: string, people: Parameters<typeof othersOf>[0]) =>
+  sharedText(path) ? othersOf(people).flatMap(({ file, name }) => (file === path ? name : [])) : [];
+
+const file = (path: string, others: readonly string[]): Held => ({
   name: baseName(path),
   kept: isKept(path),
   shared: sharedText(path) !== undefined,
+  others,
   save: async () => {
     if (await save(path)) return null;
     const { open, trouble } = useDocuments.getState();
@@ -96,6 +121,7 @@ const errors: Held = {
   name: t("usererrors.title"),
   kept: true,
   shared: false,
+  others: [],
   save: async () => {
     await saveUserErrors();
     const now = useUserErrors.getState();

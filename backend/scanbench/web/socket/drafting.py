@@ -1,8 +1,10 @@
 """What one browser has open of the drafts of its project."""
 
+import asyncio
 from base64 import b64encode
 from collections.abc import Callable
 from contextlib import suppress
+from weakref import WeakValueDictionary
 
 from scanbench.server.drafts import Drafts
 from scanbench.store.records import NotFound, NotStorable, StoreError
@@ -19,21 +21,30 @@ class Drafting:
     def __init__(self, drafts: Drafts, project: int, who: Subscriber, say: Callable[[together.Draft], None]) -> None:
         self._drafts, self._project, self._who, self._say = drafts, project, who, say
         self._open: set[str] = set()
+        self._locks: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     async def serve(self, asked: Asked) -> None:
-        """Does it; `Refused` says why not."""
+        """Does it; `Refused` says why not. To open and to close a file do not overtake each other."""
         try:
-            await self._serve(asked)
+            if isinstance(asked, together.EditDraft):
+                await self._drafts.edit(self._project, asked.path, asked.draft, asked.update, self._who)
+                return
+            async with self._lock(asked.path):
+                await self._serve(asked)
         except (NotFound, NotStorable, StoreError) as error:
             raise Refused(str(error)) from error
 
     async def end(self) -> None:
         """The browser is gone."""
-        for path in self._open:
+        for path in tuple(self._open):
             with suppress(NotFound, StoreError):
-                await self._drafts.close(self._project, path, self._who)
+                async with self._lock(path):
+                    await self._drafts.close(self._project, path, self._who)
 
-    async def _serve(self, asked: Asked) -> None:
+    def _lock(self, path: str) -> asyncio.Lock:
+        return self._locks.setdefault(path, asyncio.Lock())
+
+    async def _serve(self, asked: together.OpenDraft | together.CloseDraft) -> None:
         match asked:
             case together.OpenDraft():
                 self._open.add(asked.path)
@@ -44,8 +55,6 @@ class Drafting:
                         vector=b64encode(found.vector).decode(), version=found.version,
                     )
                 )  # fmt: skip
-            case together.EditDraft():
-                await self._drafts.edit(self._project, asked.path, asked.draft, asked.update, self._who)
             case together.CloseDraft():
                 self._open.discard(asked.path)
                 await self._drafts.close(self._project, asked.path, self._who)

@@ -36,3 +36,22 @@ export function forget(key: string): void {
     // Nothing could be stored, so there is nothing to remove.
   }
 }
+
+/** Forgets it unless it is different by now: a different page of this browser may have written it. */
+export function forgetSame(key: string, text: string): void {
+  try {
+    if (localStorage.getItem(PREFIX + key) === text) localStorage.removeItem(PREFIX + key);
+  } catch {
+    // As above.
+  }
+}
+
+/** The keys that begin so. */
+export function keysOf(beginning: string): string[] {
+  try {
+    const keys = Object.keys(localStorage).filter((key) => key.startsWith(PREFIX + beginning));
+    return keys.map((key) => key.slice(PREFIX.length)).sort();
+  } catch {
+    return [];
+  }
+}

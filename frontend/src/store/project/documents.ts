@@ -13,8 +13,8 @@ import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 import { check, scheduleCheck } from "./checking";
 import { type BuildState, type Document, isDirty, nothing, patch, useDocuments, withLineFeeds } from "./documentState";
-import { drop, dropAll, followDrafts, join, joinAgain, leave, sharedText, unsent } from "./drafts";
-import { forgetDraft, type KeptDraft, keepDraft, recallDraft } from "./keptDrafts";
+import { drop, dropAll, followDrafts, join, joinAgain, leave, refresh, sharedText, unsent } from "./drafts";
+import { bringDraft, forgetDraft, type KeptDraft, keepPlain, keepUnsent, recallDraft } from "./keptDrafts";
 
 export { type Document, isDirty, useDocuments } from "./documentState";
 
@@ -56,7 +56,7 @@ export async function refreshFiles(): Promise<void> {
 export async function openDocument(path: string): Promise<void> {
   const { project, open } = get();
   if (project === null || open[path]) return;
-  const kept = recallDraft(project, path);
+  const kept = bringDraft(project, path);
   const stored = await storedFile(project, path, kept !== null);
   if (get().project !== project || get().open[path]) return;
   const plain: Document = {
@@ -67,24 +67,26 @@ export async function openDocument(path: string): Promise<void> {
     savedAt: null,
     conflict: null,
     deletedBy: stored ? null : "",
+    base: kept?.base,
   };
-  if (stored) await join(path, () => before(plain, kept));
+  if (stored) await join(path, () => before(get().open[path] ?? plain, bringDraft(project, path)));
   if (get().project !== project || get().open[path]) return;
   const shared = sharedText(path);
-  const document = shared && stored ? { ...plain, text: shared.value, version: stored.version } : plain;
+  const document =
+    shared && stored ? { ...plain, text: shared.value, version: stored.version, base: undefined } : plain;
   set((state) => ({ open: { ...state.open, [path]: document } }));
-  keepUnsent(path);
+  keepPending(path);
   if (isDirty(document)) scheduleCheck();
 }
 
 /** What is here of a file when its draft comes. A text of a draft that is gone is a text of no version: it is not merged. */
-function before({ text, savedText, version }: Document, kept: KeptDraft | null) {
-  const ofDraft = kept?.unsent ?? null;
+function before({ text, savedText, version, base }: Document, kept: KeptDraft | null) {
   return {
     text: withLineFeeds(text),
     saved: withLineFeeds(savedText),
-    version: ofDraft ? null : version,
-    kept: ofDraft,
+    version: base === undefined ? version : null,
+    unsent: kept?.unsent ?? [],
+    base: base ?? null,
   };
 }
 
@@ -93,16 +95,16 @@ async function share(path: string): Promise<void> {
   const { project, open } = get();
   const document = open[path];
   if (project === null || !document || document.deletedBy !== null || sharedText(path)) return;
-  await join(path, () => before(get().open[path] ?? document, recallDraft(project, path)));
+  await join(path, () => before(get().open[path] ?? document, bringDraft(project, path)));
 }
 
 followDrafts({
   onText: (path) => {
     const shared = sharedText(path);
-    if (shared) patch(path, { text: shared.value });
+    if (shared) patch(path, { text: shared.value, base: undefined });
     scheduleCheck();
   },
-  onUnsent: keepUnsent,
+  onUnsent: keepPending,
   onEnd: (path) => {
     const document = get().open[path];
     // With the saved version that it is not of: to save it is a conflict, and shows both.
@@ -111,14 +113,14 @@ followDrafts({
   },
 });
 
-/** What the server did not acknowledge is kept in this browser. */
-function keepUnsent(path: string): void {
+/** What the server did not acknowledge is kept in this browser, also when the tab is closed already. */
+function keepPending(path: string): void {
   const { project, open } = get();
-  const document = open[path];
   const shared = sharedText(path);
-  if (project === null || !document || !shared) return;
+  if (project === null || !shared) return;
   const pending = unsent(path);
-  if (pending) keepDraft(project, path, { text: shared.value, version: document.version, unsent: pending });
+  const version = open[path]?.version ?? recallDraft(project, path)?.version ?? 0;
+  if (pending) keepUnsent(project, path, { ...pending, text: shared.value, version });
   else forgetDraft(project, path);
 }
 
@@ -160,7 +162,7 @@ export function discardEdits(path: string): void {
     return;
   }
   forgetDraft(project, path);
-  patch(path, { text: document.savedText });
+  patch(path, { text: document.savedText, base: undefined });
   scheduleCheck();
 }
 
@@ -174,8 +176,9 @@ export function edit(path: string, text: string): void {
     return;
   }
   patch(path, { text });
-  if (text === document.savedText) forgetDraft(project, path);
-  else keepDraft(project, path, { text, version: document.version });
+  const kept = recallDraft(project, path);
+  if (text === document.savedText && !kept?.unsent.length) forgetDraft(project, path);
+  else keepPlain(project, path, { text, version: document.version, base: document.base });
   scheduleCheck();
 }
 
@@ -202,8 +205,9 @@ async function saveNow(project: number | null, path: string): Promise<boolean> {
     const result = await rest.save(project, path, text, document.version, shared?.draft);
     if ("conflict" in result) {
       const { theirs } = result.conflict;
-      if (shared && shared === sharedText(path) && theirs.version > document.version) {
-        // The draft has what they saved, too: nothing is lost.
+      const newer = shared && theirs.version > document.version;
+      if (newer && (await refresh(path)) && shared === sharedText(path)) {
+        // The draft has what they saved, too, and by now it is here: nothing is lost.
         patch(path, { savedText: theirs.text, version: theirs.version });
         return saveNow(project, path);
       }
@@ -228,7 +232,14 @@ function isCutOff(): boolean {
 
 function stored(path: string, text: string, file: FileInfo): void {
   const { project, open, files } = get();
-  patch(path, { savedText: text, version: file.version, savedAt: Date.now(), conflict: null, deletedBy: null });
+  patch(path, {
+    savedText: text,
+    version: file.version,
+    savedAt: Date.now(),
+    conflict: null,
+    deletedBy: null,
+    base: undefined,
+  });
   if (project !== null && open[path]?.text === text && !unsent(path)) forgetDraft(project, path);
   void share(path);
   const others = files.filter((known) => known.path !== path);
@@ -247,7 +258,13 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
     return;
   }
   if (choice === "theirs") {
-    patch(path, { text: theirs.text, savedText: theirs.text, version: theirs.version, conflict: null });
+    patch(path, {
+      text: theirs.text,
+      savedText: theirs.text,
+      version: theirs.version,
+      conflict: null,
+      base: undefined,
+    });
     forgetDraft(project, path);
     void share(path);
     scheduleCheck();
@@ -362,7 +379,7 @@ export async function onDeleted(path: string, author: string): Promise<void> {
   const document = open[path];
   if (project !== null && document && isDirty(document)) {
     patch(path, { savedText: "", version: 0, conflict: null, deletedBy: author });
-    keepDraft(project, path, { text: document.text, version: 0 });
+    keepPlain(project, path, { text: document.text, version: 0 });
   }
   set(({ files }) => ({ files: files.filter((file) => file.path !== path) }));
   scheduleCheck();

@@ -3,7 +3,7 @@
  * sent again after each connection, and kept in this browser until then.
  */
 
-import { send } from "../../wire/send";
+import { type Answer, send } from "../../wire/send";
 import type { Draft, DraftEdited } from "../../wire/types";
 import { usePlc } from "../plc/plc";
 import type { Delta, SharedText } from "./sharedText";
@@ -26,7 +26,9 @@ interface Before {
   saved: string;
   version: number | null;
   /** Changes of a draft that the server did not acknowledge when they were made. */
-  kept: { draft: string; update: string } | null;
+  unsent: readonly { draft: string; update: string }[];
+  /** The text with them, from which `text` was made. */
+  base: string | null;
 }
 
 interface Listener {
@@ -44,6 +46,8 @@ const RETRY_MS = 2000;
 let library: typeof import("./sharedText") | null = null;
 const shared = new Map<string, Shared>();
 const joining = new Map<string, () => Before>();
+/** What the server refused to open is asked for again. */
+const again = new Map<string, ReturnType<typeof setTimeout>>();
 let told: Omit<Listener, "onDelta"> | null = null;
 let onDelta: Listener["onDelta"] = () => undefined;
 
@@ -81,7 +85,36 @@ export function joinAgain(): void {
   for (const path of shared.keys()) void ask(path, () => NOTHING);
 }
 
-const NOTHING: Before = { text: "", saved: "", version: null, kept: null };
+const NOTHING: Before = { text: "", saved: "", version: null, unsent: [], base: null };
+
+/** What the server has of an open draft, at the latest when this ends; false when it gave no answer. */
+export async function refresh(path: string): Promise<boolean> {
+  const text = sharedText(path);
+  if (!text || !library) return false;
+  return (await open(path, text)).ok;
+}
+
+function open(path: string, text: SharedText | undefined): Promise<Answer> {
+  const vector = text && library ? library.encode(text.vector) : null;
+  return send({ type: "open_draft", path, draft: text?.draft ?? null, vector });
+}
+
+function askAgain(path: string, before: () => Before): void {
+  clearTimeout(again.get(path));
+  again.set(
+    path,
+    setTimeout(() => {
+      again.delete(path);
+      void ask(path, before);
+    }, RETRY_MS),
+  );
+}
+
+function stopAsking(path: string): void {
+  joining.delete(path);
+  clearTimeout(again.get(path));
+  again.delete(path);
+}
 
 async function ask(path: string, before: () => Before): Promise<void> {
   if (joining.has(path)) return;
@@ -89,10 +122,8 @@ async function ask(path: string, before: () => Before): Promise<void> {
   try {
     library ??= await import("./sharedText");
     if (!(await isConnected()) || joining.get(path) !== before) return;
-    const text = sharedText(path);
-    const draft = text?.draft ?? null;
-    const vector = text ? library.encode(text.vector) : null;
-    await send({ type: "open_draft", path, draft, vector });
+    const done = await open(path, sharedText(path));
+    if (!done.ok && done.sent && joining.get(path) === before) askAgain(path, before);
   } finally {
     if (joining.get(path) === before) joining.delete(path);
   }
@@ -114,7 +145,10 @@ async function isConnected(): Promise<boolean> {
 /** The file is not edited here any more. */
 export function leave(path: string): void {
   const known = shared.get(path);
-  if (!known) return;
+  if (!known) {
+    stopAsking(path);
+    return;
+  }
   known.leaving = true;
   end(path, known);
 }
@@ -123,19 +157,19 @@ export function leave(path: string): void {
 export function drop(path: string): void {
   shared.get(path)?.text.close();
   shared.delete(path);
-  joining.delete(path);
+  stopAsking(path);
 }
 
 export function dropAll(): void {
-  for (const path of [...shared.keys(), ...joining.keys()]) drop(path);
+  for (const path of [...shared.keys(), ...joining.keys(), ...again.keys()]) drop(path);
 }
 
 /** The answer of the server to `join`. */
 export function onDraft(message: Draft): void {
   const { path } = message;
-  const before = joining.get(path)?.();
-  if (!before || !library) return;
   const known = shared.get(path);
+  const before = joining.get(path)?.() ?? (known && NOTHING);
+  if (!before || !library) return;
   if (known && known.text.draft !== message.draft) {
     drop(path);
     told?.onEnd(path);
@@ -174,8 +208,11 @@ function begin(path: string, draft: string, { SharedText, joined }: typeof impor
 
 /** What was typed before the draft came becomes a change of it. False when it cannot: the text is from a different version. */
 function bringIn({ text }: Shared, before: Before, version: number): boolean {
-  if (before.kept?.draft === text.draft && library) {
-    text.takeKept(library.decode(before.kept.update));
+  const unsent = before.unsent.filter(({ draft }) => draft === text.draft);
+  for (const { update } of unsent) if (library) text.takeKept(library.decode(update));
+  if (unsent.length > 0 && before.base !== null && library) {
+    // What was typed since, without the draft, was made of the text with them.
+    text.replace(library.merged(before.base, before.text, text.value));
     return true;
   }
   if (before.text === before.saved) return true;
@@ -201,7 +238,7 @@ function flush(path: string, known: Shared): void {
     if (!done.ok) known.waiting = library?.joined(known.waiting ? [update, known.waiting] : [update]) ?? null;
     told?.onUnsent(path);
     if (done.ok) flush(path, known);
-    else if (done.sent) setTimeout(() => shared.get(path) === known && flush(path, known), RETRY_MS);
+    else if (done.sent) askAgain(path, () => NOTHING); // perhaps the server does not know any more that it is open here
     end(path, known);
   });
 }

@@ -27,6 +27,8 @@ export const project = {
   "close.conflict": "Somebody else saved this file first. Go back and choose one of the two texts.",
   "close.discard": "Discard",
   "close.hint": "Discard deletes your text for good.",
+  "close.hint.others":
+    "Others are in this file now: {names}. The unsaved text is theirs too, so it cannot be discarded until they leave.",
   "close.hint.shared": "Discard goes back to the saved text, for everybody.",
   "close.keep": "Keep in this browser",
   "close.keep.shared": "Close, not saved",

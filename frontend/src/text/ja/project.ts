@@ -29,6 +29,8 @@ export const project: Record<keyof typeof english, string> = {
   "close.conflict": "他の人が先に保存しました。戻って、どちらの内容にするか選んでください。",
   "close.discard": "破棄",
   "close.hint": "破棄すると元に戻せません。",
+  "close.hint.others":
+    "ほかの人がこのファイルを開いています: {names}。未保存の内容は共有されているため、その人が離れるまで破棄できません。",
   "close.hint.shared": "破棄すると、全員が保存済みの内容に戻ります。",
   "close.keep": "このブラウザに残す",
   "close.keep.shared": "保存せずに閉じる",
