@@ -5,7 +5,7 @@ import re
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.translation.inside import in_language, wanted
+from scanbench.translation.inside import at_paths, in_shapes, paragraphs, wanted
 from scanbench.translation.said import say
 from tests.caseformat import MODELS
 from tests.check.test_problems import BODIES, FILES, MAIN
@@ -64,25 +64,25 @@ def test_the_language_that_is_asked_for(asked: str, language: str) -> None:
     assert wanted(asked) == language
 
 
-def test_only_fields_for_people_are_said() -> None:
+def test_only_listed_fields_of_a_known_shape_are_said() -> None:
     told = {
-        "message": "nothing was changed",
-        "path": "nothing was changed",
-        "rows": [{"text": "switched on"}],
-        "notes": ["switched off"],
+        "rows": [{"message": "nothing was changed", "path": "nothing was changed", "notes": ["switched off"]}],
+        "files": {"message": "nothing was changed", "path": "nothing was changed"},
     }
-    assert in_language(told, "ja") == {
-        "message": "何も変更していません", "path": "nothing was changed", "rows": [{"text": "ON にしました"}], "notes": ["OFF にしました"],
+    shapes = {frozenset({"message", "path", "notes"}): frozenset({"message", "notes"})}
+    assert in_shapes(told, shapes, "ja") == {
+        "rows": [{"message": "何も変更していません", "path": "nothing was changed", "notes": ["OFF にしました"]}],
+        "files": {"message": "nothing was changed", "path": "nothing was changed"},
+    }
+
+
+def test_only_listed_places_are_said() -> None:
+    told = {"body": {"rows": [{"message": "switched off", "value": "switched off"}]}, "message": "switched off"}
+    assert at_paths(told, [("body", "rows", "*", "message"), ("none", "message")], "ja") == {
+        "body": {"rows": [{"message": "OFF にしました", "value": "switched off"}]}, "message": "switched off",
     }  # fmt: skip
 
 
 def test_a_text_for_an_editor_is_said_line_by_line() -> None:
-    hover = {
-        "contents": {
-            "kind": "markdown",
-            "value": "```iecst\nABS\n```\nThe sum of all arguments.\n- L: how many characters",
-        }
-    }
-    assert in_language(hover, "ja") == {
-        "contents": {"kind": "markdown", "value": "```iecst\nABS\n```\nすべての引数の和。\n- L: 文字数"}
-    }
+    text = "The sum of all arguments.\n- L: how many characters"
+    assert paragraphs(text, "ja") == "すべての引数の和。\n- L: 文字数"
