@@ -72,6 +72,10 @@ class _Answer:
             if message.get("more_body", False):
                 return
             start, self._start = self._start, None
+            if not self._body:  # HEAD: its headers are about the body that is not sent
+                await self._send(start)
+                await self._send(message)
+                return
             message = {**message, "body": _said(self._body.decode(), self._language).encode()}
             headers = MutableHeaders(scope=start)
             headers["content-language"] = self._language
