@@ -6,6 +6,7 @@ is committed there, and commits that were made there are to be seen first.
 """
 
 import asyncio
+import logging
 import re
 import shutil
 from collections.abc import Mapping
@@ -25,6 +26,7 @@ from scanbench.syntax.parse_file import is_program_file
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
+_log = logging.getLogger(__name__)
 MOST_COMMITS = 500
 LONGEST_MESSAGE = 10_000
 _SEEN = "refs/scanbench/seen"
@@ -153,10 +155,10 @@ class Repositories:
                 "--date-format=now",
                 stdin=_stream(ref, message, head, author, changes, texts),
             )
-            now = await _head(folder)
-            await asyncio.to_thread(write, folder, texts, [each.path for each in changes if each.kind == "gone"])
+            await git(folder, "update-ref", _SEEN, await _head(folder))
             await git(folder, "read-tree", "HEAD")
-            await git(folder, "update-ref", _SEEN, now)
+            # last, as it may fail: the commit is this project's all the same
+            await asyncio.to_thread(write, folder, texts, [each.path for each in changes if each.kind == "gone"])
         return (await self.commits(project, None))[0]
 
     async def forget(self, project: int) -> None:
@@ -227,7 +229,7 @@ async def _texts_of(folder: Path, commit: str) -> dict[str, str]:
     for line in listed.decode(errors="surrogateescape").split("\0"):
         mode, _, rest = line.partition(" ")
         name, _, path = rest.removeprefix("blob ").partition("\t")
-        if mode in ("100644", "100755") and _is_ours(path):
+        if mode in ("100644", "100755") and _is_text(path) and _is_ours(path):
             wanted[path] = name
     names = "".join(f"{name}\n" for name in wanted.values())
     read = await git(folder, "cat-file", "--batch", stdin=names.encode()) if wanted else b""
@@ -238,6 +240,16 @@ async def _texts_of(folder: Path, commit: str) -> dict[str, str]:
         texts[path] = decode(read[end + 1 : end + 1 + size])
         at = end + 2 + size
     return texts
+
+
+def _is_text(path: str) -> bool:
+    """Whether the name of a file is UTF-8; one that is not can be no file of a project, and no message could tell it."""
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        _log.info("git: %r is left out, as its name is not UTF-8", path)
+        return False
+    return True
 
 
 def _is_ours(path: str) -> bool:
