@@ -20,6 +20,7 @@ from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.git import MISSING, asked, git, installed
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.server.working_tree import Foreign, write
+from scanbench.store.connected import check
 from scanbench.store.records import NotFound
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import is_program_file
@@ -29,6 +30,7 @@ from scanbench.wire.refused import Refused
 _log = logging.getLogger(__name__)
 MOST_COMMITS = 500
 LONGEST_MESSAGE = 10_000
+LONGEST_PATH = 255
 _SEEN = "refs/scanbench/seen"
 """The commit that the project was last the same as: where the branch is elsewhere, another program committed."""
 _COMMIT = re.compile(r"[0-9a-f]{4,64}")
@@ -112,6 +114,8 @@ class Repositories:
     async def commits(self, project: int, path: str | None) -> list[Commit]:
         """The last commits, of the project or of one of its files, the last one first."""
         folder = await self._existing(project)
+        if path is not None:
+            check("the path", path, LONGEST_PATH)
         if not await _head(folder):
             return []
         paths = [] if path is None else [path]

@@ -180,7 +180,10 @@ def template(english: str, said: str) -> Template:
         within = quote in QUOTES and english[end : end + 1] == quote
         apart = between.rstrip()[-1:] in _MARKS or (english[end : end + 1] in _MARKS and len(english) > end + 1)
         last = end == len(english) and english[0] != "{" and _weight(english) >= _LONG
-        any_text = r"\S*?" if short else ".*?" if apart else _REST if last else _NO_SENTENCE
+        place_in_file = english[end : end + 2] == ":{"
+        any_text = (
+            "[^:]*?" if place_in_file else r"\S*?" if short else ".*?" if apart else _REST if last else _NO_SENTENCE
+        )
         inside = f"[^{quote}]*" if within else f"(?:{_AFTER})?" if follows else any_text
         pattern += f"{re.escape(_plain(between))}({inside})"
         fixed.append(between)

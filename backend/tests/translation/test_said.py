@@ -7,7 +7,7 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.translation.catalogue import catalogue
 from scanbench.translation.inside import at_paths, in_shapes, paragraphs, wanted
-from scanbench.translation.said import MOST_TRIED, Language, Work, say
+from scanbench.translation.said import MOST_TRIED, Language, Work, say, template
 from tests.caseformat import MODELS
 from tests.check.test_problems import BODIES, FILES, MAIN
 
@@ -114,6 +114,12 @@ def test_an_unknown_text_is_compared_with_few_templates() -> None:
     text = "Conveyor of hall 3 has the program of yesterday, and nobody knows which instance it is."
     assert Language(catalogue("ja")).say(text, work) == text
     assert work.tried < 1000
+
+
+def test_a_place_in_a_file_has_one_reading() -> None:
+    """With any text between the colons, what ends otherwise was tried at all of them, for minutes."""
+    assert template("{0}:{1}:{2}: {3} (scan {4})", "").pattern.pattern.count("[^:]*?") == 2
+    assert say("Main.st:3:5: nothing was changed (scan 7)", "ja").startswith("Main.st:3:5: 何も変更していません")
 
 
 def test_three_things_at_most_are_said_about() -> None:
