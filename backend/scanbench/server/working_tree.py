@@ -5,7 +5,6 @@ import stat
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from secrets import token_hex
 
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
@@ -70,8 +69,9 @@ def _put(kept: Path, file: Path, content: bytes) -> None:
     """Puts a file in place whole. It is written in the folder of git, as nobody else's repository brings anything there: not in a
     folder of the project, where a link could have its name.
     """
-    fresh = kept / f"scanbench-{token_hex(8)}.new"
+    fresh = kept / "scanbench.new"
     try:
+        fresh.unlink(missing_ok=True)  # of a server that was killed while it wrote
         with open(os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666), "wb") as opened:
             opened.write(content)
         os.replace(fresh, file)
