@@ -72,13 +72,13 @@ def test_every_route_that_answers_what_users_wrote(server: Server, written: tupl
 
 
 def test_a_conflict_is_told_in_japanese_and_their_text_is_theirs(server: Server, written: tuple[int, int]) -> None:
-    route = f"/api/projects/{written[1]}/files/Main.st"
+    route = f"/api/projects/{written[1]}/files/{SAID}.st"
     late = {"text": "", "version": 0}
     english = server.http.put(route, json=late)
     japanese = server.http.put(route, json=late, headers=JA)
     assert english.status_code == japanese.status_code == 409
     assert japanese.json()["theirs"] == english.json()["theirs"]
-    assert japanese.json()["theirs"]["text"] == TEXT
+    assert japanese.json()["theirs"]["text"] == SAID
     assert japanese.json()["message"] != english.json()["message"]
 
 
