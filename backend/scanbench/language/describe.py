@@ -1,6 +1,7 @@
 """What is said of a name: its declaration, the comment that belongs to it, its address, the value that it has."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from scanbench.check.declare.names import qualified
 from scanbench.check.standard.library import library
@@ -26,13 +27,20 @@ class Description:
     """What its author wrote beside or above it."""
     notes: tuple[str, ...] = ()
     """What the declaration does not show."""
+    by_author: bool = False
+    """Whether the comment is of the program's author, not of the standard library."""
 
 
 def describe(reading: Reading, symbol: Symbol) -> Description | None:
     """What is said of a symbol; None where nothing is known."""
     if symbol.kind == "function":
         return _standard(symbol.name)
-    found = reading.declared(symbol) or library_declared(symbol)
+    declared = reading.declared(symbol)
+    made = _of(reading, symbol, declared or library_declared(symbol))
+    return made and replace(made, by_author=bool(declared))
+
+
+def _of(reading: Reading, symbol: Symbol, found: Sequence[Declared]) -> Description | None:
     comment = comment_of(reading, found[0]) if found else _of_parameter(symbol)
     member = member_of(reading.project.checker, symbol)
     if member is not None:

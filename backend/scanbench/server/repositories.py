@@ -6,6 +6,7 @@ is committed there, and commits that were made there are to be seen first.
 """
 
 import asyncio
+import logging
 import re
 import shutil
 from collections.abc import Mapping
@@ -19,14 +20,17 @@ from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.git import MISSING, asked, git, installed
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.server.working_tree import Foreign, write
+from scanbench.store.connected import check
 from scanbench.store.records import NotFound
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import is_program_file
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
+_log = logging.getLogger(__name__)
 MOST_COMMITS = 500
 LONGEST_MESSAGE = 10_000
+LONGEST_PATH = 255
 _SEEN = "refs/scanbench/seen"
 """The commit that the project was last the same as: where the branch is elsewhere, another program committed."""
 _COMMIT = re.compile(r"[0-9a-f]{4,64}")
@@ -110,6 +114,8 @@ class Repositories:
     async def commits(self, project: int, path: str | None) -> list[Commit]:
         """The last commits, of the project or of one of its files, the last one first."""
         folder = await self._existing(project)
+        if path is not None:
+            check("the path", path, LONGEST_PATH)
         if not await _head(folder):
             return []
         paths = [] if path is None else [path]
@@ -153,10 +159,10 @@ class Repositories:
                 "--date-format=now",
                 stdin=_stream(ref, message, head, author, changes, texts),
             )
-            now = await _head(folder)
-            await asyncio.to_thread(write, folder, texts, [each.path for each in changes if each.kind == "gone"])
+            await git(folder, "update-ref", _SEEN, await _head(folder))
             await git(folder, "read-tree", "HEAD")
-            await git(folder, "update-ref", _SEEN, now)
+            # last, as it may fail: the commit is this project's all the same
+            await asyncio.to_thread(write, folder, texts, [each.path for each in changes if each.kind == "gone"])
         return (await self.commits(project, None))[0]
 
     async def forget(self, project: int) -> None:
@@ -227,7 +233,7 @@ async def _texts_of(folder: Path, commit: str) -> dict[str, str]:
     for line in listed.decode(errors="surrogateescape").split("\0"):
         mode, _, rest = line.partition(" ")
         name, _, path = rest.removeprefix("blob ").partition("\t")
-        if mode in ("100644", "100755") and _is_ours(path):
+        if mode in ("100644", "100755") and _is_text(path) and _is_ours(path):
             wanted[path] = name
     names = "".join(f"{name}\n" for name in wanted.values())
     read = await git(folder, "cat-file", "--batch", stdin=names.encode()) if wanted else b""
@@ -238,6 +244,16 @@ async def _texts_of(folder: Path, commit: str) -> dict[str, str]:
         texts[path] = decode(read[end + 1 : end + 1 + size])
         at = end + 2 + size
     return texts
+
+
+def _is_text(path: str) -> bool:
+    """Whether the name of a file is UTF-8; one that is not can be no file of a project, and no message could tell it."""
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        _log.info("git: %r is left out, as its name is not UTF-8", path)
+        return False
+    return True
 
 
 def _is_ours(path: str) -> bool:

@@ -1,12 +1,16 @@
 """The files of a folder under `git`: what other programs changed there, and writing what was committed."""
 
 import os
+import stat
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
+
+LARGEST = 16 << 20
+"""Bytes of a file: a larger one is none of a project."""
 
 
 class Foreign:
@@ -23,7 +27,7 @@ class Foreign:
 
     def _is_foreign(self, path: str, committed: str | None, now: str | None) -> bool:
         try:
-            there = decode(inside(self._folder, path).read_bytes())
+            there = decode(_content(inside(self._folder, path)))
         except (FileNotFoundError, NotADirectoryError):
             return False  # also one that was deleted there: a commit writes it again
         except OSError as error:
@@ -39,14 +43,41 @@ def write(folder: Path, texts: Mapping[str, str], gone: Iterable[str]) -> None:
                 inside(folder, path).unlink()
         for path, text in texts.items():
             file, content = inside(folder, path), text.encode()
-            if file.is_file() and file.read_bytes() == content:
-                continue
+            with suppress(FileNotFoundError, NotADirectoryError):
+                if _content(file) == content:
+                    continue
             file.parent.mkdir(parents=True, exist_ok=True)
-            fresh = file.with_name(f".{file.name}.new")
-            fresh.write_bytes(content)
-            os.replace(fresh, file)
+            _put(folder / ".git", file, content)
     except OSError as error:
         raise Refused(f"the commit was made, but {folder} could not be written: {error.strerror}") from error
+
+
+def _content(file: Path) -> bytes:
+    """The bytes of a file; `Refused` for what is none (reading a pipe would wait for ever), or too large."""
+    kind = file.lstat()
+    if not stat.S_ISREG(kind.st_mode):
+        raise Refused(f"{file} is no file: remove it, then try again")
+    if kind.st_size > LARGEST:
+        raise Refused(
+            f"{file} has more than {LARGEST >> 20} MiB, too much for a file of a project: remove it, then try again"
+        )
+    with open(os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK), "rb") as opened:
+        return opened.read(LARGEST + 1)
+
+
+def _put(kept: Path, file: Path, content: bytes) -> None:
+    """Puts a file in place whole. It is written in the folder of git, as nobody else's repository brings anything there: not in a
+    folder of the project, where a link could have its name.
+    """
+    fresh = kept / "scanbench.new"
+    try:
+        fresh.unlink(missing_ok=True)  # of a server that was killed while it wrote
+        with open(os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666), "wb") as opened:
+            opened.write(content)
+        os.replace(fresh, file)
+    except OSError:
+        fresh.unlink(missing_ok=True)
+        raise
 
 
 def inside(folder: Path, path: str) -> Path:

@@ -1,15 +1,15 @@
-"""Sentences inside of messages: which fields are for people, and what their language is."""
+"""Sentences inside of messages: they are said where whoever sends them lists their fields; and which language is wanted."""
 
 import re
+from collections.abc import Iterable, Mapping
 
 from scanbench.translation.catalogue import LANGUAGES
 from scanbench.translation.said import say
 
-FOR_PEOPLE = frozenset({
-    "message", "text", "note", "notes", "reaction_note", "needless", "refusal", "refused", "damage", "now", "why", "title", "hint", "format",
-    "output", "description", "detail", "documentation", "contents", "warnings", "reason",
-})  # fmt: skip
-"""Names of fields that hold a sentence, or a list of them."""
+Path = tuple[str, ...]
+"""Where a sentence is: keys from the outside inwards, `*` for each of a list."""
+Shapes = Mapping[frozenset[str], frozenset[str]]
+"""By all the keys of an object: those of its fields that hold a sentence, or a list of them."""
 _RANGE = re.compile(r"\s*([A-Za-z]{1,8})(?:-[\w-]*)?\s*(?:;\s*q\s*=\s*([0-9.]+))?\s*")
 
 
@@ -27,35 +27,43 @@ def wanted(asked: str) -> str:
     return best
 
 
-def in_language(value: object, language: str) -> object:
-    """The same data, with the sentences in it said in this language."""
-    if language == "en":
-        return value
-    if isinstance(value, dict):
-        return {key: _field(key, each, language) for key, each in value.items()}
+def in_shapes(value: object, shapes: Shapes, language: str) -> object:
+    """The same data, with the sentences of the objects that have a shape of these said in this language."""
     if isinstance(value, list):
-        return [in_language(each, language) for each in value]
+        return [in_shapes(each, shapes, language) for each in value]
+    if not isinstance(value, dict):
+        return value
+    spoken = shapes.get(frozenset(value), frozenset())
+    return {
+        key: _sentences(each, language) if key in spoken else in_shapes(each, shapes, language)
+        for key, each in value.items()
+    }
+
+
+def at_paths(value: object, paths: Iterable[Path], language: str) -> object:
+    """The same data, with the sentences at these places of it said in this language."""
+    for path in paths:
+        value = _at(value, path, language)
     return value
 
 
-def said_inside(message: dict[str, object], language: str) -> dict[str, object]:
-    """A whole message, with the sentences in it said in this language."""
-    return message if language == "en" else {key: _field(key, each, language) for key, each in message.items()}
-
-
-def _field(key: object, value: object, language: str) -> object:
-    if key not in FOR_PEOPLE:
-        return in_language(value, language)
-    if isinstance(value, str):
-        return say(value, language)
-    if isinstance(value, list):
-        return [_field(key, each, language) for each in value]
-    if isinstance(value, dict) and "kind" in value and isinstance(value.get("value"), str):  # text of an editor
-        return {**value, "value": _paragraphs(value["value"], language)}
-    return in_language(value, language)
-
-
-def _paragraphs(text: str, language: str) -> str:
-    """The lines of a text for an editor, each of which is a sentence of its own."""
+def paragraphs(text: str, language: str) -> str:
+    """The lines of a text, each of which is a sentence of its own."""
     whole = say(text, language)
     return whole if whole != text else "\n".join(say(line, language) for line in text.split("\n"))
+
+
+def _at(value: object, path: Path, language: str) -> object:
+    if not path:
+        return _sentences(value, language)
+    if path[0] == "*" and isinstance(value, list):
+        return [_at(each, path[1:], language) for each in value]
+    if isinstance(value, dict) and path[0] in value:
+        return {**value, path[0]: _at(value[path[0]], path[1:], language)}
+    return value
+
+
+def _sentences(value: object, language: str) -> object:
+    if isinstance(value, list):
+        return [_sentences(each, language) for each in value]
+    return say(value, language) if isinstance(value, str) else value

@@ -4,15 +4,21 @@ A sentence goes through Scanbench in English: in processes, run files and databa
 found in the catalogue, its arguments are taken out of it, and both are said in the reader's language. What no template fits stays as it is.
 """
 
+import logging
 import re
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
 from scanbench.translation.catalogue import PLACE, catalogue
 
-_LONGEST = 4000
-"""A text that is longer is none of our sentences."""
+_log = logging.getLogger(__name__)
+_LONGEST = 400
+"""A text that is longer is none of our sentences, nor is one of several lines."""
+_MOST_HEADS = 3
+MOST_TRIED = 2000
+"""Templates that one text is compared with, its parts included. A sentence of ours takes some dozens."""
 _SHORT = 4
 """Letters that a template has at least, for an argument of it to be more than one word."""
 QUOTES = ("`", '"')
@@ -36,6 +42,7 @@ _PROBLEM = re.compile(r"([^\s:]+:\d+:\d+: (?:[A-Z]\d{3} )?)(.+)", re.DOTALL)
 _LONG = 12
 """Letters of a template that is not mistaken for a part of a sentence."""
 _LETTERS = re.compile(r"[A-Za-z]")
+_WORD = re.compile(r"[A-Za-z]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +58,25 @@ class Template:
     said: str
     stop: bool
     """Whether it ends with a full stop, and perhaps a hint."""
+    word: str
+    """The longest word that is always in it, by which it is looked up; empty: there is none."""
+
+
+class _TooMuch(Exception):
+    """A text that takes more work than any sentence of ours."""
+
+
+class Work:
+    """How much was tried for one text."""
+
+    def __init__(self) -> None:
+        self.tried = 0
+
+    def try_one(self) -> None:
+        """`_TooMuch` where it was enough."""
+        self.tried += 1
+        if self.tried > MOST_TRIED:
+            raise _TooMuch
 
 
 class Language:
@@ -60,46 +86,62 @@ class Language:
         self._whole = {_plain(english): _plain(said) for english, said in pairs.items() if not PLACE.search(english)}
         templates = [(english, said) for english, said in pairs.items() if PLACE.search(english)]
         templates.sort(key=lambda pair: _rank(pair[0]))
-        self._templates = [template(*pair) for pair in templates]
+        self._by_word: dict[str, list[tuple[int, Template]]] = defaultdict(list)
+        for rank, each in enumerate(template(*pair) for pair in templates):
+            self._by_word[each.word].append((rank, each))
 
-    def say(self, text: str) -> str:
+    def say(self, text: str, work: Work | None = None) -> str:
         """The sentence in this language, with the spaces around it."""
-        if len(text) > _LONGEST or not _LETTERS.search(text):
+        try:
+            return self._whole_text(text, work or Work(), _MOST_HEADS)
+        except _TooMuch:
             return text
+
+    def _whole_text(self, text: str, work: Work, heads: int) -> str:
         bare = text.strip()
-        said = self._said(bare)
+        if len(bare) > _LONGEST or "\n" in bare or not _LETTERS.search(bare):
+            return text
+        said = self._said(bare, work, heads)
         return text if said is None else text.replace(bare, said, 1)
 
-    def _said(self, text: str) -> str | None:
+    def _said(self, text: str, work: Work, heads: int) -> str | None:
         """Said as a sentence, as what becomes one with a full stop, or part by part."""
-        said = self._as_it_is(text)
+        said = self._as_it_is(text, work, heads)
         if said is not None:
             return said
         if text.endswith("."):
-            bare = self._as_it_is(text[:-1])
-            return self._parts(text) if bare is None else f"{bare}。"
-        whole = self._as_it_is(f"{text}.")
-        return self._parts(text) if whole is None else whole.removesuffix("。")
+            bare = self._as_it_is(text[:-1], work, heads)
+            return self._parts(text, work, heads) if bare is None else f"{bare}。"
+        whole = self._as_it_is(f"{text}.", work, heads)
+        return self._parts(text, work, heads) if whole is None else whole.removesuffix("。")
 
-    def _as_it_is(self, text: str) -> str | None:
-        if problem := _PROBLEM.fullmatch(text):
-            return problem[1] + self.say(problem[2])
+    def _as_it_is(self, text: str, work: Work, heads: int) -> str | None:
+        """`heads`: so many things that something is said about may still be taken off."""
+        if heads and (problem := _PROBLEM.fullmatch(text)):
+            return problem[1] + self._whole_text(problem[2], work, heads - 1)
         known = self._whole.get(text)
         if known is not None:
             return known
         items = _ITEMS.split(text)
         if len(items) > 1 and all(item in self._whole or " " not in item or _NAME.fullmatch(item) for item in items):
-            return "、".join(map(self.say, items))
+            return "、".join(self._whole_text(item, work, heads) for item in items)
         stop = text.endswith(".")
-        for each in self._templates:
+        for each in self._candidates(text):
+            work.try_one()
             if each.stop >= stop and each.anchor in text and (match := each.pattern.fullmatch(text)):
-                return self._fill(each, match)
-        if head := _HEAD.fullmatch(text):
-            rest = self._as_it_is(head[2])
+                return self._fill(each, match, work, heads)
+        if heads and (head := _HEAD.fullmatch(text)):
+            rest = self._as_it_is(head[2], work, heads - 1)
             return None if rest is None else head[1] + rest
         return None
 
-    def _fill(self, found: Template, match: re.Match[str]) -> str:
+    def _candidates(self, text: str) -> Iterator[Template]:
+        """Templates whose word is in the text, those that say most first."""
+        words = {"", *_WORD.findall(text)}
+        found = [each for word in words for each in self._by_word.get(word, ())]
+        return (each for _, each in sorted(found, key=lambda ranked: ranked[0]))
+
+    def _fill(self, found: Template, match: re.Match[str], work: Work, heads: int) -> str:
         values = dict(zip(found.places, match.groups(), strict=True))
         made, end = "", 0
         for place in PLACE.finditer(found.said):
@@ -108,16 +150,16 @@ class Language:
             if not place[2]:
                 number = int(place[1])
                 value = values[number]
-                made = _joined(made, value if number in found.quoted else self.say(value))
+                made = _joined(made, value if number in found.quoted else self._whole_text(value, work, heads))
         return _joined(made, found.said[end:])
 
-    def _parts(self, text: str) -> str | None:
+    def _parts(self, text: str, work: Work, heads: int) -> str | None:
         """Sentences, or items of a list, one after the other: those that are known are said."""
         for marks in _PARTS:
             parts = marks.split(text)
             if len(parts) == 1:
                 continue
-            said = [part if number % 2 else self._said(part) or part for number, part in enumerate(parts)]
+            said = [part if number % 2 else self._said(part, work, heads) or part for number, part in enumerate(parts)]
             if said != parts:
                 return "".join(_MARK.get(part, part) if number % 2 else part for number, part in enumerate(said))
         return None
@@ -138,7 +180,10 @@ def template(english: str, said: str) -> Template:
         within = quote in QUOTES and english[end : end + 1] == quote
         apart = between.rstrip()[-1:] in _MARKS or (english[end : end + 1] in _MARKS and len(english) > end + 1)
         last = end == len(english) and english[0] != "{" and _weight(english) >= _LONG
-        any_text = r"\S*?" if short else ".*?" if apart else _REST if last else _NO_SENTENCE
+        place_in_file = english[end : end + 2] == ":{"
+        any_text = (
+            "[^:]*?" if place_in_file else r"\S*?" if short else ".*?" if apart else _REST if last else _NO_SENTENCE
+        )
         inside = f"[^{quote}]*" if within else f"(?:{_AFTER})?" if follows else any_text
         pattern += f"{re.escape(_plain(between))}({inside})"
         fixed.append(between)
@@ -155,7 +200,15 @@ def template(english: str, said: str) -> Template:
         frozenset(quoted),
         _plain(said),
         _ENDING.sub("", english).endswith("."),
+        _word(english),
     )
+
+
+def _word(english: str) -> str:
+    """The longest word that no argument of the template touches: in a sentence it is a word of its own, too."""
+    marked = PLACE.sub("\0", english)
+    words = (each for each in _WORD.finditer(marked) if "\0" not in marked[max(0, each.start() - 1) : each.end() + 1])
+    return max((each[0] for each in words), key=len, default="")
 
 
 def _joined(before: str, after: str) -> str:
@@ -196,5 +249,11 @@ def _language(name: str) -> Language:
 
 @lru_cache(maxsize=4096)
 def say(text: str, language: str) -> str:
-    """The sentence in this language; in English as it is."""
-    return text if language == "en" else _language(language).say(text)
+    """The sentence in this language; in English as it is. A text that cannot be said stays, whatever the fault is: it is better read than lost."""
+    if language == "en":
+        return text
+    try:
+        return _language(language).say(text)
+    except Exception:
+        _log.exception("a text of %d characters could not be said in %s", len(text), language)
+        return text

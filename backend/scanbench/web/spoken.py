@@ -1,4 +1,5 @@
-"""Whoever reads Japanese gets every sentence in Japanese: answers of the API, and what comes on a WebSocket, whatever room made it.
+"""Whoever reads Japanese gets every sentence of Scanbench in Japanese: answers of the API, and what comes on a WebSocket, whatever room made it.
+What users wrote passes as it is: `spoken_fields.py` lists what is said.
 
 The language is what the page was told to speak (a cookie), else what the browser asks for (`Accept-Language`).
 """
@@ -9,7 +10,9 @@ from starlette.datastructures import MutableHeaders
 from starlette.requests import HTTPConnection
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from scanbench.translation.inside import in_language, wanted
+from scanbench.translation.inside import in_shapes, wanted
+from scanbench.web.dap.said import said as said_to_debugger
+from scanbench.web.spoken_fields import DAP, SHAPES
 
 LANGUAGE = "scanbench_language"
 """Cookie of the page: the language that was chosen there."""
@@ -69,6 +72,10 @@ class _Answer:
             if message.get("more_body", False):
                 return
             start, self._start = self._start, None
+            if not self._body:  # HEAD: its headers are about the body that is not sent
+                await self._send(start)
+                await self._send(message)
+                return
             message = {**message, "body": _said(self._body.decode(), self._language).encode()}
             headers = MutableHeaders(scope=start)
             headers["content-language"] = self._language
@@ -83,4 +90,9 @@ def _said(text: str, language: str) -> str:
         value = json.loads(text)
     except ValueError:
         return text
-    return json.dumps(in_language(value, language), ensure_ascii=False, separators=(",", ":"))
+    if isinstance(value, dict) and value.keys() == DAP and isinstance(value["message"], dict):
+        value["message"] = said_to_debugger(value["message"], language)
+        said: object = value
+    else:
+        said = in_shapes(value, SHAPES, language)
+    return json.dumps(said, ensure_ascii=False, separators=(",", ":"))

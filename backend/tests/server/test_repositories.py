@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from pydantic import TypeAdapter
 
 from scanbench.server.repositories import Commit, Repositories, Status
 from scanbench.store.records import NotFound
@@ -167,6 +168,76 @@ def test_a_link_leads_nowhere(bench: Bench, tmp_path: Path) -> None:
     with pytest.raises(Refused, match="a link"):
         bench.commit("two")
     assert outside.read_text() == "kept"
+
+
+def test_a_link_where_a_file_would_be_written_first_leads_nowhere(bench: Bench, tmp_path: Path) -> None:
+    bench.begin()
+    bench.commit("one")
+    outside = tmp_path / "outside.st"
+    outside.write_text("kept")
+    (bench.folder / ".Main.st.new").symlink_to(outside)
+    bench.git("add", "-A")
+    bench.git("commit", "-m", "a link")
+    bench.save("Main.st", TWO)
+    bench.commit("two")
+    assert outside.read_text() == "kept"
+    assert (bench.folder / "Main.st").read_text() == TWO
+    assert not (bench.folder / "Main.st").is_symlink()
+    assert not (bench.folder / ".git" / "scanbench.new").exists()
+
+
+def test_a_name_that_is_not_utf_8_is_left_out(bench: Bench) -> None:
+    bench.begin()
+    bench.commit("one")
+    Path(os.fsdecode(bytes(bench.folder) + b"/b\xe4nd.st")).write_text(ONE)
+    bench.git("add", "-A")
+    bench.git("commit", "-m", "Latin 1")
+    TypeAdapter(Status).dump_json(bench.status())
+    assert bench.status().elsewhere == ()
+    assert [each.path for each in bench.status().changes] == []
+
+
+def test_a_pipe_is_refused_instead_of_waited_for(bench: Bench) -> None:
+    bench.begin()
+    bench.commit("one")
+    (bench.folder / "Main.st").unlink()
+    os.mkfifo(bench.folder / "Main.st")
+    bench.save("Main.st", TWO)
+    with pytest.raises(Refused, match=r"Main\.st is no file"):
+        asyncio.run(asyncio.wait_for(_committed(bench), 60))
+    assert bench.commits() == ["one"]
+
+
+async def _committed(bench: Bench) -> Commit:
+    head = (await bench.repositories.status(bench.project)).head
+    return await bench.repositories.commit(bench.project, "two", head, "Ada")
+
+
+def test_a_huge_file_is_refused(bench: Bench) -> None:
+    bench.begin()
+    bench.commit("one")
+    os.truncate(bench.folder / "Main.st", 1 << 40)
+    bench.save("Main.st", TWO)
+    with pytest.raises(Refused, match=r"Main\.st has more than 16 MiB"):
+        bench.commit("two")
+
+
+def test_a_commit_whose_folder_cannot_be_written_is_of_no_other_program(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench.begin()
+    bench.commit("one")
+    bench.save("Main.st", TWO)
+
+    def full(_folder: Path, _texts: object, _gone: object) -> None:
+        raise Refused("the commit was made, but the folder could not be written: no space")
+
+    monkeypatch.setattr("scanbench.server.repositories.write", full)
+    with pytest.raises(Refused, match="no space"):
+        bench.commit("two")
+    bench.save("Main.st", ONE)
+    assert bench.commits() == ["two", "one"]
+    assert bench.status().elsewhere == ()
 
 
 def test_a_repository_runs_nothing(bench: Bench, tmp_path: Path) -> None:

@@ -5,8 +5,9 @@ import re
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.translation.inside import in_language, wanted
-from scanbench.translation.said import say
+from scanbench.translation.catalogue import catalogue
+from scanbench.translation.inside import at_paths, in_shapes, paragraphs, wanted
+from scanbench.translation.said import MOST_TRIED, Language, Work, say, template
 from tests.caseformat import MODELS
 from tests.check.test_problems import BODIES, FILES, MAIN
 
@@ -64,25 +65,77 @@ def test_the_language_that_is_asked_for(asked: str, language: str) -> None:
     assert wanted(asked) == language
 
 
-def test_only_fields_for_people_are_said() -> None:
+def test_only_listed_fields_of_a_known_shape_are_said() -> None:
     told = {
-        "message": "nothing was changed",
-        "path": "nothing was changed",
-        "rows": [{"text": "switched on"}],
-        "notes": ["switched off"],
+        "rows": [{"message": "nothing was changed", "path": "nothing was changed", "notes": ["switched off"]}],
+        "files": {"message": "nothing was changed", "path": "nothing was changed"},
     }
-    assert in_language(told, "ja") == {
-        "message": "何も変更していません", "path": "nothing was changed", "rows": [{"text": "ON にしました"}], "notes": ["OFF にしました"],
+    shapes = {frozenset({"message", "path", "notes"}): frozenset({"message", "notes"})}
+    assert in_shapes(told, shapes, "ja") == {
+        "rows": [{"message": "何も変更していません", "path": "nothing was changed", "notes": ["OFF にしました"]}],
+        "files": {"message": "nothing was changed", "path": "nothing was changed"},
+    }
+
+
+def test_only_listed_places_are_said() -> None:
+    told = {"body": {"rows": [{"message": "switched off", "value": "switched off"}]}, "message": "switched off"}
+    assert at_paths(told, [("body", "rows", "*", "message"), ("none", "message")], "ja") == {
+        "body": {"rows": [{"message": "OFF にしました", "value": "switched off"}]}, "message": "switched off",
     }  # fmt: skip
 
 
 def test_a_text_for_an_editor_is_said_line_by_line() -> None:
-    hover = {
-        "contents": {
-            "kind": "markdown",
-            "value": "```iecst\nABS\n```\nThe sum of all arguments.\n- L: how many characters",
-        }
-    }
-    assert in_language(hover, "ja") == {
-        "contents": {"kind": "markdown", "value": "```iecst\nABS\n```\nすべての引数の和。\n- L: 文字数"}
-    }
+    text = "The sum of all arguments.\n- L: how many characters"
+    assert paragraphs(text, "ja") == "すべての引数の和。\n- L: 文字数"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a: " * 1300, "a: " * 100 + "x", "m.st:1:1: " * 30 + "x", "there is no program, " * 19, "is not in a; " * 29,
+        "`a` is not b. " * 25, "the program cannot be outside of an instance. " * 8,
+    ],
+)  # fmt: skip
+def test_the_work_for_a_text_is_bounded(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    works: list[Work] = []
+
+    def made() -> Work:
+        works.append(Work())
+        return works[-1]
+
+    monkeypatch.setattr("scanbench.translation.said.Work", made)
+    assert say.__wrapped__(text, "ja")
+    assert all(work.tried <= MOST_TRIED + 1 for work in works)
+    assert len(works) <= 1
+
+
+def test_an_unknown_text_is_compared_with_few_templates() -> None:
+    work = Work()
+    text = "Conveyor of hall 3 has the program of yesterday, and nobody knows which instance it is."
+    assert Language(catalogue("ja")).say(text, work) == text
+    assert work.tried < 1000
+
+
+def test_a_place_in_a_file_has_one_reading() -> None:
+    """With any text between the colons, what ends otherwise was tried at all of them, for minutes."""
+    assert template("{0}:{1}:{2}: {3} (scan {4})", "").pattern.pattern.count("[^:]*?") == 2
+    assert say("Main.st:3:5: nothing was changed (scan 7)", "ja").startswith("Main.st:3:5: 何も変更していません")
+
+
+def test_three_things_at_most_are_said_about() -> None:
+    assert say("a: b: c: nothing was changed", "ja") == "a: b: c: 何も変更していません"
+    assert say("a: b: c: d: nothing was changed", "ja") == "a: b: c: d: nothing was changed"
+
+
+@pytest.mark.parametrize("text", ["nothing was changed. " * 30, "nothing was changed.\nnothing was changed."])
+def test_what_is_too_long_or_of_several_lines_stays(text: str) -> None:
+    assert say(text, "ja") == text
+
+
+def test_a_fault_leaves_the_text(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
+    def broken(_self: Language, _text: str) -> str:
+        raise RecursionError
+
+    monkeypatch.setattr(Language, "say", broken)
+    assert say.__wrapped__("nothing was changed", "ja") == "nothing was changed"
+    assert "could not be said in ja" in caplog.text

@@ -21,6 +21,9 @@ def test_a_project_is_committed_by_who_asks(server: Server) -> None:
     found = server.http.get(f"{address}/commits/{made.json()['commit']}").json()
     assert found["files"] == {"Main.st": MAIN}
     assert server.http.get(f"{address}/commits/1234567").status_code == 404
+    for path in ("a\0b.st", "", "a" * 256):
+        odd = server.http.get(f"{address}/commits", params={"path": path})
+        assert (odd.status_code, "the path" in odd.json()["message"]) == (422, True), odd.text
     assert server.http.get(address).json()["changes"] == []
     folder = server.data / "projects" / str(project)
     assert (folder / "Main.st").read_text() == MAIN

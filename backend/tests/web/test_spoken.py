@@ -1,14 +1,18 @@
 """Who reads Japanese is told everything in Japanese: by REST, on the WebSocket, by the language server and the debugger."""
 
+import asyncio
 import json
+from collections.abc import MutableMapping
 from pathlib import Path
 
 import httpx
 import pytest
 from lsprotocol import types
 from pytest_lsp import LanguageClient
+from starlette.types import Message, Receive, Scope, Send
 from websockets.sync.client import connect
 
+from scanbench.web.spoken import Spoken
 from tests.lsp.client import conversation, opened
 from tests.web.dap.client import StdioClient
 from tests.web.server import Server
@@ -24,6 +28,33 @@ def test_a_refusal(server: Server) -> None:
     assert japanese.status_code == english.status_code == 404
     assert japanese.headers["content-language"] == "ja"
     assert "Accept-Language" in japanese.headers["vary"]
+
+
+async def _served(method: str) -> dict[bytes, bytes]:
+    """The headers of an answer whose length the application gave, though it has no body."""
+    sent: list[MutableMapping[str, object]] = []
+
+    async def app(_scope: Scope, _receive: Receive, send: Send) -> None:
+        headers = [(b"content-type", b"application/json"), (b"content-length", b"42")]
+        await send({"type": "http.response.start", "status": 200, "headers": headers})
+        await send({"type": "http.response.body", "body": b""})
+
+    async def receive() -> Message:
+        return {"type": "http.request"}
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    scope = {"type": "http", "method": method, "headers": [(b"accept-language", b"ja")]}
+    await Spoken(app)(scope, receive, send)
+    headers = sent[0]["headers"]
+    assert isinstance(headers, list)
+    assert len(sent) == 2
+    return dict(headers)
+
+
+def test_the_length_of_what_is_not_sent_stays() -> None:
+    assert asyncio.run(_served("HEAD"))[b"content-length"] == b"42"
 
 
 def test_what_the_page_was_told_to_speak_counts_more(server: Server) -> None:

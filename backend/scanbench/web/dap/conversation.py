@@ -8,12 +8,13 @@ from typing import Protocol
 
 from pydantic import ValidationError
 
-from scanbench.translation.inside import said_inside, wanted
+from scanbench.translation.inside import wanted
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal, response
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.events import Events
 from scanbench.web.dap.handlers import CAPABILITIES, HANDLERS
+from scanbench.web.dap.said import said
 from scanbench.web.dap.shapes import Body
 from scanbench.wire.events import Event, User
 from scanbench.wire.refused import Refused, Unavailable
@@ -320,7 +321,7 @@ class Conversation:
 
     def _say(self, message: Body) -> None:
         self._seq += 1
-        self._send({"seq": self._seq, **said_inside(message, self._language)})
+        self._send(said({"seq": self._seq, **message}, self._language))
 
 
 def _without_nulls(value: object) -> object:

@@ -6,6 +6,7 @@ from scanbench.check.uses import Symbol
 from scanbench.language.complete import Item, ItemKind, complete
 from scanbench.language.describe import describe
 from scanbench.language.signature import signature_at
+from scanbench.translation.inside import paragraphs
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.navigation import markdown
 
@@ -41,7 +42,7 @@ def register(language: Language) -> None:
             kind, owner, name = item.data
             told = describe(language.project.reading, Symbol(kind, owner, name))
             if told is not None:
-                item.documentation = markdown(told)
+                item.documentation = markdown(told, language.tongue)
         return item
 
     @server.feature(
@@ -54,7 +55,8 @@ def register(language: Language) -> None:
         if found is None:
             return None
         parameters = [types.ParameterInformation(each) for each in found.parameters]
-        made = types.SignatureInformation(found.label, found.comment or None, parameters, found.active)
+        comment = paragraphs(found.comment, language.tongue)  # only standard functions have one
+        made = types.SignatureInformation(found.label, comment or None, parameters, found.active)
         return types.SignatureHelp([made], 0, found.active)
 
 

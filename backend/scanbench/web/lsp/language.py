@@ -45,6 +45,8 @@ class Language:
     saved_of: Callable[[types.InitializeParams], Saved]
     """The project that a client means."""
     project: LspProject | None = None
+    tongue: str = "en"
+    """The language that the client's reader reads."""
     _timer: asyncio.TimerHandle | None = None
     _told: set[str] = field(default_factory=set)
     """URIs of files with problems."""

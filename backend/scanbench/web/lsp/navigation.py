@@ -10,6 +10,7 @@ from scanbench.language.describe import Description, describe
 from scanbench.language.index import Occurrence
 from scanbench.language.navigate import definitions, implementations, references, type_definitions
 from scanbench.language.reading import Reading
+from scanbench.translation.inside import paragraphs
 from scanbench.web.lsp.language import Asked, Language
 
 LANGUAGE = "st"
@@ -63,7 +64,7 @@ def register(language: Language) -> None:
         told = None if asked is None or found is None else describe(asked.reading, found.symbol)
         if asked is None or found is None or told is None:
             return None
-        return types.Hover(markdown(told), asked.positions.occurrence(found))
+        return types.Hover(markdown(told, language.tongue), asked.positions.occurrence(found))
 
 
 Where = (
@@ -89,7 +90,8 @@ def declarations(language: Language, params: Where, look: Look) -> list[types.Lo
     ]
 
 
-def markdown(told: Description) -> types.MarkupContent:
-    """A description, the code in a block of its own."""
-    parts = [f"```{LANGUAGE}\n{told.code}\n```", told.comment, *told.notes]
+def markdown(told: Description, tongue: str) -> types.MarkupContent:
+    """A description, the code in a block of its own; comments of authors are in their own language."""
+    comment = told.comment if told.by_author else paragraphs(told.comment, tongue)
+    parts = [f"```{LANGUAGE}\n{told.code}\n```", comment, *(paragraphs(note, tongue) for note in told.notes)]
     return types.MarkupContent(types.MarkupKind.Markdown, "\n\n".join(filter(None, parts)))

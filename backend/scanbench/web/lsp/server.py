@@ -13,7 +13,7 @@ import scanbench
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.from_disk import PROJECT_FILE
 from scanbench.syntax.parse_file import ENDINGS
-from scanbench.translation.inside import said_inside, wanted
+from scanbench.translation.inside import Path, at_paths, wanted
 from scanbench.web.lsp import annotations, calls, completion, crossing, mending, navigation, outline, renaming
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.project import Saved, Told
@@ -30,13 +30,29 @@ class _Files(Protocol):
     def files(self) -> list[tuple[str, str]]: ...
 
 
+_SENTENCES: tuple[Path, ...] = (
+    ("error", "message"),
+    ("params", "message"),
+    ("params", "diagnostics", "*", "message"),
+    ("result", "*", "title"),
+    ("result", "*", "diagnostics", "*", "message"),
+    ("result", "title"),
+    ("result", "diagnostics", "*", "message"),
+    ("result", "items", "*", "message"),
+)
+"""Where our messages have a sentence: refusals, problems, titles of what mends them. What a name means is said where it is described."""
+
+
 class _Protocol(LanguageServerProtocol):
     """Says everything in the language of the client."""
 
     language = "en"
 
     def _serialize_message(self, data: object) -> dict[str, object]:
-        return said_inside(super()._serialize_message(data), self.language)
+        message: dict[str, object] = super()._serialize_message(data)
+        said = message if self.language == "en" else at_paths(message, _SENTENCES, self.language)
+        assert isinstance(said, dict)
+        return said
 
 
 class _Server(LanguageServer):
@@ -54,7 +70,7 @@ def make_server(saved_of: Callable[[types.InitializeParams], Saved]) -> Language
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
         if isinstance(server.protocol, _Protocol):
-            server.protocol.language = wanted(params.locale or "")
+            server.protocol.language = language.tongue = wanted(params.locale or "")
         language.begin(params)
 
     @server.feature(types.INITIALIZED)
