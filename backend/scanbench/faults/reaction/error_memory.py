@@ -75,10 +75,11 @@ def error_bits(program: Program) -> list[Bits]:
     for entry in layout.model.errors():
         chosen = choose(entry, {}, layout)
         found += () if isinstance(chosen, Refusal) else chosen.bits
-        for detail in entry.details:
-            places = [each.location for each in detail.addresses if each.location is not None]
-            for place in places:
-                found += field_bits(place, 0, place.bits, 0, layout)
+        for address in (each for detail in entry.details for each in detail.addresses):
+            if address.location is not None:
+                most = address.maximum or 0
+                bits = 8 * most if address.is_text else most + 1 if address.kind == "BitArray" else 0
+                found += field_bits(address.location, 0, max(bits, address.location.bits), 0, layout)
     return list({(each.offset, each.mask): each for each in found}.values())
 
 
