@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from scanbench.faults.reaction.reaction import Reaction, Unreached
 
 _SHOWN = 3
+_FROM_TEXT = "from the program's text: it may decide an output later, or never"
 
 
 def reason_of(reaction: Reaction) -> str:
@@ -35,11 +36,11 @@ def reason_of(reaction: Reaction) -> str:
 def _decided(reaction: Reaction) -> str:
     if reaction.decided_by:
         lines = ", ".join(some(reaction.decided_by))
-        return f"{lines} ran in one of the two runs only, and wrote what was there already"
+        return f"{lines} ran in one of the two runs only, and wrote what was there already; {_FROM_TEXT}"
     state = "; ".join(
         some([f"{each.path} (read in {', '.join(some(each.readers)) or 'no statement'})" for each in reaction.carried])
     )
-    return f"no output differed in the {reaction.window} scans; still different at their end, and decides one later: {state}"
+    return f"no output differed in the {reaction.window} scans; still different at their end: {state}; {_FROM_TEXT}"
 
 
 def _missed(each: Unreached) -> str:

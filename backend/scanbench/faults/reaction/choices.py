@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from scanbench.faults.details import choose
 from scanbench.faults.reaction.deciding import Instances
 from scanbench.faults.reaction.error_memory import Watched, code_bits
-from scanbench.faults.reaction.flows import heads, parts
+from scanbench.faults.reaction.places import heads, parts
 from scanbench.faults.reaction.readings import Readings
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry

@@ -1,7 +1,7 @@
 """Whether state decides anything: what differs and has not come to anything yet may still do so, or is only stored.
 
 A copy of the error memory, the memory of an edge, what is worked out again in every scan is no state: what it decides shows at
-once, in the run itself. State is a latch, a counter, a timer. It decides when it can reach an output, what the PLC does by
+once, in the run itself. State is a latch, a counter, a timer, and a copy of something else that is made because of the error. It decides when it can reach an output, what the PLC does by
 itself, the plant, or the start of a task.
 """
 
@@ -9,7 +9,9 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from scanbench.faults.reaction.flows import ANYWHERE, Flow, Flows, Ref, ref_of
+from scanbench.faults.reaction.error_memory import error_bits
+from scanbench.faults.reaction.flows import Flow, Flows
+from scanbench.faults.reaction.places import Ref, meet, ref_of
 from scanbench.program.layout import Layout
 from scanbench.program.origin import in_library
 from scanbench.program.program import Assign, Base, Pou, Program, Stmt
@@ -30,7 +32,7 @@ class Node(NamedTuple):
 
     space: Space
     ref: Ref
-    """Of Base.IMAGE; of Base.FRAME in a space of its own; or ANYWHERE."""
+    """Of Base.IMAGE; of Base.FRAME in a space of its own; or through a reference."""
 
 
 class Instance(NamedTuple):
@@ -168,6 +170,7 @@ class Deciding:
             self._contexts[pou] = tuple(each.begin for each in self.instances.of.get(pou.instance.name, ()))
             self._bodies_of.setdefault(pou.instance.name, []).append(pou)
         self._ends = list(self._sinks())
+        self._errors = [Ref(Base.IMAGE, each.offset, each.offset + 1, each.mask) for each in error_bits(program)]
         self._published = list(self._accesses())
         self._answers: dict[str, bool] = {}
         self._of_stmt: dict[int, list[tuple[Pou | None, Flow]]] = {}
@@ -230,7 +233,7 @@ class Deciding:
     def shows(self, leaf: Leaf) -> bool:
         """Whether only tools read this: a VAR_ACCESS, or memory of the model that the program writes and does not use."""
         ref = _ref(leaf)
-        if any(_meet(each, ref) for each in self._published):
+        if any(meet(each, ref) for each in self._published):
             return True
         found = self._program.layout.area_at(leaf.offset)
         if found is None or found[0].access(found[1] // 2, "tool") == "none":
@@ -282,16 +285,36 @@ class Deciding:
         return self._is_state(node, is_bool) and self._reaches(node)
 
     def _is_state(self, node: Node, is_bool: bool) -> bool:
-        """Whether it depends on what was before: not where it is worked out again whenever its body runs, nor a copy."""
+        """Whether it depends on what was before: not where it is worked out again whenever its body runs, nor a
+        copy of error memory."""
         if self._reaches(node, itself=True):
             return True
-        writers = list(self._users(node, writing=True))
-        if any(not flow.controls for flow, _ in writers):
+        writers = list(self._using(node, writing=True))
+        if any(not flow.controls for flow, _, _ in writers):
             return False
-        if all(flow.constant or flow.source is not None for flow, _ in writers):
-            copies = [(flow, here) for flow, here in writers if not flow.constant]
-            return not copies or (is_bool and any(_holds_itself(flow, here) for flow, here in copies))
+        if all(flow.constant or flow.source is not None for flow, _, _ in writers):
+            copies = [each for each in writers if not each[0].constant]
+            return not copies or any(
+                (is_bool and _latches(flow, here)) or not self._is_of_error(flow, space) for flow, space, here in copies
+            )
         return True
+
+    def _is_of_error(self, copy: Flow, space: Space) -> bool:
+        """Whether what is copied is error memory, or made of it: then it is no new state, but remembers what was seen."""
+        assert copy.source is not None
+        start = self._node(copy.source, space)
+        waiting, seen = [start], {start}
+        while waiting and len(seen) < _STEPS:
+            node = waiting.pop()
+            if node.space is None and any(meet(each, node.ref) for each in self._errors):
+                return True
+            for flow, here, _ in self._using(node, writing=True):
+                for ref in flow.reads:
+                    each = self._node(ref, here)
+                    if each not in seen:
+                        seen.add(each)
+                        waiting.append(each)
+        return False
 
     def _library_block(self, ref: Ref) -> Instance | None:
         blocks = [each for each in self.instances.around(ref.begin, ref.end) if each.record.name in self._library]
@@ -315,7 +338,7 @@ class Deciding:
                 ):
                     return True
                 for each in self._written(flow, space, not itself):
-                    if each.space is None and (_meet(each.ref, start.ref) if itself else self._is_end(each.ref)):
+                    if each.space is None and (meet(each.ref, start.ref) if itself else self._is_end(each.ref)):
                         return True
                     if each not in seen:
                         seen.add(each)
@@ -324,7 +347,7 @@ class Deciding:
 
     def _same(self, ref: Ref, space: Space, node: Node) -> bool:
         made = self._node(ref, space)
-        return made.space == node.space and _meet(made.ref, node.ref)
+        return made.space == node.space and meet(made.ref, node.ref)
 
     def _readers(self, node: Node) -> Iterator[tuple[Flow, Space]]:
         if node.ref.end == 0:  # a body that runs
@@ -334,10 +357,6 @@ class Deciding:
             return
         for flow, space, _ in self._using(node, writing=False):
             yield flow, space
-
-    def _users(self, node: Node, writing: bool) -> Iterator[tuple[Flow, Ref]]:
-        for flow, _, here in self._using(node, writing):
-            yield flow, here
 
     def _using(self, node: Node, writing: bool) -> Iterator[tuple[Flow, Space, Ref]]:
         """Flows that read or write a node, with the instance that runs there, and the place as it counts there."""
@@ -379,7 +398,7 @@ class Deciding:
     @staticmethod
     def _node(ref: Ref, space: Space) -> Node:
         if ref.base is None:
-            return Node(None, ANYWHERE)
+            return Node(None, ref)
         if ref.base is Base.IMAGE or space is None:
             return Node(None, ref)
         if ref.base is Base.FRAME:
@@ -387,19 +406,14 @@ class Deciding:
         return Node(None, Ref(Base.IMAGE, space[1] + ref.begin, space[1] + ref.end, ref.mask))
 
     def _is_end(self, ref: Ref) -> bool:
-        return ref.base is Base.IMAGE and any(_meet(each, ref) for each in self._ends)
+        return ref.base is Base.IMAGE and any(meet(each, ref) for each in self._ends)
 
 
 def _ref(leaf: Leaf) -> Ref:
     return Ref(Base.IMAGE, leaf.offset, leaf.offset + max(1, leaf.type.size), leaf.bits)
 
 
-def _meet(one: Ref, other: Ref) -> bool:
-    if one.base is not other.base or one.begin >= other.end or other.begin >= one.end:
-        return False
-    return one.end - one.begin > 1 or other.end - other.begin > 1 or bool(one.mask & other.mask)
-
-
-def _holds_itself(flow: Flow, here: Ref) -> bool:
-    """Whether a copy is made or not because of what is there: a latch. Of an edge the other side is asked for as well."""
-    return any(_meet(each, here) for each in flow.controls) and flow.source not in flow.controls
+def _latches(copy: Flow, here: Ref) -> bool:
+    """Whether a BOOL is copied because of what is there, or because of what is copied: it stays on then. For both it is the memory
+    of an edge."""
+    return any(meet(each, here) for each in copy.controls) != (copy.source in copy.controls)

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.faults.details import Bits, Chosen, field_bits
+from scanbench.faults.details import Bits, Chosen, choose, field_bits
 from scanbench.faults.reaction.reaction import What
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.runtime.command import Patch
+from scanbench.runtime.command import Patch, Refusal
 
 Words = NDArray[np.uint64]
 WORD = 8
@@ -66,6 +66,21 @@ def log_bits(program: Program) -> list[Bits]:
         return []
     records = field_bits(log.first, 0, 16 * log.words * log.records, 0, layout)
     return [*records, *field_bits(log.counter, 0, log.counter.bits, 0, layout)]
+
+
+def error_bits(program: Program) -> list[Bits]:
+    """All that the errors of the model write, whatever their details are."""
+    layout = program.layout
+    found = [*code_bits(program), *log_bits(program)]
+    for entry in layout.model.errors():
+        chosen = choose(entry, {}, layout)
+        found += () if isinstance(chosen, Refusal) else chosen.bits
+        for address in (each for detail in entry.details for each in detail.addresses):
+            if address.location is not None:
+                most = address.maximum or 0
+                bits = 8 * most if address.is_text else most + 1 if address.kind == "BitArray" else 0
+                found += field_bits(address.location, 0, max(bits, address.location.bits), 0, layout)
+    return list({(each.offset, each.mask): each for each in found}.values())
 
 
 def _clear(mask: bytearray, parts: Iterable[Bits]) -> None:

@@ -1,15 +1,20 @@
 """What flows where in a program: for each statement the places that its value and its being reached depend on, and those it writes.
 
 Places have the same base as in the code (`Ref.base`); `deciding.py` follows them through instances. A block of the library is
-one place as a whole. The target of an in-out is represented by the in-out's slot, and the targets of all references are one place,
-`Ref.ANYWHERE`: so the result may have flows that never happen, and misses none.
+one place as a whole. The target of an in-out is represented by the in-out's slot. The targets of all references to one type are one
+place, those of pointers and of references to blocks, structures and arrays are `ANYWHERE`. So the result may have flows that never
+happen, and misses none. What is sure from the text is left out: branches whose condition is FALSE, what `AND FALSE` or `* 0` hides,
+an assignment of a variable to itself. Where all branches write the same value, no condition decides about it (`alike.py`).
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from scanbench.faults.reaction.alike import alike
+from scanbench.faults.reaction.places import Ref, heads, inside, parts, ref_of, through
 from scanbench.program.bodies import bodies
+from scanbench.program.limits import folded
 from scanbench.program.origin import in_library
 from scanbench.program.program import (
     Assign,
@@ -27,7 +32,6 @@ from scanbench.program.program import (
     For,
     Halt,
     If,
-    Index,
     Jump,
     Load,
     Place,
@@ -39,20 +43,7 @@ from scanbench.program.program import (
     Stmt,
     While,
 )
-from scanbench.program.types import Section
-
-
-class Ref(NamedTuple):
-    """Bytes that count from a base; of one byte perhaps only some bits."""
-
-    base: Base | None
-    """None: anywhere, through a reference."""
-    begin: int
-    end: int
-    mask: int = 0xFF
-
-
-ANYWHERE = Ref(None, 0, 1)
+from scanbench.program.types import Reference, Type
 
 
 class Call(NamedTuple):
@@ -112,12 +103,16 @@ class Flows:
     def _statement(self, stmt: Stmt, controls: frozenset[Ref], leaves: set[Ref]) -> Iterator[Flow]:
         match stmt:
             case Assign():
-                source = _copied(stmt.value)
-                reads = self._reads(stmt.value) | self._to(stmt.target)
+                value = folded(stmt.value)
+                if isinstance(value, Load) and value.place == stmt.target:
+                    return
+                source = _copied(value)
+                reads = self._reads(value) | self._to(stmt.target)
                 written = (ref_of(stmt.target), *self._written(stmt.value))
-                constant = isinstance(_plain(stmt.value), Const)
+                constant = isinstance(_plain(value), Const)
                 yield Flow(reads, controls, written, source=source, constant=constant)
                 yield from self._bound(stmt.value, controls)
+                yield from _converted(stmt.value, stmt.target.type, controls)
             case SetBytes():
                 yield Flow(self._to(stmt.target), controls, (ref_of(stmt.target),), constant=True)
             case CallBlock():
@@ -130,16 +125,23 @@ class Flows:
             case Halt():
                 yield Flow(frozenset(), controls, acts=True)
             case If() | Case() | For() | While() | Repeat() | Blocks():
-                deciding = self._reads(heads(stmt))
+                deciding = self._reads(_conditions(stmt))
                 if isinstance(stmt, For):
                     yield Flow(deciding, controls, (ref_of(stmt.variable),))
                     deciding |= {ref_of(stmt.variable)}
                 written = tuple(self._written(heads(stmt)))
                 if written:
                     yield Flow(deciding, controls, written)
-                inner = controls | deciding
-                for body in bodies(stmt):
-                    yield from self._walk(body, inner, leaves)
+                yield from self._inside(stmt, controls, controls | deciding, leaves)
+
+    def _inside(
+        self, stmt: Stmt, controls: frozenset[Ref], inner: frozenset[Ref], leaves: set[Ref]
+    ) -> Iterator[Flow]:  # fmt: skip
+        """The bodies of a statement, without those that never run."""
+        same = {id(each) for group in alike(stmt) for each in group}
+        for body in _living(stmt):
+            for each in body:
+                yield from self._walk((each,), controls if id(each) in same else inner, leaves)
 
     def _block(self, call: CallBlock, controls: frozenset[Ref]) -> Iterator[Flow]:
         instance, to = ref_of(call.instance), self._to(call.instance)
@@ -153,6 +155,7 @@ class Flows:
             source, constant = (None, False) if whole else (_copied(value), isinstance(_plain(value), Const))
             yield Flow(self._reads(value) | to, controls, written, source=source, constant=constant)
             yield from self._bound(value, controls)
+            yield from _converted(value, place.type, controls)
         for slot, actual in call.in_outs:
             here, outside = within(ref_of(slot)), ref_of(actual)
             yield Flow(frozenset((outside,)) | to | self._to(actual), controls, (here,))
@@ -183,7 +186,7 @@ class Flows:
                 case Place():
                     found.add(ref_of(each))
                 case RefOf():
-                    found |= {ANYWHERE, ref_of(each.place)}
+                    found |= {through(each.type), ref_of(each.place)}
                 case CallFunction():
                     found |= self._of_function(each.pou)[0]
         return frozenset(found)
@@ -198,11 +201,15 @@ class Flows:
                         yield ref_of(given)
 
     def _bound(self, node: object, controls: frozenset[Ref]) -> Iterator[Flow]:
-        """What a reference is made of may be read and written anywhere."""
+        """What a reference is made of may be read and written wherever one to this type is used."""
         for each in parts(node):
             if isinstance(each, RefOf):
-                both = (ref_of(each.place), ANYWHERE)
+                both = (ref_of(each.place), through(each.type))
                 yield Flow(frozenset(both), controls, both)
+            elif isinstance(each, CallFunction):
+                for name, given in zip(each.pou.parameters, each.args, strict=False):
+                    if given is not None:
+                        yield from _converted(given, each.pou.frame.members[name].type, controls)
 
     def _to(self, place: Place) -> frozenset[Ref]:
         """What decides where a place is."""
@@ -222,80 +229,48 @@ class Flows:
         return known
 
 
-def parts(node: object) -> Iterator[object]:
-    """The expressions and places in an expression, those that say where a place is included; not what only receives a value."""
-    if isinstance(node, CallFunction):
-        yield node
-        for name, given in zip(node.pou.parameters, node.args, strict=False):
-            if not isinstance(given, Place):
-                yield from parts(given)
-            elif node.pou.frame.members[name].section is Section.OUTPUT:
-                yield from parts((given.indices, given.reference))
-            else:
-                yield from parts(given)
-    elif isinstance(node, RefOf):
-        yield node
-        yield from parts((node.place.indices, node.place.reference))
-    elif isinstance(node, Place):
-        yield node
-        yield from parts((node.indices, node.reference))
-    elif isinstance(node, tuple):
-        for each in node:
-            yield from parts(each)
-    elif isinstance(node, Load | Index) or (is_dataclass(node) and type(node).__module__ == Place.__module__):
-        if not isinstance(node, Pou):
-            yield node
-            for field in fields(node):
-                yield from parts(getattr(node, field.name))
+def _converted(value: Expr | Place, to: Type, controls: frozenset[Ref]) -> Iterator[Flow]:
+    """A pointer takes references to any type: then what both refer to is one place."""
+    type = value.type
+    if isinstance(type, Reference) and isinstance(to, Reference) and type.target is not None:
+        both = (through(type), through(to))
+        if both[0] != both[1]:
+            yield Flow(frozenset(both), controls, both)
 
 
-def inside(instance: Place, ref: Ref) -> Ref:
-    """A place of a block that is called, seen by who calls it."""
-    whole = ref_of(instance)
-    if ref.base is not Base.SELF:
-        return ref
-    if instance.slot is not None or instance.reference is not None:
-        return whole
-    reach = whole.end - whole.begin - max(1, instance.type.size)
-    return Ref(whole.base, whole.begin + ref.begin, whole.begin + ref.end + reach, ref.mask)
-
-
-def ref_of(place: Place) -> Ref:
-    """The bytes that a place may be."""
-    if place.slot is not None:
-        return ref_of(place.slot)
-    if place.reference is not None:
-        return ANYWHERE
-    end = place.offset + max(1, place.type.size)
-    for index in place.indices:
-        if isinstance(index.low, int) and isinstance(index.high, int) and isinstance(index.stride, int):
-            end += (index.high - index.low) * index.stride
-    one_bit = place.bit is not None and not place.indices
-    return Ref(place.base, place.offset, end, 1 << (place.bit or 0) if one_bit else 0xFF)
-
-
-def heads(stmt: Stmt) -> tuple[object, ...]:
-    """What a statement evaluates itself, without the statements inside of it."""
+def _conditions(stmt: Stmt) -> tuple[object, ...]:
+    """What decides about the statements inside of one."""
     match stmt:
-        case Assign():
-            return stmt.value, stmt.target.indices, stmt.target.reference
-        case CallBlock():
-            bound = tuple((actual.indices, actual.reference) for _, actual in stmt.in_outs)
-            return tuple(value for _, value in stmt.inputs), bound, stmt.instance.indices, stmt.instance.reference
-        case Evaluate():
-            return (stmt.call,)
         case If():
-            return tuple(condition for condition, _ in stmt.branches)
+            return tuple(folded(condition) for condition, _ in stmt.branches)
         case Case():
-            return (stmt.selector,)
-        case For():
-            return stmt.start, stmt.end, stmt.step
+            return (folded(stmt.selector),)
         case While():
-            return (stmt.condition,)
-        case Repeat():
-            return (stmt.until,)
+            return (folded(stmt.condition),)
         case _:
-            return ()
+            return heads(stmt)
+
+
+def _living(stmt: Stmt) -> Iterator[tuple[Stmt, ...]]:
+    """The bodies of a statement that may run, by the text of the conditions."""
+    if isinstance(stmt, While) and _always(stmt.condition) is False:
+        return
+    if not isinstance(stmt, If):
+        yield from bodies(stmt)
+        return
+    for condition, body in stmt.branches:
+        always = _always(condition)
+        if always is not False:
+            yield body
+        if always:
+            return
+    yield stmt.orelse
+
+
+def _always(condition: Expr) -> bool | None:
+    """Whether a condition is always TRUE or always FALSE; None: neither is sure."""
+    value = folded(condition)
+    return bool(value.value) if isinstance(value, Const) else None
 
 
 def _plain(value: Expr) -> Expr:

@@ -271,11 +271,10 @@ class _Run:
 
     def _decided_by(self, scans: int) -> tuple[str, ...]:
         """The statements that ran in one of the runs only, and write what an output depends on."""
-        other = self._reached - self._twin.reached
-        if scans == len(self._twin.trace):
-            other |= self._twin.reached - self._reached
         readings, deciding = self._prepared.readings, self._prepared.variables.deciding
-        found = [each for each in sorted(other) if each in readings.statements]
+        found = readings.only_in(self._reached, self._twin.reached)
+        if scans == len(self._twin.trace):
+            found = sorted((*found, *readings.only_in(self._twin.reached, self._reached)))
         return tuple(
             dict.fromkeys(readings.place(each) for each in found if deciding.handles(readings.statements[each]))
         )

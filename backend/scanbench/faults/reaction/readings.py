@@ -6,9 +6,10 @@ Reads of a block or function through an in-out are found; reads through a refere
 from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass
 
+from scanbench.faults.reaction.alike import representatives
 from scanbench.faults.reaction.deciding import Instances
 from scanbench.faults.reaction.error_memory import Watched
-from scanbench.faults.reaction.flows import heads, parts, ref_of
+from scanbench.faults.reaction.places import heads, parts, ref_of
 from scanbench.faults.reaction.reaction import Obstacle, Unreached
 from scanbench.program.bodies import bodies
 from scanbench.program.copies import makes_copies
@@ -56,6 +57,14 @@ class Readings:
         for task in program.tasks:
             for each in task.programs:
                 self._take(None, (*each.before, *each.after))
+        self._alike = representatives(self.statements)
+
+    def only_in(self, reached: Set[int], other: Set[int]) -> list[int]:
+        """The statements that ran in one run, and neither they nor ones that do the same in a different branch in the other."""
+        there = {self._alike.get(each, each) for each in other}
+        return sorted(
+            each for each in reached - other if each in self.statements and self._alike.get(each, each) not in there
+        )
 
     def of(self, watched: Watched) -> list[Reading]:
         """The statements that read any of these bits, in the order of their lines."""

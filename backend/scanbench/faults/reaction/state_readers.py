@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from scanbench.faults.reaction.deciding import Instances
-from scanbench.faults.reaction.flows import Ref, heads, inside, parts, ref_of
+from scanbench.faults.reaction.places import Ref, heads, inside, parts, ref_of
 from scanbench.program.bodies import every
 from scanbench.program.program import Base, CallBlock, CallFunction, Place, Pou, Program, Stmt
 from scanbench.program.types import Record

@@ -138,8 +138,9 @@ export const errors = {
   "preview.words": "{count} words",
   "preview.words.one": "1 word",
   "reaction.basis.exact": "Exact: the runs with and without the error were compared.",
-  "reaction.basis.static": "Static: the program text says it, as it did not happen within the window.",
-  "reaction.carried": "Still different when the window ended, and decides an output",
+  "reaction.basis.static":
+    "Static: taken from the program text. It did not happen within the window, and may never happen.",
+  "reaction.carried": "Still different when the window ended: from the program text, it may decide an output later",
   "reaction.carried.since": "since scan {scan}, read at",
   "reaction.carried.unread": "since scan {scan}",
   "reaction.decidedby": "Executed in one of the two runs only",
@@ -168,7 +169,7 @@ export const errors = {
   "reaction.recording.about":
     "The program also runs without the error, for comparison. The result is shown when the window is over.",
   "reaction.says.decided":
-    "No output changed in {window} scans, but state that an output depends on did, or a statement that writes an output ran because of the error.",
+    "No output changed in {window} scans, but state that an output may depend on later did, or a statement that writes an output ran because of the error.",
   "reaction.says.displayed":
     "The error reached memory that only panels and other tools read: no decision used it in {window} scans.",
   "reaction.says.never_read": "No statement read {flag}, its code or its details in {window} scans.",

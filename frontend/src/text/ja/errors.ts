@@ -140,8 +140,9 @@ export const errors: Record<keyof typeof english, string> = {
   "preview.words": "{count} ワード",
   "preview.words.one": "1 ワード",
   "reaction.basis.exact": "厳密: 異常ありとなしの実行を比較した結果です。",
-  "reaction.basis.static": "静的: 期間内に起きなかったため、プログラムの文から判断しています。",
-  "reaction.carried": "期間の終わりでも異なり、出力を決めるもの",
+  "reaction.basis.static":
+    "静的: プログラムの文から判断しています。期間内には起きておらず、実際には起きない場合もあります。",
+  "reaction.carried": "期間の終わりでも異なるもの (プログラムの文では、後で出力を決める可能性があります)",
   "reaction.carried.since": "スキャン {scan} から、読出し箇所",
   "reaction.carried.unread": "スキャン {scan} から",
   "reaction.decidedby": "片方の実行でのみ実行",
@@ -166,7 +167,7 @@ export const errors: Record<keyof typeof english, string> = {
   "reaction.recording": "記録中",
   "reaction.recording.about": "異常なしの実行と比較しています。期間が終わると判明します。",
   "reaction.says.decided":
-    "{window} スキャンの間に出力は変わりませんが、出力を決める状態が変わったか、出力を書き込む文が異常によって実行されました。",
+    "{window} スキャンの間に出力は変わりませんが、後で出力を決める可能性のある状態が変わったか、出力を書き込む文が異常によって実行されました。",
   "reaction.says.displayed":
     "表示器などのツールだけが読むメモリに達しましたが、{window} スキャンの間何も決めていません。",
   "reaction.says.never_read": "{window} スキャンの間、{flag}、コード、詳細のどれも読まれませんでした。",
