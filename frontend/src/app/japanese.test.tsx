@@ -103,8 +103,10 @@ function busy(server: FakeServer): void {
   }));
 }
 
+/** Pages of the help are English, and say so. */
 function englishIn(root: Element): string[] {
-  const texts = [...root.querySelectorAll("*")].flatMap((element) => [
+  const elements = [...root.querySelectorAll("*")].filter((element) => !element.closest("[lang=en]"));
+  const texts = elements.flatMap((element) => [
     ...[...element.childNodes].filter((node) => node instanceof Text).map((node) => node.data),
     ...READ_ALOUD.map((name) => element.getAttribute(name) ?? ""),
   ]);

@@ -5,7 +5,7 @@
 import { forgetSame, keep, keysOf, recall } from "../page/localStorage";
 
 /** What the server did not acknowledge of a draft. */
-export interface Unsent {
+interface Unsent {
   draft: string;
   update: string;
   /** The text of the draft with it. */

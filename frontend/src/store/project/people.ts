@@ -5,6 +5,7 @@ import type { Here, People, Person } from "../../wire/types";
 import { openFile } from "../page/navigate";
 import { chooseInstance, refreshApp, useBench } from "../plc/bench";
 import { usePlc } from "../plc/plc";
+import { onInstanceChange } from "../plc/reset";
 import { useDocuments } from "./documentState";
 
 interface Known {
@@ -50,6 +51,10 @@ function tell(): void {
 
 useDocuments.subscribe(({ active }, before) => {
   if (active === null && before.active !== null) tellHere(NOWHERE);
+});
+
+onInstanceChange(({ otherProject }) => {
+  if (otherProject) set({ you: 0, people: [], following: null });
 });
 
 // A new connection is of somebody of whom the server knows nothing yet.
