@@ -96,6 +96,7 @@ test('inputs, memory and results are disturbed: everybody sees the disturbances,
 
   await test.step('in the past nothing can be disturbed', async () => {
     await mika.timeline.click(0.5);
+    await mika.page.getByRole('button', { name: 'Show everybody' }).click();
     await expect(mika.timeline.banner).toBeVisible();
     await expect(disturb.button).toBeDisabled();
     await mika.timeline.returnToLive();

@@ -73,6 +73,8 @@ export const project = {
   "diagnostics.clear": "Clear",
   "diagnostics.clear.hint": "Clears the list for everybody and sets _SubrangeError to FALSE",
   "diagnostics.count": "{count} violations",
+  "diff.left": "Text on the left",
+  "diff.right": "Text on the right",
   "diagnostics.dropped": "The list is full. {dropped} more violations were not recorded.",
   "diagnostics.encheck": "EN_CHECK: ENO was FALSE",
   "diagnostics.inscans": "Scans {scans}",

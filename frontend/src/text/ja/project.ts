@@ -75,6 +75,8 @@ export const project: Record<keyof typeof english, string> = {
   "diagnostics.clear": "消去",
   "diagnostics.clear.hint": "全員の一覧を空にし、_SubrangeError を FALSE にします",
   "diagnostics.count": "違反 {count} 件",
+  "diff.left": "左の内容",
+  "diff.right": "右の内容",
   "diagnostics.dropped": "一覧がいっぱいです。さらに {dropped} 件の違反は載っていません。",
   "diagnostics.encheck": "EN_CHECK: ENO が FALSE",
   "diagnostics.inscans": "スキャン {scans}",

@@ -1,5 +1,6 @@
 import { useEffect, useRef } from "react";
 import { useDocuments } from "../../../store/project/documents";
+import { t } from "../../../text";
 import { modelOf } from "./models";
 import { editor, endComparison, monospaceFont, options } from "./monaco";
 import { LANGUAGE } from "./st";
@@ -16,6 +17,8 @@ export default function DiffView({ path, theirs }: { path: string; theirs: strin
       fontFamily: monospaceFont(),
       originalEditable: false,
       renderSideBySide: true,
+      originalAriaLabel: t("diff.left"),
+      modifiedAriaLabel: t("diff.right"),
       useInlineViewWhenSpaceIsLimited: false,
     });
     const diff = view.createViewModel({ original, modified: modelOf(path, mine.text) });

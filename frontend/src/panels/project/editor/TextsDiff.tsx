@@ -1,4 +1,5 @@
 import { useEffect, useRef } from "react";
+import { t } from "../../../text";
 import { editor, endComparison, monospaceFont, options } from "./monaco";
 import { LANGUAGE } from "./st";
 
@@ -14,6 +15,8 @@ export default function TextsDiff({ before, after }: { before: string; after: st
       originalEditable: false,
       readOnly: true,
       renderSideBySide: true,
+      originalAriaLabel: t("diff.left"),
+      modifiedAriaLabel: t("diff.right"),
       hideUnchangedRegions: { enabled: true },
     });
     const diff = view.createViewModel({ original, modified });
