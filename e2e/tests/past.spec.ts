@@ -48,9 +48,12 @@ test('what changed in a range of scans that is selected by keyboard', { tag: '@n
   await ann.watch.set('start', 'TRUE');
   await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(1);
   await ann.top.press('Pause');
-  await ann.timeline.mark(/Write: .*start/).click();
+  const mark = ann.timeline.mark(/Write: .*start/);
+  const written = numberIn(/before scan ([\d,]+)/, await mark.getAttribute('aria-label'));
+  await mark.click();
   await expect(ann.timeline.banner).toBeVisible();
-  const before = (await ann.timeline.position()) - 1;
+  await expect.poll(() => ann.timeline.position()).toBe(written);
+  const before = written - 1;
 
   await ann.timeline.axis.focus();
   await ann.page.keyboard.press('ArrowLeft');
@@ -240,3 +243,8 @@ test('the past before a build shows the text, the values and the version of its 
 
 /** A number as the page shows it, with thin gaps. */
 const grouped = (scan: number) => String(scan).replace(/\B(?=(\d{3})+(?!\d))/g, ',');
+
+/** The number that a text names, which is grouped for people. */
+function numberIn(pattern: RegExp, text: string | null): number {
+  return Number(pattern.exec(text ?? '')?.[1]?.replaceAll(',', ''));
+}
