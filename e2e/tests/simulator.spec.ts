@@ -73,7 +73,7 @@ test('a group and two more errors are raised in one scan, with their details; th
     for (const name of [MEMORY, SETUP, BASIC]) {
       await simulator.select(name);
       await expect(simulator.error(name)).toContainText('Generated');
-      const said = /before scan ([\d\s]+)\./.exec((await simulator.details.textContent()) ?? '')?.[1] ?? '';
+      const said = /before scan ([\d,]+)\./.exec((await simulator.details.textContent()) ?? '')?.[1] ?? '';
       expect(said).not.toBe('');
       scans.push(said);
     }

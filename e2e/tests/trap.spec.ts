@@ -61,7 +61,7 @@ test('a program with a run-time error stops with file and line, and no other PLC
       await expect(mika.top.state).toContainText('Trapped');
       await expect(mika.banner).toContainText('A run-time error stopped the program.');
       await expect(mika.banner).toContainText(said);
-      await expect(mika.banner).toContainText(/ at Main\.st:9 in scan [\d\s]+\./);
+      await expect(mika.banner).toContainText(/ at Main\.st:9 in scan [\d,]+\./);
       await expect(main.region.locator('.trapline')).toBeVisible();
       await expect(main.region.locator('.traparrow')).toBeVisible();
       await mika.banner.getByRole('button', { name: 'Main.st:9' }).click();
