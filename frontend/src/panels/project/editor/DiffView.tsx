@@ -1,8 +1,7 @@
 import { useEffect, useRef } from "react";
 import { useDocuments } from "../../../store/project/documents";
-import { t } from "../../../text";
 import { modelOf } from "./models";
-import { editor, endComparison, monospaceFont, options } from "./monaco";
+import { editor, endComparison, monospaceFont, nameSides, options } from "./monaco";
 import { LANGUAGE } from "./st";
 
 /** The other text on the left, one's own on the right, still editable. */
@@ -17,12 +16,11 @@ export default function DiffView({ path, theirs }: { path: string; theirs: strin
       fontFamily: monospaceFont(),
       originalEditable: false,
       renderSideBySide: true,
-      originalAriaLabel: t("diff.left"),
-      modifiedAriaLabel: t("diff.right"),
       useInlineViewWhenSpaceIsLimited: false,
     });
     const diff = view.createViewModel({ original, modified: modelOf(path, mine.text) });
     view.setModel(diff);
+    nameSides(view);
     return () => {
       endComparison(view);
       // Cancels a running comparison, which would access the text that is disposed of now.

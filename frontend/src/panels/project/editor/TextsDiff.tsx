@@ -1,6 +1,5 @@
 import { useEffect, useRef } from "react";
-import { t } from "../../../text";
-import { editor, endComparison, monospaceFont, options } from "./monaco";
+import { editor, endComparison, monospaceFont, nameSides, options } from "./monaco";
 import { LANGUAGE } from "./st";
 
 /** Two texts beside each other, to be read. */
@@ -15,12 +14,11 @@ export default function TextsDiff({ before, after }: { before: string; after: st
       originalEditable: false,
       readOnly: true,
       renderSideBySide: true,
-      originalAriaLabel: t("diff.left"),
-      modifiedAriaLabel: t("diff.right"),
       hideUnchangedRegions: { enabled: true },
     });
     const diff = view.createViewModel({ original, modified });
     view.setModel(diff);
+    nameSides(view);
     return () => {
       endComparison(view);
       // Cancels a running comparison, which would access the texts that are disposed of now.

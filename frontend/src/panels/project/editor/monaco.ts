@@ -3,6 +3,7 @@ import "monaco-editor/features/register.all";
 import { editor, languages } from "monaco-editor/editor";
 import EditorWorker from "monaco-editor/editor/editor.worker?worker";
 import { usePrefs } from "../../../store/page/prefs";
+import { t } from "../../../text";
 import { configuration, LANGUAGE, tokenizer } from "./st";
 
 self.MonacoEnvironment = { getWorker: () => new EditorWorker() };
@@ -197,6 +198,12 @@ export function monospaceFont(): string {
 
 export type { IPosition, IRange, ISelection } from "monaco-editor/editor";
 export { Emitter, editor, KeyCode, KeyMod, languages, MarkerSeverity, Uri } from "monaco-editor/editor";
+
+/** For who hears the page. The options of a comparison that say so do not reach its editors. */
+export function nameSides(view: editor.IStandaloneDiffEditor): void {
+  view.getOriginalEditor().updateOptions({ ariaLabel: t("diff.left") });
+  view.getModifiedEditor().updateOptions({ ariaLabel: t("diff.right") });
+}
 
 /** Ends a comparison of two texts. Its editors made all hovers depend on them; one that is made after it frees them again. */
 export function endComparison(view: editor.IStandaloneDiffEditor): void {
