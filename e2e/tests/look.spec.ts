@@ -1,40 +1,5 @@
-import AxeBuilder from '@axe-core/playwright';
 import { expect, test } from '../fixtures/test';
 import type { Ide } from '../pages/ide';
-
-const THEMES = ['dark', 'light', 'high contrast'];
-
-test('accessibility: no serious finding in any theme', { tag: '@nightly' }, async ({ openAs }) => {
-  const mika = await openAs('Mika');
-  await mika.runs();
-  await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();
-  await mika.watch.set('start', 'TRUE');
-  await mika.watch.fromMenu('lamp', 'Force to FALSE');
-  await mika.watch.add('motr');
-  await mika.simulator.generate('Basic I/O Unit error');
-  for (const theme of THEMES) {
-    await test.step(theme, async () => {
-      await mika.top.chooseTheme(theme);
-      expect(await findings(mika)).toEqual([]);
-    });
-  }
-  await test.step('the other panels', async () => {
-    await mika.problems.show();
-    await mika.showPanel('History');
-    expect(await findings(mika)).toEqual([]);
-    await mika.showPanel('Events');
-    expect(await findings(mika)).toEqual([]);
-  });
-  await test.step('the past, and the list of instances', async () => {
-    await mika.timeline.click(0.5);
-    await expect(mika.timeline.banner).toBeVisible();
-    expect(await findings(mika)).toEqual([]);
-    await mika.timeline.returnToLive();
-    await mika.top.showInstances();
-    await expect(mika.instances.row('line-1')).toBeVisible();
-    expect(await findings(mika)).toEqual([]);
-  });
-});
 
 test('at 1024 x 700 everything is in reach', async ({ openAs }) => {
   const mika = await openAs('Mika');
@@ -136,15 +101,6 @@ test('by keyboard alone', async ({ openAs }) => {
     await mika.runs();
   });
 });
-
-async function findings(ide: Ide): Promise<string[]> {
-  const { violations } = await new AxeBuilder({ page: ide.page }).analyze();
-  return violations
-    .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-    .flatMap(({ id, nodes }) =>
-      nodes.map((node) => `${id}: ${node.target.join(' ')} ${node.any[0]?.message ?? node.all[0]?.message ?? ''}`),
-    );
-}
 
 /** The panes that a key visits until it comes back to one already seen. */
 async function roundOfPanes(ide: Ide, key: string): Promise<string[]> {

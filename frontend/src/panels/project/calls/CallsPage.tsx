@@ -11,9 +11,10 @@ import {
   useCalls,
 } from "../../../store/project/calls";
 import { t } from "../../../text";
-import { Icon, type IconName } from "../../../ui/Icon";
+import type { IconName } from "../../../ui/Icon";
 import { Segments } from "../../../ui/Segments";
 import { Tree, type TreeRow } from "../../../ui/Tree";
+import { Trouble } from "../../../ui/Trouble";
 import { PastNote } from "../PastNote";
 
 /** By the kinds of symbols of LSP: class, method, function; a program is a module. */
@@ -37,12 +38,7 @@ export function CallsPage() {
         />
       </div>
       <PastNote of="cross" />
-      {trouble !== null && (
-        <p className="trouble st fatal" role="alert">
-          <Icon name="error" small />
-          <span>{trouble}</span>
-        </p>
-      )}
+      <Trouble text={trouble} />
       {state === "asking" && trouble === null && <p className="lonely faint">{t("calls.asking")}</p>}
       {state === "nothing" && <p className="lonely faint">{t("calls.nothing")}</p>}
       {root && rows.length === 1 && trouble === null && (

@@ -6,6 +6,7 @@ import { showWriter } from "../../../store/past/writer";
 import { type CrossReference, followTexts, showUnused, type Unused, useCross } from "../../../store/project/cross";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
+import { Trouble } from "../../../ui/Trouble";
 import { useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
 import { PastNote } from "../PastNote";
@@ -39,12 +40,7 @@ export function CrossPage() {
         )}
       </div>
       <PastNote of="cross" />
-      {trouble !== null && (
-        <p className="trouble st fatal" role="alert">
-          <Icon name="error" small />
-          <span>{trouble}</span>
-        </p>
-      )}
+      <Trouble text={trouble} />
       {state === "there" && !complete && (
         <p className="trouble st warning" role="status">
           <Icon name="warning" small />

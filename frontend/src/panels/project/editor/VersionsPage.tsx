@@ -3,8 +3,8 @@ import { dayTime } from "../../../logic/format/numbers";
 import { commitOf, type Difference, type Side, sideOf, sideOfCommit } from "../../../logic/project/versions";
 import { choose, followVersions, takeVersion, useVersions } from "../../../store/project/versions";
 import { t } from "../../../text";
-import { Icon } from "../../../ui/Icon";
 import { later } from "../../../ui/later";
+import { Trouble } from "../../../ui/Trouble";
 import { VersionsGit } from "./VersionsGit";
 import { VersionsHistory } from "./VersionsHistory";
 import "./versions.css";
@@ -29,12 +29,7 @@ export function VersionsPage() {
         )}
       </div>
       {git && <VersionsGit status={git} />}
-      {trouble && (
-        <p className="trouble st fatal" role="alert">
-          <Icon name="error" small />
-          <span>{trouble}</span>
-        </p>
-      )}
+      <Trouble text={trouble} />
       {!any && <p className="lonely faint">{t("versions.none")}</p>}
       {any && (
         <div className="beside">
