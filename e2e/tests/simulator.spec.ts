@@ -13,7 +13,7 @@ test('a group and two more errors are raised in one scan, with their details; th
   const { simulator } = mika;
 
   await test.step('while no error was raised yet, the panel says how to begin', async () => {
-    await expect(mika.page.getByRole('region', { name: 'No error raised yet' })).toBeVisible();
+    await expect(mika.page.getByRole('region', { name: 'No error raised with this program yet' })).toBeVisible();
     await expect(simulator.error(BATTERY)).toContainText('Never');
   });
 

@@ -104,12 +104,12 @@ class Effects:
         return found
 
     def displayed(self) -> tuple[str, ...]:
-        """What differed at any time and only tools read; the first of them."""
+        """What differed at any time and only tools read, no output; the first of them."""
+        deciding = self._variables.deciding
         ordered = sorted(self._found.values(), key=lambda each: each.scan)[:SHOWN]
         leaves = (self._leaves[each.path] for each in ordered)
-        return tuple(
-            dict.fromkeys(self._variables.word_of(leaf) for leaf in leaves if self._variables.deciding.shows(leaf))
-        )
+        shown = (leaf for leaf in leaves if deciding.shows(leaf) and not deciding.acts(leaf))
+        return tuple(dict.fromkeys(map(self._variables.word_of, shown)))
 
     @property
     def count(self) -> int:

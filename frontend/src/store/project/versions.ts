@@ -42,6 +42,7 @@ const get = useVersions.getState;
 const set = useVersions.setState;
 type Texts = Readonly<Record<string, string>>;
 const texts = new Map<Side, Texts>();
+const saved = new Map<string, { version: number; text: string }>();
 let turn = 0;
 
 /** Shows what is different now from the last version that was built. */
@@ -59,17 +60,15 @@ let shown = false;
 /** The page is in sight: it follows what is edited, saved and built, until the returned function is called. */
 export function followVersions(): () => void {
   shown = true;
-  void guarded(again);
+  void guarded(async () => {
+    await refresh();
+    const { before, after, all } = get();
+    if (before === "now" && after === "now") set({ before: all[0]?.version ?? "now" });
+    await compare();
+  });
   return () => {
     shown = false;
   };
-}
-
-async function again(): Promise<void> {
-  await refresh();
-  const { before, after, all } = get();
-  if (before === "now" && after === "now") set({ before: all[0]?.version ?? "now" });
-  await compare();
 }
 
 async function refresh(): Promise<void> {
@@ -108,13 +107,21 @@ async function textsOf(side: Side, withPanels: boolean): Promise<Texts> {
     return withPanels ? known : Object.fromEntries(Object.entries(known).filter(([path]) => !isPanelFile(path)));
   }
   const now: Record<string, string> = {};
-  for (const { path } of files) {
+  for (const { path, version } of files) {
     if (isPanelFile(path) && !withPanels) continue;
-    const text = textHere(path) ?? (await savedText(path));
-    if (text === null) throw new Error(path);
-    now[path] = text;
+    now[path] = textHere(path) ?? (await savedOf(path, version));
   }
   return now;
+}
+
+/** A saved text does not change; it is asked for once, as each key that is typed compares again. */
+async function savedOf(path: string, version: number): Promise<string> {
+  const known = saved.get(path);
+  if (known?.version === version) return known.text;
+  const text = await savedText(path);
+  if (text === null) throw new Error(path);
+  saved.set(path, { version, text });
+  return text;
 }
 
 async function storedTexts(project: number, side: Exclude<Side, "now">): Promise<Texts> {
@@ -189,13 +196,17 @@ async function guarded(deed: () => Promise<void>): Promise<void> {
   }
 }
 
-/** What is edited, saved or built while the page is there changes what is compared, what a commit would keep, and the versions. */
-const follow = spaced(() => void guarded(again), 300);
+const compareSoon = spaced(() => void guarded(compare), 300);
+/** What is saved or built changes what a commit would keep, and the versions. */
+const refreshSoon = spaced(() => void guarded(refresh), 300);
 useDocuments.subscribe(({ project, files, open, build }, before) => {
   if (project !== before.project) {
     texts.clear();
+    saved.clear();
     set(nothing);
     return;
   }
-  if (shown && (files !== before.files || open !== before.open || build !== before.build)) follow();
+  if (!shown) return;
+  if (files !== before.files || build !== before.build) refreshSoon();
+  if (files !== before.files || open !== before.open) compareSoon();
 });

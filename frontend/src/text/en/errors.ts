@@ -113,7 +113,7 @@ export const errors = {
   "errors.start.see": "Reaction",
   "errors.start.see.rest":
     "then shows what the program did, by grade: acted, decided, displayed, stored, read without effect, did not reach the statement that reads it, or never reads it.",
-  "errors.start.title": "No error raised yet",
+  "errors.start.title": "No error raised with this program yet",
   "errors.user": "User-defined",
   "preview.all": "All {count}",
   "preview.change": "What changing the details would write",

@@ -178,7 +178,7 @@ export const sweep = {
   "sweep.says.decided":
     "No output changed in {window} scans, but state that an output depends on did, or a statement that writes an output ran because of the error.",
   "sweep.says.displayed":
-    "The error reached memory that only panels and other tools read: no decision used it in {window} scans.",
+    "Memory that only panels and other tools read changed in {window} scans, and nothing that an output depends on.",
   "sweep.says.never_read":
     "The program ran {window} scans with this error, and no statement read its flag, its code or its details.",
   "sweep.says.not_reached": "A statement reads the error, but it was not executed in {window} scans.",
@@ -187,9 +187,9 @@ export const sweep = {
   "sweep.says.stored_only":
     "The error was first read in scan {read}, but only stored: no decision used it in {window} scans.",
   "sweep.says.no_effect": "The error was first read in scan {read}, but nothing else changed in {window} scans.",
-  "sweep.says.reacted": "Another variable changed after {scans} scans; the error was first read in scan {read}.",
-  "sweep.says.reacted.one": "Another variable changed in the first scan.",
-  "sweep.says.reacted.unread": "Another variable changed after {scans} scans, although no statement read the error.",
+  "sweep.says.reacted": "The program acted after {scans} scans; the error was first read in scan {read}.",
+  "sweep.says.reacted.one": "The program acted in the first scan.",
+  "sweep.says.reacted.unread": "The program acted after {scans} scans, although no statement read the error.",
   "sweep.says.stopped": "A fatal error stopped the PLC, so the program could not react.",
   "sweep.scan": "1 scan",
   "sweep.scans": "{count} scans",

@@ -115,7 +115,7 @@ export const errors: Record<keyof typeof english, string> = {
   "errors.start.see": "反応",
   "errors.start.see.rest":
     "プログラムの動作が段階で表示されます（動作・判断・表示・保存のみ・影響なし・未到達・未参照）。",
-  "errors.start.title": "まだ異常を発生させていません",
+  "errors.start.title": "このプログラムではまだ異常を発生させていません",
   "errors.user": "ユーザー定義",
   "preview.all": "全 {count} 件",
   "preview.change": "詳細の変更で書き込まれる内容",

@@ -173,7 +173,8 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.runs": "{total} 回中 {done} 回",
   "sweep.says.decided":
     "{window} スキャンの間に出力は変わりませんが、出力を決める状態が変わったか、出力を書き込む文が異常によって実行されました。",
-  "sweep.says.displayed": "表示器などのツールだけが読むメモリに達しましたが、{window} スキャンの間何も決めていません。",
+  "sweep.says.displayed":
+    "{window} スキャンの間に変わったのは、表示器などのツールだけが読むメモリです。出力を決めるものは変わっていません。",
   "sweep.says.never_read":
     "この異常のまま {window} スキャン実行しましたが、フラグ、コード、詳細を参照した文はありません。",
   "sweep.says.not_reached": "参照する文はありますが、{window} スキャンの間に実行されませんでした。",
@@ -182,9 +183,9 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.says.stored_only":
     "スキャン {read} で初めて参照されましたが、保存されただけで、{window} スキャンの間何も決めていません。",
   "sweep.says.no_effect": "スキャン {read} で初めて参照されましたが、{window} スキャンの間、ほかに違いはありません。",
-  "sweep.says.reacted": "{scans} スキャン後に違いが現れました。初めて参照されたのはスキャン {read} です。",
-  "sweep.says.reacted.one": "最初のスキャンで違いが現れました。",
-  "sweep.says.reacted.unread": "参照した文はありませんが、{scans} スキャン後に違いが現れました。",
+  "sweep.says.reacted": "{scans} スキャン後にプログラムが動作しました。初めて参照されたのはスキャン {read} です。",
+  "sweep.says.reacted.one": "最初のスキャンでプログラムが動作しました。",
+  "sweep.says.reacted.unread": "参照した文はありませんが、{scans} スキャン後にプログラムが動作しました。",
   "sweep.says.stopped": "運転停止異常: PLC が停止したため、プログラムは反応できません。",
   "sweep.scan": "1 スキャン",
   "sweep.scans": "{count} スキャン",
