@@ -1,5 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 import { Editor } from './editor';
+import { toFront } from './tabs';
 
 /** The debugger: the gutter of an editor, call stack, variables, breakpoints, console. */
 export class Debug {
@@ -83,7 +84,7 @@ export class Debug {
   }
 
   async showConsole(): Promise<Locator> {
-    await this.page.getByRole('tab', { name: 'Console', exact: true }).click();
+    await toFront(this.page.getByRole('tab', { name: 'Console', exact: true }));
     return this.page.getByRole('log', { name: 'Console' });
   }
 

@@ -1,4 +1,5 @@
 import type { Locator, Page } from '@playwright/test';
+import { toFront } from './tabs';
 
 /** Subrange violations that the embedded checks found while the program ran. */
 export class Diagnostics {
@@ -21,6 +22,6 @@ export class Diagnostics {
   }
 
   async show(): Promise<void> {
-    await this.tab.click();
+    await toFront(this.tab);
   }
 }

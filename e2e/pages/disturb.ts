@@ -1,4 +1,5 @@
 import { expect, type Locator, type Page } from '@playwright/test';
+import { toFront } from './tabs';
 
 type Kind = 'Bit flip' | 'Late input' | 'Stuck input' | 'Corrupted result';
 
@@ -11,7 +12,7 @@ export class Disturb {
   }
 
   async show(): Promise<void> {
-    await this.page.getByRole('tab', { name: 'Disturbances', exact: true }).click();
+    await toFront(this.page.getByRole('tab', { name: 'Disturbances', exact: true }));
     await expect(this.pane).toBeVisible();
   }
 

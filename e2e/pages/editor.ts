@@ -1,5 +1,6 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 import type { Server } from '../fixtures/server';
+import { toFront } from './tabs';
 
 /** The editor of one file, with Save and Build. */
 export class Editor {
@@ -91,7 +92,7 @@ export class Editor {
   }
 
   async open(): Promise<void> {
-    await this.tab.click();
+    await toFront(this.tab);
     await expect(this.text).toBeAttached();
   }
 

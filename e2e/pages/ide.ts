@@ -9,6 +9,7 @@ import { Past } from './past';
 import { Problems } from './problems';
 import { Simulator } from './simulator';
 import { Sweeps } from './sweep';
+import { toFront } from './tabs';
 import { Timeline } from './timeline';
 import { TopBar } from './topbar';
 import { Watch } from './watch';
@@ -66,7 +67,7 @@ export class Ide {
   }
 
   async showPanel(name: 'Watch' | 'Events' | 'Error simulator' | 'History'): Promise<void> {
-    await this.page.getByRole('tab', { name, exact: true }).click();
+    await toFront(this.page.getByRole('tab', { name, exact: true }));
   }
 
   /** The name of the pane with the focus; empty when none has it. */

@@ -1,4 +1,5 @@
 import type { Locator, Page } from '@playwright/test';
+import { toFront } from './tabs';
 
 interface Shown {
   squiggle: number;
@@ -22,7 +23,7 @@ export class Problems {
   }
 
   async show(): Promise<void> {
-    await this.tab.click();
+    await toFront(this.tab);
   }
 
   /** Milliseconds from the next key to its squiggle and its entry in the list, measured inside the page. */

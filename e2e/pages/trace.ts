@@ -1,5 +1,6 @@
 import { readFile } from 'node:fs/promises';
 import { expect, type Locator, type Page } from '@playwright/test';
+import { toFront } from './tabs';
 
 /** The trace: signals over scans, recorded in the PLC. */
 export class Trace {
@@ -10,7 +11,7 @@ export class Trace {
   }
 
   async show(): Promise<void> {
-    await this.page.getByRole('tab', { name: 'Trace', exact: true }).click();
+    await toFront(this.page.getByRole('tab', { name: 'Trace', exact: true }));
     await expect(this.pane).toBeVisible();
   }
 

@@ -1,5 +1,6 @@
 import { readFile } from 'node:fs/promises';
 import { expect, type Locator, type Page } from '@playwright/test';
+import { toFront } from './tabs';
 
 /** The verification: the program executed twice, A beside A'. */
 export class Verify {
@@ -10,7 +11,7 @@ export class Verify {
   }
 
   async show(): Promise<void> {
-    await this.page.getByRole('tab', { name: 'Verification', exact: true }).click();
+    await toFront(this.page.getByRole('tab', { name: 'Verification', exact: true }));
     await expect(this.pane).toBeVisible();
   }
 

@@ -1,4 +1,5 @@
 import { expect, test } from '../fixtures/test';
+import { toFront } from '../pages/tabs';
 
 test('a file that somebody deletes closes for the others, but their edited text stays', { tag: '@nightly' }, async ({
   openAs,
@@ -31,7 +32,7 @@ test('a file that somebody deletes closes for the others, but their edited text 
 
   await test.step('it also stays after a reload', async () => {
     await jo.page.reload();
-    await gate.tab.click();
+    await toFront(gate.tab);
     await expect(gate.note).toContainText('FB_Gate.st was deleted in the meantime.');
     await expect(gate.line('(* mine *)')).toBeVisible();
   });

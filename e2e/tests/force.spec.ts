@@ -1,4 +1,5 @@
 import { expect, test } from '../fixtures/test';
+import { toFront } from '../pages/tabs';
 
 test('a forced output keeps its value until the force is released', async ({ openAs }) => {
   const mika = await openAs('Mika');
@@ -39,14 +40,14 @@ test('a forced output keeps its value until the force is released', async ({ ope
     await expect(jo.page.getByTestId('now:motor')).toHaveText('FALSE');
     await expect(jo.forces.cell('motor', 'After program')).toHaveText('TRUE');
     await expect(jo.forces.cell('motor', 'After force')).toHaveText('FALSE');
-    await jo.page.getByRole('tab', { name: 'Watch', exact: true }).click();
+    await toFront(jo.page.getByRole('tab', { name: 'Watch', exact: true }));
     await expect(jo.watch.row('motor')).toContainText('program writes TRUE');
     await jo.watch.fromMenu('lamp', 'Force to FALSE');
     await mika.page.getByRole('button', { name: '2 forced' }).click();
     await expect(mika.forces.row('lamp')).toContainText('Ada');
     await mika.forces.release('lamp');
     await expect(jo.watch.releaseOf('lamp')).toBeHidden();
-    await mika.page.getByRole('tab', { name: 'Watch', exact: true }).click();
+    await toFront(mika.page.getByRole('tab', { name: 'Watch', exact: true }));
   });
 
   await test.step('after the release it follows the program', async () => {

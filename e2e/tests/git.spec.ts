@@ -2,6 +2,7 @@ import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, test } from '../fixtures/test';
+import { toFront } from '../pages/tabs';
 
 test('a project is committed, and what another program committed in its folder is seen and taken', {
   tag: '@nightly',
@@ -36,9 +37,9 @@ test('a project is committed, and what another program committed in its folder i
   });
 
   await test.step('what is edited is compared with a commit', async () => {
-    await page.getByRole('tab', { name: 'Main.st' }).click();
+    await toFront(page.getByRole('tab', { name: 'Main.st' }));
     await main.addBelow('motor := station.run;', '  lamp := NOT motor;');
-    await page.getByRole('tab', { name: 'Versions' }).click();
+    await toFront(page.getByRole('tab', { name: 'Versions' }));
     await history.getByRole('button', { name: /The line as it was delivered/ }).click();
     await expect(pane.getByRole('list', { name: 'Files that differ' })).toHaveText('Main.stchanged');
     await expect(pane.locator('.modified .view-line').filter({ hasText: 'lamp := NOT motor;' })).toBeVisible();
@@ -59,9 +60,9 @@ test('a project is committed, and what another program committed in its folder i
     await pane.getByRole('button', { name: 'Take this file' }).click();
     await expect(pane).toContainText('All files are the same in both.');
     await expect(page.getByRole('tab', { name: 'Main.st, Not saved' })).toBeVisible();
-    await page.getByRole('tab', { name: 'Main.st, Not saved' }).click();
+    await toFront(page.getByRole('tab', { name: 'Main.st, Not saved' }));
     await main.save();
-    await page.getByRole('tab', { name: 'Versions' }).click();
+    await toFront(page.getByRole('tab', { name: 'Versions' }));
     await expect(pane.getByRole('status')).toHaveCount(0);
     await expect(pane).toContainText('nothing to commit');
   });

@@ -1,4 +1,5 @@
 import { expect, test } from '../fixtures/test';
+import { toFront } from '../pages/tabs';
 
 const PANELS = {
   Watch: 'The watch table and the forces',
@@ -23,14 +24,18 @@ test('F1 explains every panel, and links and the search lead on', { tag: '@night
   for (const [panel, title] of Object.entries(PANELS)) {
     await test.step(panel, async () => {
       const tab = page.getByRole('tab', { name: panel, exact: true });
-      await tab.click();
+      await toFront(tab);
       await tab.focus();
       await page.keyboard.press('F1');
       await expect(article.getByRole('heading', { level: 1 })).toHaveText(title);
+      // What is explained stays in sight.
+      await expect(tab).toHaveAttribute('aria-selected', 'true');
     });
   }
 
   await test.step('the block at the caret', async () => {
+    // It was covered: at the right, where the help is else, the error simulator is explained.
+    await toFront(mika.editor('Main.st').tab);
     await mika.editor('Main.st').line('consume   : TON').first().click();
     await page.keyboard.press('Home');
     for (let step = 0; step < 12; step += 1) await page.keyboard.press('ArrowRight');

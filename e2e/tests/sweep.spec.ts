@@ -1,4 +1,5 @@
 import { expect, test } from '../fixtures/test';
+import { toFront } from '../pages/tabs';
 
 test('every error from two states: unhandled ones are found, inspected, accepted, corrected, and compared', {
   tag: '@nightly',
@@ -61,7 +62,7 @@ test('every error from two states: unhandled ones are found, inspected, accepted
     await reader.click();
     await expect(ann.editor('ErrorHandler.st').line('any := basicIoError')).toBeVisible();
     await expect(ann.statusBar).toContainText(`Ln ${line},`);
-    await sweeps.tab.click();
+    await toFront(sweeps.tab);
   });
 
   await test.step('by keyboard: to the cell, to its actions, and back', async () => {

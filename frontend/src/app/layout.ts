@@ -1,5 +1,5 @@
 /** The arrangement of panels: the default one, and the one kept in this browser. */
-import type { AddPanelPositionOptions, DockviewApi, SerializedDockview } from "dockview-react";
+import type { AddPanelPositionOptions, DockviewApi, IDockviewPanel, SerializedDockview } from "dockview-react";
 import { type PageName, pageOf } from "../store/page/navigate";
 
 const FILE = "file:";
@@ -101,17 +101,23 @@ export function openPagePanel(dock: DockviewApi, name: PageName): void {
   if (!panel.api.isMaximized()) panel.api.maximize();
 }
 
-/** The help is read beside what it is about: at the right, with the error simulator. */
+/** The help is read beside what it is about: at the right, with the error simulator; what is at the right itself is explained among the files. */
 function openHelp(dock: DockviewApi): void {
-  const beside = dock.getPanel("errors");
-  const active = dock.activePanel;
-  const position: AddPanelPositionOptions | undefined = beside
-    ? { referencePanel: beside }
-    : active && { referencePanel: active, direction: "right" };
-  const panel =
-    dock.getPanel("help") ?? dock.addPanel({ id: "help", component: "help", ...(position && { position }) });
-  if (dock.hasMaximizedGroup() && !panel.api.isMaximized()) dock.exitMaximizedGroup();
-  panel.api.setActive();
+  const known = dock.getPanel("help");
+  if (dock.hasMaximizedGroup() && !known?.api.isMaximized()) dock.exitMaximizedGroup();
+  const explained = dock.activePanel;
+  const covers = known && explained && explained !== known && explained.group === known.group;
+  if (covers) dock.removePanel(known);
+  const panel = covers ? undefined : known;
+  (panel ?? dock.addPanel({ id: "help", component: "help", ...helpPlace(dock, explained) })).api.setActive();
+}
+
+function helpPlace(dock: DockviewApi, explained?: IDockviewPanel): { position?: AddPanelPositionOptions } {
+  const right = dock.getPanel("errors");
+  const files = editorPlace(dock);
+  const neighbour = right?.group === explained?.group ? files : right && { referencePanel: right };
+  if (right && neighbour) return { position: neighbour };
+  return explained ? { position: { referencePanel: explained, direction: "right" } } : {};
 }
 
 /** Gives the active panel the whole dock, or brings the others back. */

@@ -44,6 +44,7 @@ type Texts = Readonly<Record<string, string>>;
 const texts = new Map<Side, Texts>();
 const saved = new Map<string, { version: number; text: string }>();
 let turn = 0;
+let asked = 0;
 
 /** Shows what is different now from the last version that was built. */
 export async function openVersions(): Promise<void> {
@@ -74,9 +75,12 @@ export function followVersions(): () => void {
 async function refresh(): Promise<void> {
   const { project } = useDocuments.getState();
   if (project === null) return;
+  asked += 1;
+  const mine = asked;
   const [all, status] = await Promise.all([rest.versions(project), git.status(project)]);
   const commits = status.head ? await git.commits(project) : [];
-  if (useDocuments.getState().project === project) set({ all, git: status, commits });
+  // An answer to an older question may come later.
+  if (mine === asked && useDocuments.getState().project === project) set({ all, git: status, commits });
 }
 
 export function choose(change: Partial<Pick<Versions, "before" | "after" | "chosen">>): void {

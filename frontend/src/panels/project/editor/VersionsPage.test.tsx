@@ -110,3 +110,22 @@ test("the page that was there at the start of a window finds its versions, and c
   act(() => edit("Main.st", "other"));
   await screen.findByText("stored -> other");
 });
+
+test("an answer that comes after a newer one is not shown", async () => {
+  const { prepare } = having(FOLDER);
+  const { server } = await openPage(prepare);
+  render(<VersionsPage />);
+  await openVersions();
+  let answerOld = () => {};
+  server.on("GET", "/projects/*/git", () => {
+    server.on("GET", "/projects/*/git", () => FOLDER);
+    return new Promise((answer) => {
+      answerOld = () => answer({ ...FOLDER, elsewhere: ["Main.st"] });
+    });
+  });
+  const older = openVersions();
+  await openVersions();
+  answerOld();
+  await act(() => older);
+  expect(screen.queryByText(t("git.elsewhere", { paths: "Main.st" }))).toBeNull();
+});
