@@ -340,8 +340,10 @@ class Sweeps:
             await running.job.end()
         with suppress(NotFound):  # deleted meanwhile
             change = partial(self._store.sweeps.change, id, status=status, message=message, seconds=seconds)
-            await self._tell(await asyncio.to_thread(change), "", [])
-            await self._show(running.row.project)
+            over = await asyncio.to_thread(change)
+            # Whoever hears of its end finds what it found out at the errors already.
+            await self._show(over.project)
+            await self._tell(over, "", [])
 
     async def _hear(self, running: _Running, make: Make) -> tuple[SweepStatus, str]:
         """Takes what the job says to its end; how it ended."""

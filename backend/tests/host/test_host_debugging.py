@@ -84,7 +84,7 @@ def test_what_is_changed_while_halted_is_seen_by_the_next_statement(tmp_path: Pa
         assert int(child.value("Main.c.total")) == before + 1000
         set_breakpoints(child, ())
         child.step("continue")
-        child.wait(protocol.PlcState, lambda state: state.state == "running" and not state.flavour)
+        child.until(lambda state: state.state == "running" and not state.flavour)
 
 
 def test_back_into_an_earlier_scan_and_forward_to_the_live_position(tmp_path: Path, cache: Path) -> None:
@@ -99,7 +99,7 @@ def test_back_into_an_earlier_scan_and_forward_to_the_live_position(tmp_path: Pa
         refused = child.ask(lambda ref: protocol.Submit(ref, Write("Ann", "Main.n", "7")), protocol.Ack)
         assert not refused.ok
         assert child.step("continue").ok
-        again = child.wait(protocol.PlcState, lambda state: state.halt is not None and not state.halt.past).halt
+        again = child.until(lambda state: state.halt is not None and not state.halt.past).halt
         assert again == live
 
 
@@ -155,16 +155,16 @@ def test_a_scan_on_in_the_past_leaves_the_statement_that_was_shown(tmp_path: Pat
             assert child.step(action).ok
         child.ask(lambda ref: protocol.Travel(ref, 9, "Ann"), protocol.Ack)
         assert child.step("in").ok
-        halt = child.wait(protocol.PlcState, lambda state: state.halt is not None and state.halt.scan == 9).halt
+        halt = child.until(lambda state: state.halt is not None and state.halt.scan == 9).halt
         assert halt is not None
         assert (halt.past, halt.count) == (True, 1)
         assert child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack).ok
-        state = child.wait(protocol.PlcState, lambda state: state.scan == 10)
+        state = child.until(lambda state: state.scan == 10)
         assert (state.state, state.halt) == ("past", None)
         refused = child.ask(debug_protocol.WantStack, protocol.Ack)
         assert "not halted" in refused.message
         assert child.step("continue").ok
-        again = child.wait(protocol.PlcState, lambda state: state.halt is not None and not state.halt.past).halt
+        again = child.until(lambda state: state.halt is not None and not state.halt.past).halt
         assert again == live
 
 
@@ -176,7 +176,7 @@ def test_the_program_can_be_halted_where_it_traps(tmp_path: Path, cache: Path) -
         assert (halt.reason, halt.scan, halt.span and halt.span.line) == ("trap", 49, 4)
         assert child.value("n", 0) == "0"
         child.step("continue")
-        state = child.wait(protocol.PlcState, lambda state: state.state in ("trapped", "fatal"))
+        state = child.until(lambda state: state.state in ("trapped", "fatal"))
         assert state.trap is not None
         assert (state.trap.line, state.halt) == (4, None)
 
