@@ -9,7 +9,8 @@ from scanbench.check.uses import Symbol
 from scanbench.language.called import block_of, calls_of, named, symbol_of
 from scanbench.language.navigate import definitions, family, named_at
 from scanbench.language.reading import Reading
-from scanbench.language.symbols import POUS, Entry, Extent, extents
+from scanbench.language.entry import Entry
+from scanbench.language.symbols import POUS, Extent, extents
 from scanbench.problems import Span
 from scanbench.syntax import tree
 

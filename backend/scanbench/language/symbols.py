@@ -1,20 +1,16 @@
 """What a file declares, as a tree, and what a project declares, by name."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal
 
 from scanbench.check.declare.names import qualified
 from scanbench.language.describe import written
+from scanbench.language.entry import Entry, EntryKind
+from scanbench.language.parts import parted
 from scanbench.language.reading import Reading
 from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.source import Stretch
 
-EntryKind = Literal[
-    "program", "function", "block", "class", "interface", "method", "property", "variable", "constant", "type", "enumeration",
-    "value", "member", "configuration", "task", "instance",
-]  # fmt: skip
 POUS: dict[str, EntryKind] = {
     "program": "program", "function": "function", "function_block": "block", "class": "class", "interface": "interface",
     "method": "method", "get": "property", "set": "property",
@@ -23,19 +19,6 @@ POUS: dict[str, EntryKind] = {
 
 Extent = tuple[int, int]
 """From one position to the next."""
-
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    name: str
-    kind: EntryKind
-    detail: str
-    span: Span
-    """Of the name."""
-    start: int
-    """Of the whole declaration, as far as that is known: positions in the file."""
-    end: int
-    inner: tuple["Entry", ...] = ()
 
 
 def extents(reading: Reading, file: str) -> dict[int, Extent]:
@@ -47,8 +30,8 @@ def extents(reading: Reading, file: str) -> dict[int, Extent]:
     }
 
 
-def entries(reading: Reading, file: str) -> list[Entry]:
-    """What a file declares, in its order."""
+def entries(reading: Reading, file: str, statements: bool = False) -> list[Entry]:
+    """What a file declares, in its order; perhaps with the statements that have others inside of them."""
     by_name = extents(reading, file)
     made: list[Entry] = []
     for chunk in reading.files[file].chunks:
@@ -59,7 +42,7 @@ def entries(reading: Reading, file: str) -> list[Entry]:
             made += [_variable(reading, file, each, section) for each in section.variables]
         for each in chunk.file.configurations:
             made.append(_configuration(reading, file, each, by_name))
-    return sorted(made, key=lambda each: each.start)
+    return parted(reading, file, made, list(reading.blocks(file)), statements)
 
 
 def _entry(
@@ -139,8 +122,11 @@ def find(reading: Reading, query: str, limit: int = 200) -> list[tuple[Entry, st
 
 
 def _named(entry: Entry, around: str) -> Iterator[tuple[Entry, str]]:
-    yield entry, around
+    if entry.kind != "section":
+        yield entry, around
     for each in entry.inner:
+        if entry.kind == "section":  # of global variables, which are found by their names
+            yield each, around
         if each.kind in ("method", "property", "value", "instance", "task"):
             yield each, entry.name
 

@@ -19,6 +19,7 @@ async def connected(
     capabilities: types.ClientCapabilities,
     on_register: Callable[[types.RegistrationParams], None],
     locale: str | None,
+    wanted: types.LSPAny = None,
 ) -> AsyncIterator[LanguageClient]:
     """Initialised; the server has ended afterwards."""
     client = make_test_lsp_client()
@@ -26,7 +27,9 @@ async def connected(
     await client.start_io(sys.executable, "-m", "scanbench", "lsp")
     root = types.WorkspaceFolder(folder.as_uri(), folder.name)
     await client.initialize_session(
-        types.InitializeParams(capabilities=capabilities, workspace_folders=[root], locale=locale)
+        types.InitializeParams(
+            capabilities=capabilities, workspace_folders=[root], locale=locale, initialization_options=wanted
+        )
     )
     try:
         yield client
@@ -41,11 +44,12 @@ def conversation(
     capabilities: types.ClientCapabilities | None = None,
     on_register: Callable[[types.RegistrationParams], None] = lambda _: None,
     locale: str | None = None,
+    wanted: types.LSPAny = None,
 ) -> A:
-    """What is said to a server of a folder, in a loop of its own."""
+    """What is said to a server of a folder, in a loop of its own; `wanted` are its options."""
 
     async def whole() -> A:
-        async with connected(folder, capabilities or types.ClientCapabilities(), on_register, locale) as client:
+        async with connected(folder, capabilities or types.ClientCapabilities(), on_register, locale, wanted) as client:
             return await talk(client)
 
     return asyncio.run(whole())

@@ -144,7 +144,8 @@ def test_completion_signatures_symbols_and_folding(folder: Path) -> None:
         assert outline is not None
         (main,) = outline
         assert isinstance(main, types.DocumentSymbol)
-        assert [each.name for each in main.children or ()] == ["inc", "名前", "total"]
+        (section,) = main.children or ()
+        assert (section.name, [each.name for each in section.children or ()]) == ("VAR", ["inc", "名前", "total"])
         everywhere = await client.workspace_symbol_async(types.WorkspaceSymbolParams("in"))
         assert everywhere is not None
         assert [each.name for each in everywhere] == ["Inc", "Main"]
@@ -153,6 +154,17 @@ def test_completion_signatures_symbols_and_folding(folder: Path) -> None:
         assert [(each.start_line, each.end_line) for each in folds] == [(0, 9), (1, 3), (7, 8)]
 
     conversation(folder, talk)
+
+
+def test_a_client_may_want_statements_among_the_symbols(folder: Path) -> None:
+    async def talk(client: LanguageClient) -> list[str]:
+        doc = opened(client, folder / "main.st")
+        outline = await client.text_document_document_symbol_async(types.DocumentSymbolParams(doc))
+        assert outline is not None
+        return [child.name for each in outline if isinstance(each, types.DocumentSymbol) for child in each.children or ()]
+
+    assert conversation(folder, talk) == ["VAR"]
+    assert conversation(folder, talk, wanted={"statements": True}) == ["VAR", "IF total > 100"]
 
 
 def test_a_name_is_renamed_in_all_files_or_the_reason_is_told(folder: Path) -> None:

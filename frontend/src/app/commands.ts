@@ -14,6 +14,7 @@ import { chooseLanguage, chooseTheme, themes, toggleChecks, toggleInline } from 
 import { openTour } from "../store/page/tour";
 import { showInstances } from "../store/plc/instances";
 import { returnToLive, stepBack } from "../store/plc/timeline";
+import { openBreadcrumbs } from "../store/project/breadcrumbs";
 import { askBuildMessage } from "../store/project/buildMessage";
 import { showUnused } from "../store/project/cross";
 import { build, save, useDocuments } from "../store/project/documents";
@@ -51,6 +52,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "command.search", keys: "Ctrl+Shift+F", run: askSearch },
     { label: "command.back", keys: "Alt+ArrowLeft", run: goBack },
     { label: "command.forward", keys: "Alt+ArrowRight", run: goForward },
+    { label: "crumbs.open", keys: "Ctrl+Alt+O", run: openBreadcrumbs },
     { label: "command.problem.next", keys: "Alt+F8", run: () => goToProblem(1) },
     { label: "command.problem.before", keys: "Alt+Shift+F8", run: () => goToProblem(-1) },
     { label: "operator.new", run: () => askNewPanel(true) },

@@ -5,6 +5,8 @@ import { Icon, type IconName } from "./Icon";
 
 export interface MenuItem {
   label: string;
+  /** Where several items have the same label. */
+  key?: string;
   icon?: IconName;
   /** A key or a short note, faint at the right. */
   hint?: string;
@@ -37,7 +39,7 @@ export function Menu({ label, items, at, onClose }: MenuProps) {
       left: Math.max(4, Math.min(at.x, innerWidth - width - 4)),
       top: Math.max(4, Math.min(at.y, innerHeight - height - 4)),
     });
-    enabled(element).at(0)?.focus();
+    (chosen(element) ?? enabled(element)[0])?.focus();
     return () => {
       if (element.contains(document.activeElement) || document.activeElement === document.body) {
         (returnTo.current as HTMLElement | null)?.focus?.();
@@ -87,7 +89,7 @@ export function Menu({ label, items, at, onClose }: MenuProps) {
       }}
     >
       {items.map((item) => (
-        <MenuEntry key={item.label} item={item} onClose={onClose} />
+        <MenuEntry key={item.key ?? item.label} item={item} onClose={onClose} />
       ))}
     </div>,
     layer(),
@@ -130,6 +132,13 @@ function MenuEntry({ item, onClose }: { item: MenuItem; onClose: () => void }) {
       </button>
     </>
   );
+}
+
+/** Where one of all is chosen, the keys begin there. */
+function chosen(menu: HTMLElement): HTMLElement | undefined {
+  const all = enabled(menu);
+  if (all.some((item) => !item.hasAttribute("aria-checked"))) return;
+  return all.find((item) => item.getAttribute("aria-checked") === "true");
 }
 
 function enabled(menu: HTMLElement): HTMLElement[] {

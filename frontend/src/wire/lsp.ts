@@ -91,7 +91,10 @@ export class LspClient {
 
   private async initialize(socket: WebSocket): Promise<void> {
     const capabilities = { textDocument: { completion: { completionItem: { snippetSupport: true } } } };
-    const said = await this.ask("initialize", { processId: null, rootUri: null, capabilities }).catch(() => null);
+    // The line above the text says in which statement the caret is.
+    const initializationOptions = { statements: true };
+    const asked = { processId: null, rootUri: null, capabilities, initializationOptions };
+    const said = await this.ask("initialize", asked).catch(() => null);
     if (said === null || socket !== this.socket) return;
     this.post({ method: "initialized", params: {} });
     this.ready = true;

@@ -5,7 +5,7 @@ whatever asks next has it checked; problems are told a moment after the last cha
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from lsprotocol import types
@@ -20,6 +20,10 @@ from scanbench.web.lsp.project import LspProject, Saved
 
 QUIET_S = 0.1
 """After a change problems are told when nothing has come for so long."""
+
+
+STATEMENTS = "statements"
+"""In `initializationOptions`: true for symbols of documents with the statements that have others inside of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +51,8 @@ class Language:
     project: LspProject | None = None
     tongue: str = "en"
     """The language that the client's reader reads."""
+    statements: bool = False
+    """Whether the client wants statements among the symbols of a document, which most would only list."""
     _timer: asyncio.TimerHandle | None = None
     _told: set[str] = field(default_factory=set)
     """URIs of files with problems."""
@@ -84,6 +90,8 @@ class Language:
 
     def begin(self, params: types.InitializeParams) -> None:
         """Reads the project."""
+        wanted = params.initialization_options
+        self.statements = isinstance(wanted, Mapping) and wanted.get(STATEMENTS) is True
         self.project = LspProject(self.saved_of(params))
 
     def changed(self, uri: str) -> None:

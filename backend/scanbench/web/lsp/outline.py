@@ -2,7 +2,8 @@
 
 from lsprotocol import types
 
-from scanbench.language.symbols import Entry, EntryKind, entries, find
+from scanbench.language.entry import Entry, EntryKind
+from scanbench.language.symbols import entries, find
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.positions import Positions
 
@@ -12,7 +13,7 @@ KINDS: dict[EntryKind, types.SymbolKind] = {
     "property": types.SymbolKind.Property, "variable": types.SymbolKind.Variable, "constant": types.SymbolKind.Constant,
     "type": types.SymbolKind.Struct, "enumeration": types.SymbolKind.Enum, "value": types.SymbolKind.EnumMember,
     "member": types.SymbolKind.Field, "configuration": types.SymbolKind.Namespace, "task": types.SymbolKind.Event,
-    "instance": types.SymbolKind.Object,
+    "instance": types.SymbolKind.Object, "section": types.SymbolKind.Package, "statement": types.SymbolKind.Operator,
 }  # fmt: skip
 
 
@@ -26,7 +27,7 @@ def register(language: Language) -> None:
             return []
         reading, file = found
         positions = language.positions(reading)
-        return [_symbol(positions, file, each) for each in entries(reading, file)]
+        return [_symbol(positions, file, each) for each in entries(reading, file, language.statements)]
 
     @server.feature(types.WORKSPACE_SYMBOL)
     def workspace_symbol(params: types.WorkspaceSymbolParams) -> list[types.WorkspaceSymbol]:

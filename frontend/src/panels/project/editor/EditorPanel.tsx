@@ -5,6 +5,7 @@ import { useShownProgram, useShowsRan } from "../../../store/project/shownProgra
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { later } from "../../../ui/later";
+import { Breadcrumbs } from "./Breadcrumbs";
 import { Conflict } from "./Conflict";
 import { EditorBar } from "./EditorBar";
 import { afterWords } from "./loading";
@@ -70,6 +71,7 @@ export function EditorPanel({ path }: { path: string }) {
   return (
     <section className="pane flexcol" aria-label={t("editor.of", { path })} data-pane="editor">
       <EditorBar path={path} />
+      <Breadcrumbs path={path} />
       {refused !== null && !past && (
         <p className="lonely">
           <Icon name="error" />

@@ -1,8 +1,10 @@
 /** Definition, implementation, references, names of the same kind in the text, the outline of a file and what can be folded: by the language server. */
 
 import type { DocumentHighlight, DocumentSymbol, FoldingRange, Location } from "vscode-languageserver-types";
+import { declared } from "../../../logic/project/outline";
 import { openFile } from "../../../store/page/navigate";
 import { askAt, askOf } from "../../../store/project/language";
+import { symbolsOf } from "../../../store/project/outline";
 import { editor, languages } from "./monaco";
 import { at, isPast, locationsOf, pathOfModel, rangeOf, signalOf } from "./serverShapes";
 import { LANGUAGE } from "./st";
@@ -51,11 +53,8 @@ languages.registerDocumentHighlightProvider(LANGUAGE, {
 
 languages.registerDocumentSymbolProvider(LANGUAGE, {
   displayName: "Scanbench",
-  provideDocumentSymbols: async (model, token) => {
-    if (isPast(model)) return [];
-    const found = await askOf<DocumentSymbol[]>("textDocument/documentSymbol", pathOfModel(model), {}, signalOf(token));
-    return (found ?? []).map(symbolOf);
-  },
+  provideDocumentSymbols: async (model) =>
+    isPast(model) ? [] : declared((await symbolsOf(pathOfModel(model))) ?? []).map(symbolOf),
 });
 
 const symbolOf = (symbol: DocumentSymbol): languages.DocumentSymbol => ({

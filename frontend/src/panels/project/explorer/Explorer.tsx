@@ -12,6 +12,7 @@ import { AddFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
 import { NewFile } from "./NewFile";
 import { NewPanel } from "./NewPanel";
+import { Outline } from "./Outline";
 import { useExplorerRows } from "./rows";
 import { useAddFiles } from "./useAddFiles";
 
@@ -77,6 +78,7 @@ export function Explorer() {
       {looked !== null && <Look text={looked} onText={setLooked} />}
       {rows.length === 0 && looked && <p className="lonely faint">{t("explorer.search.none", { text: looked })}</p>}
       <Tree label={t("explorer.label")} rows={rows} />
+      <Outline />
       {menu}
       {creating && <NewFile onClose={() => setCreating(false)} />}
       {newPanel && <NewPanel onClose={() => askNewPanel(false)} />}
