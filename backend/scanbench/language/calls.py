@@ -7,9 +7,9 @@ from functools import cache
 from scanbench.check.declare.names import qualified
 from scanbench.check.uses import Symbol
 from scanbench.language.called import block_of, calls_of, named, symbol_of
+from scanbench.language.entry import Entry
 from scanbench.language.navigate import definitions, family, named_at
 from scanbench.language.reading import Reading
-from scanbench.language.entry import Entry
 from scanbench.language.symbols import POUS, Extent, extents
 from scanbench.problems import Span
 from scanbench.syntax import tree

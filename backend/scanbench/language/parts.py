@@ -11,7 +11,9 @@ from scanbench.problems import Span
 
 LONGEST = 60
 """Of the head of a statement."""
-_SECTION = re.compile(r"VAR\w*(?:\s+(?:CONSTANT|RETAIN|NON_RETAIN|PERSISTENT|PUBLIC|PROTECTED|PRIVATE|INTERNAL)\b)*", re.IGNORECASE)
+_SECTION = re.compile(
+    r"VAR\w*(?:\s+(?:CONSTANT|RETAIN|NON_RETAIN|PERSISTENT|PUBLIC|PROTECTED|PRIVATE|INTERNAL)\b)*", re.IGNORECASE
+)
 _HEAD = re.compile(r"\w+.*?(?=\s*(?:\b(?:THEN|DO|OF)\b|//|\(\*|/\*|;|\n|\r|$))", re.IGNORECASE)
 
 Placed = tuple[int, Block]
@@ -37,9 +39,7 @@ def parted(
             made.append(_part(reading, file, "section", _SECTION, (start, block), own))
             continue
         named = [each for each in own if _at(reading, each) == start + block.name_at]
-        made += [
-            replace(each, inner=tuple(parted(reading, file, each.inner, nested, statements))) for each in named
-        ]
+        made += [replace(each, inner=tuple(parted(reading, file, each.inner, nested, statements))) for each in named]
         others = [each for each in own if each not in named]
         # a namespace or a resource: what is declared in it is an entry of this level
         made += others if named else parted(reading, file, others, nested, statements)

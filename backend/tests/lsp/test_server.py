@@ -161,7 +161,9 @@ def test_a_client_may_want_statements_among_the_symbols(folder: Path) -> None:
         doc = opened(client, folder / "main.st")
         outline = await client.text_document_document_symbol_async(types.DocumentSymbolParams(doc))
         assert outline is not None
-        return [child.name for each in outline if isinstance(each, types.DocumentSymbol) for child in each.children or ()]
+        return [
+            child.name for each in outline if isinstance(each, types.DocumentSymbol) for child in each.children or ()
+        ]
 
     assert conversation(folder, talk) == ["VAR"]
     assert conversation(folder, talk, wanted={"statements": True}) == ["VAR", "IF total > 100"]

@@ -38,8 +38,8 @@ class Editor:
     ) -> None:
         self._connection.__exit__(kind, error, trace)
 
-    def begin(self) -> None:
-        self.ask("initialize", processId=None, rootUri=None, capabilities={})
+    def begin(self, **wanted: object) -> None:
+        self.ask("initialize", processId=None, rootUri=None, capabilities={}, initializationOptions=wanted)
         self.tell("initialized")
 
     def ask(self, method: str, **params: Any) -> Any:
@@ -70,6 +70,15 @@ def test_a_browser_edits_a_file_beside_those_that_are_saved(server: Server) -> N
     project = server.project("lsp", "GENERIC-IEC", Main=MAIN, Inc=BLOCK)
     with Editor(server, project) as editor:
         edited(server, project, editor)
+
+
+def test_a_browser_chooses_what_symbols_it_wants_and_not_the_project(server: Server) -> None:
+    text = "PROGRAM Main\nVAR n : INT; END_VAR\nIF n > 1 THEN\n  n := 0;\nEND_IF;\nEND_PROGRAM\n"
+    project = server.project("symbols", "GENERIC-IEC", Main=text)
+    with Editor(server, project) as editor:
+        editor.begin(statements=True, files={}, model="NONE")
+        (main,) = editor.ask("textDocument/documentSymbol", textDocument={"uri": "scanbench:/Main.st"})
+        assert [each["name"] for each in main["children"]] == ["VAR", "IF n > 1"]
 
 
 def edited(server: Server, project: int, editor: Editor) -> None:

@@ -14,16 +14,13 @@ from pygls.lsp.server import LanguageServer
 from scanbench.language.index import Occurrence
 from scanbench.language.navigate import named_at
 from scanbench.language.reading import Reading
+from scanbench.web.lsp.options import STATEMENTS
 from scanbench.web.lsp.positions import Positions
 from scanbench.web.lsp.problems import diagnostics
 from scanbench.web.lsp.project import LspProject, Saved
 
 QUIET_S = 0.1
 """After a change problems are told when nothing has come for so long."""
-
-
-STATEMENTS = "statements"
-"""In `initializationOptions`: true for symbols of documents with the statements that have others inside of them."""
 
 
 @dataclass(frozen=True, slots=True)

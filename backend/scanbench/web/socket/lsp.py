@@ -14,6 +14,7 @@ from scanbench.jobs.channel import connect
 from scanbench.server.workbench import Workbench
 from scanbench.store.records import NotFound
 from scanbench.web.framing import BadFrame, Framing, framed
+from scanbench.web.lsp.options import STATEMENTS
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import SocketBench
 
@@ -46,7 +47,7 @@ async def on_lsp(bench: SocketBench, socket: WebSocket, project: Id) -> None:
             if not isinstance(message, dict):
                 break
             if message.get("method") == "initialize" and isinstance(message.get("params"), dict):
-                message["params"]["initializationOptions"] = told
+                message["params"]["initializationOptions"] = told | _wanted(message["params"])
             elif message.get("method") == CHANGED:
                 files = list((await bench.projects.sources(project)).items())
                 message = {"jsonrpc": "2.0", "method": "scanbench/files", "params": {"files": files}}
@@ -63,6 +64,12 @@ async def on_lsp(bench: SocketBench, socket: WebSocket, project: Id) -> None:
         writer.close()
         process.kill()
         await asyncio.to_thread(process.wait)
+
+
+def _wanted(params: dict[str, Any]) -> dict[str, object]:
+    """What a browser may choose: the project is not of its choice."""
+    theirs = params.get("initializationOptions")
+    return {STATEMENTS: True} if isinstance(theirs, dict) and theirs.get(STATEMENTS) is True else {}
 
 
 class Deadline:
