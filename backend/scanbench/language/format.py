@@ -70,12 +70,22 @@ def formatted(name: str, text: str) -> str | None:
     file = read(name, text)
     if problems or any(problem.code.startswith("S") for problem in file.problems):
         return None
-    lines = list(_lines(text, tokens))
-    _levels(lines, blocks(tokens, len(text)), _il(file.file.pous))
-    made = _joined(lines, text)
-    # whatever goes wrong, nothing may change but blanks, and the case of keywords and type names
+    lines = leveled(text, tokens, blocks(tokens, len(text)), file.file.pous)
+    made = joined(lines, text)
+    return made if keeps(lines, made, name) else None
+
+
+def keeps(lines: list[Line], made: str, name: str) -> bool:
+    """Whatever goes wrong, nothing may change but blanks, and the case of keywords and type names."""
     before = [_told(item) for line in lines for item in line.items]
-    return made if before == [_told(item) for item in _items(made, tokenize(Source(name, made))[0])] else None
+    return before == [_told(item) for item in _items(made, tokenize(Source(name, made))[0])]
+
+
+def leveled(text: str, tokens: Tokens, top: list[Block], pous: Sequence[tree.PouDeclaration]) -> list[Line]:
+    """The lines with something in them, with how far each is to be indented."""
+    lines = list(_lines(text, tokens))
+    _levels(lines, top, _il(pous))
+    return lines
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,8 +273,8 @@ def _ends(code: list[Item], holding: list[Block]) -> bool:
 # ---- blanks ---------------------------------------------------------------------------------------------------------
 
 
-def _joined(lines: list[Line], text: str) -> str:
-    """The whole text."""
+def joined(lines: list[Line], text: str, step: int = STEP) -> str:
+    """The whole text, with so many blanks a level."""
     made: list[str] = []
     shift = 0
     for line in lines:
@@ -273,9 +283,9 @@ def _joined(lines: list[Line], text: str) -> str:
             line.body = [text[begin : line.items[-1].end].rstrip()]
             continue
         if not line.continued:
-            shift = STEP * line.level - line.indent
+            shift = step * line.level - line.indent
         line.body = _parts(line)
-        line.indent = STEP * line.level if not line.continued else max(0, line.indent + shift)
+        line.indent = step * line.level if not line.continued else max(0, line.indent + shift)
     _align(lines)
     at = 0
     for line in lines:

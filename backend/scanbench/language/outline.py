@@ -24,7 +24,8 @@ BARE = {"UNION": "END_UNION", "GET": "END_GET", "SET": "END_SET"}
 STATEMENTS = frozenset(("IF", "CASE", "FOR", "WHILE", "REPEAT"))
 POUS = frozenset(("PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "CLASS", "INTERFACE", "METHOD", "PROPERTY", "ACTION"))
 _BETWEEN = frozenset("PUBLIC PRIVATE PROTECTED INTERNAL ABSTRACT FINAL OVERRIDE".split())
-_ENDS = frozenset((*CLOSED.values(), *NAMED.values(), *BARE.values()))
+ENDS = frozenset((*CLOSED.values(), *NAMED.values(), *BARE.values()))
+"""What ends any of them."""
 
 
 @dataclass(slots=True)
@@ -52,7 +53,7 @@ def blocks(tokens: Tokens, length: int) -> list[Block]:
     open_ = [top]
     for at, (kind, text) in enumerate(zip(tokens.kinds, tokens.texts, strict=True)):
         word = text if kind is Lex.KEYWORD else text.upper() if kind is Lex.NAME else ""
-        if word in _ENDS and kind is Lex.KEYWORD:
+        if word in ENDS and kind is Lex.KEYWORD:
             _close(open_, word, tokens.starts[at], tokens.starts[at] + len(text))
         elif (name := _opens(tokens, at, word, open_[-1].keyword)) is not None:
             made = Block(word, tokens.starts[at], name_at=name)

@@ -200,6 +200,24 @@ def test_a_document_and_some_of_its_lines_are_formatted(folder: Path) -> None:
     conversation(folder, talk)
 
 
+def test_what_was_typed_is_formatted(folder: Path) -> None:
+    async def talk(client: LanguageClient) -> None:
+        doc = opened(client, folder / "main.st", "PROGRAM Main\nVAR 数:INT; END_VAR\nIF 数>1 THEN\n数:=1;\n  END_IF\n")
+        options = types.FormattingOptions(tab_size=2, insert_spaces=True)
+
+        async def after(ch: str, line: int, character: int) -> list[tuple[int, str]]:
+            asked = types.DocumentOnTypeFormattingParams(doc, types.Position(line, character), ch, options)
+            edits = await client.text_document_on_type_formatting_async(asked)
+            return [(each.range.start.line, each.new_text) for each in edits or ()]
+
+        assert await after("\n", 4, 0) == [(3, "    数 := ")]
+        assert await after(";", 3, 5) == [(3, "    数 := ")]
+        assert await after("F", 4, 8) == []
+        assert await after("N", 0, 5) == []
+
+    conversation(folder, talk)
+
+
 def test_a_problem_can_be_mended(folder: Path) -> None:
     async def talk(client: LanguageClient) -> None:
         text = MAIN.replace("total := inc.n", "totl := inc.n")

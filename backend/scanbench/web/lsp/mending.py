@@ -4,6 +4,7 @@ from lsprotocol import types
 
 from scanbench.language.fixes import fixes
 from scanbench.language.format import edits, formatted
+from scanbench.language.on_type import TRIGGERS, may_finish, typed
 from scanbench.web.lsp.language import Language
 
 
@@ -37,6 +38,24 @@ def register(language: Language) -> None:
     @server.feature(types.TEXT_DOCUMENT_RANGE_FORMATTING)
     def range_formatting(params: types.DocumentRangeFormattingParams) -> list[types.TextEdit] | None:
         return layout(language, params.text_document.uri, params.range)
+
+    @server.feature(
+        types.TEXT_DOCUMENT_ON_TYPE_FORMATTING,
+        types.DocumentOnTypeFormattingOptions(TRIGGERS[0], more_trigger_character=list(TRIGGERS[1:])),
+    )
+    def on_type_formatting(params: types.DocumentOnTypeFormattingParams) -> list[types.TextEdit] | None:
+        uri, where = params.text_document.uri, params.position
+        lines = server.workspace.get_text_document(uri).lines
+        # asked after every letter that an END_ may end with, so the text is not checked for that
+        if not may_finish(lines[where.line][: where.character] if where.line < len(lines) else "", params.ch):
+            return None
+        asked = language.asked(uri, where)
+        if asked is None:
+            return None
+        return [
+            types.TextEdit(asked.positions.between(asked.file, each.start, each.end), each.text)
+            for each in typed(asked.reading, asked.file, asked.position, params.ch)
+        ]
 
 
 def layout(language: Language, uri: str, lines: types.Range | None) -> list[types.TextEdit] | None:
