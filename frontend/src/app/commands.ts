@@ -10,7 +10,14 @@ import { openRack } from "../store/operator/rack";
 import { showHelp } from "../store/page/help";
 import { openPage, PANELS, showPanel } from "../store/page/navigate";
 import { COMMANDS, type Command, showKeys, showPalette } from "../store/page/palette";
-import { chooseLanguage, chooseTheme, themes, toggleChecks, toggleInline } from "../store/page/prefs";
+import {
+  chooseLanguage,
+  chooseTheme,
+  themes,
+  toggleChecks,
+  toggleFormatOnType,
+  toggleInline,
+} from "../store/page/prefs";
 import { openTour } from "../store/page/tour";
 import { showInstances } from "../store/plc/instances";
 import { returnToLive, stepBack } from "../store/plc/timeline";
@@ -62,6 +69,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "versions.open", run: () => void openVersions() },
     { label: "command.inline", run: toggleInline },
     { label: "command.checks", run: toggleChecks },
+    { label: "command.formatontype", run: toggleFormatOnType },
   ],
   run: [
     { label: "command.run", keys: "F5", run: toggleRun },

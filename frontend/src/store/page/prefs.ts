@@ -13,6 +13,8 @@ interface Prefs {
   checks: boolean;
   /** Show live values at the ends of the lines in the editor. */
   inline: boolean;
+  /** Put finished lines into their layout while somebody types. */
+  formatOnType: boolean;
 }
 
 function systemLanguage(): Language {
@@ -29,6 +31,7 @@ function initial(): Prefs {
     language: languages.find((language) => language === kept.language) ?? systemLanguage(),
     checks: kept.checks ?? false,
     inline: kept.inline ?? true,
+    formatOnType: kept.formatOnType ?? false,
   };
 }
 
@@ -72,6 +75,10 @@ export function toggleChecks(): void {
 
 export function toggleInline(): void {
   usePrefs.setState(({ inline }) => ({ inline: !inline }));
+}
+
+export function toggleFormatOnType(): void {
+  usePrefs.setState(({ formatOnType }) => ({ formatOnType: !formatOnType }));
 }
 
 export function chooseLanguage(language: Language): void {

@@ -5,6 +5,7 @@ export const commands = {
   "command.build": "Save all and build",
   "command.checks": "Show or hide embedded checks",
   "command.editor": "Editor: {what}",
+  "command.formatontype": "Format while typing: on or off",
   "command.forward": "Go forward",
   "command.goto": "Go to a file or name",
   "command.inline": "Show or hide inline values",

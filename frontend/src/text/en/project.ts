@@ -93,6 +93,7 @@ export const project = {
   "diagnostics.what": "What happened",
   "diagnostics.where": "Place",
   "editor.firstsuggestion": "Accept the first suggestion",
+  "editor.formatontype": "Format while typing",
   "editor.indent": "Indent the line like its block",
   "editor.of": "Editor, {path}",
   "editor.refused": "{path} cannot be shown: {message}",

@@ -94,6 +94,7 @@ export const project: Record<keyof typeof english, string> = {
   "diagnostics.what": "内容",
   "diagnostics.where": "場所",
   "editor.firstsuggestion": "最初の候補を挿入",
+  "editor.formatontype": "入力中に整形",
   "editor.indent": "ブロックに合わせて字下げ",
   "editor.of": "エディタ {path}",
   "editor.refused": "{path} を表示できません: {message}",

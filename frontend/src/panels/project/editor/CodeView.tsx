@@ -28,6 +28,7 @@ import "./layout";
 import { modelOf, pastModel } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import "./navigation";
+import { formatTyped } from "./onType";
 import { showOthers } from "./others";
 import { markReaction } from "./reaction";
 import "./rename";
@@ -97,6 +98,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     const unmarkCoverage = markCoverage(code, path);
     const hideValues = showInlineValues(code, path);
     const hideOthers = ran === null ? showOthers(code, path) : null;
+    const noLayout = ran === null ? formatTyped(code, path) : null;
     const stop = useNavigation.subscribe(({ place }) => go(code, path, place));
     go(code, path, useNavigation.getState().place);
     return () => {
@@ -107,6 +109,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
       unmarkCoverage();
       hideValues();
       hideOthers?.();
+      noLayout?.();
       noDrag();
       noCommands();
       breakpoints.dispose();
