@@ -4,13 +4,13 @@ import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Dialog } from "../../../ui/Dialog";
 import { IconButton } from "../../../ui/IconButton";
-import type { Adding } from "./useAddFiles";
+import type { Adding, Report } from "./useAddFiles";
 
-/** Adds files from this computer to the project; refused files are listed with the reason. */
+/** Adds files from this computer to the project; files that are left out are listed with the reason. */
 export function AddFiles({ adding }: { adding: Adding }) {
   const input = useRef<HTMLInputElement>(null);
   const project = useDocuments((documents) => documents.project);
-  const { refused, add, forget } = adding;
+  const { report, add, forget } = adding;
   return (
     <>
       <input
@@ -32,27 +32,66 @@ export function AddFiles({ adding }: { adding: Adding }) {
         disabled={project === null}
         onClick={() => input.current?.click()}
       />
-      {refused.length > 0 && (
-        <Dialog
-          title={t("file.add.refused")}
-          onClose={forget}
-          onSubmit={forget}
-          footer={
-            <>
-              <span className="grow" />
-              <button type="submit" className="btn primary">
-                {t("close")}
-              </button>
-            </>
-          }
-        >
-          <ul className="plainlist">
-            {refused.map((why) => (
-              <li key={why}>{why}</li>
+      {report && <Told report={report} onClose={forget} />}
+    </>
+  );
+}
+
+/** What was added, and what was left out and why. */
+function Told({ report: { added, left, ended }, onClose }: { report: Report; onClose: () => void }) {
+  const title =
+    added.length === 0 ? t("file.add.refused") : t("file.add.done", { added: added.length, left: left.length });
+  return (
+    <Dialog
+      title={title}
+      about={ended ? t("file.add.ended") : undefined}
+      onClose={onClose}
+      onSubmit={onClose}
+      footer={
+        <>
+          <span className="grow" />
+          <button type="submit" className="btn primary">
+            {t("close")}
+          </button>
+        </>
+      }
+    >
+      <div className="addedfiles">
+        {left.length > 0 && <h3>{t("file.left")}</h3>}
+        {left.length > 0 && (
+          <ul className="plainlist" aria-label={t("file.left")}>
+            {left.map(({ path, why }) => (
+              <li key={path}>
+                <span className="mono">{path}</span>: {why}
+              </li>
             ))}
           </ul>
-        </Dialog>
-      )}
-    </>
+        )}
+        {added.length > 0 && <h3>{t("file.added")}</h3>}
+        {added.length > 0 && (
+          <ul className="plainlist" aria-label={t("file.added")}>
+            {added.map((path) => (
+              <li key={path} className="mono">
+                {path}
+              </li>
+            ))}
+          </ul>
+        )}
+      </div>
+    </Dialog>
+  );
+}
+
+/** How far it is, while files are being added. */
+export function AddingFiles({ adding: { progress, end } }: { adding: Adding }) {
+  if (!progress) return null;
+  return (
+    <p className="sub" role="status">
+      <progress value={progress.done} max={progress.of} aria-label={t("file.adding", progress)} />
+      <span className="cut grow">{t("file.adding", progress)}</span>
+      <button type="button" className="btn quiet sm" onClick={end}>
+        {t("cancel")}
+      </button>
+    </p>
   );
 }

@@ -1,6 +1,7 @@
-import { render, screen, waitFor, within } from "@testing-library/react";
+import { fireEvent, render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { button, textOf } from "../../../testing/find";
+import { folderEntry } from "../../../testing/folder";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
 import type { FileInfo } from "../../../wire/types";
@@ -37,7 +38,7 @@ test("files of other tools are taken as they are; a table goes to the plant by i
 test("a name that is taken is refused with the reason, the others are added", async () => {
   const { user, add, files } = await openExplorer();
   await add(new File(["x"], "main.ST"), new File(["y"], "Belt.st"));
-  const dialog = await screen.findByRole("dialog", { name: t("file.add.refused") });
+  const dialog = await screen.findByRole("dialog", { name: t("file.add.done", { added: 1, left: 1 }) });
   expect(textOf(dialog)).toContain(`main.ST: ${t("file.add.exists")}`);
   expect(files.map(({ path }) => path)).toEqual(["Main.st", "Belt.st"]);
   await user.click(
@@ -47,4 +48,25 @@ test("a name that is taken is refused with the reason, the others are added", as
   );
   expect(screen.queryByRole("dialog")).toBeNull();
   expect(button(t("file.add"))).toHaveProperty("disabled", false);
+});
+
+test("a dropped folder is added with what is below it, and it is said what was left out and why", async () => {
+  const { files, places, user } = await openExplorer();
+  const folder = folderEntry("Line", { "B.st": "b", "notes.txt": "n", Deep: { "C.st": "c", "in.csv": "t" } });
+  const item = { kind: "file", webkitGetAsEntry: () => folder };
+  const single = { kind: "file", webkitGetAsEntry: () => ({ isDirectory: false }) };
+  const dataTransfer = {
+    types: ["Files"],
+    items: [item, single],
+    files: [new File([], "Line"), new File(["m"], "MAIN.st")],
+  };
+  fireEvent.drop(screen.getByRole("navigation"), { dataTransfer });
+  const dialog = await screen.findByRole("dialog", { name: t("file.add.done", { added: 3, left: 2 }) });
+  expect(files.map(({ path }) => path)).toEqual(["Main.st", "Line/B.st", "Line/Deep/C.st", "plant/Line/Deep/in.csv"]);
+  const rows = (name: string) =>
+    within(within(dialog).getByRole("list", { name })).getAllByRole("listitem").map(textOf);
+  expect(rows(t("file.left"))).toEqual([`Line/notes.txt: ${t("file.left.kind")}`, `MAIN.st: ${t("file.add.exists")}`]);
+  expect(rows(t("file.added"))).toEqual(["Line/B.st", "Line/Deep/C.st", "plant/Line/Deep/in.csv"]);
+  expect(places.at(-1)).toBe("file Line/B.st");
+  await user.keyboard("{Escape}");
 });

@@ -8,7 +8,7 @@ import { IconButton } from "../../../ui/IconButton";
 import { useMenu } from "../../../ui/Menu";
 import { Tree } from "../../../ui/Tree";
 import { PastNote } from "../PastNote";
-import { AddFiles } from "./AddFiles";
+import { AddFiles, AddingFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
 import { NewFile } from "./NewFile";
 import { NewPanel } from "./NewPanel";
@@ -32,13 +32,13 @@ export function Explorer() {
   }
 
   function onDrop(event: DragEvent): void {
-    const files = [...event.dataTransfer.files];
-    if (files.length === 0) return;
+    const { files: dropped, folders } = droppedOn(event.dataTransfer);
+    if (dropped.length + folders.length === 0) return;
     event.preventDefault();
-    const [archive] = files.filter(({ name }) => /\.zip$/i.test(name));
+    const [archive] = dropped.filter(({ name }) => /\.zip$/i.test(name));
     if (archive) dropArchive(archive);
-    const single = files.filter(({ name }) => !/\.zip$/i.test(name));
-    if (project !== null && single.length > 0) void adding.add(single);
+    const files = dropped.filter(({ name }) => !/\.zip$/i.test(name));
+    if (project !== null && files.length + folders.length > 0) void adding.add(files, folders);
   }
 
   return (
@@ -74,6 +74,7 @@ export function Explorer() {
           onClick={() => setCreating(true)}
         />
       </div>
+      <AddingFiles adding={adding} />
       <PastNote of="files" />
       {looked !== null && <Look text={looked} onText={setLooked} />}
       {rows.length === 0 && looked && <p className="lonely faint">{t("explorer.search.none", { text: looked })}</p>}
@@ -85,6 +86,13 @@ export function Explorer() {
       {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
     </nav>
   );
+}
+
+/** The files, and the folders, which a browser also gives as files without content. Only asked during the event. */
+function droppedOn({ items, files }: DataTransfer): { files: File[]; folders: FileSystemDirectoryEntry[] } {
+  const entries = [...(items ?? [])].filter(({ kind }) => kind === "file").map((item) => item.webkitGetAsEntry?.());
+  const folders = entries.filter((entry): entry is FileSystemDirectoryEntry => entry?.isDirectory === true);
+  return { files: [...files].filter((_, at) => entries[at]?.isDirectory !== true), folders };
 }
 
 /** What the tree is looked through for; Escape shows all of it again. */
