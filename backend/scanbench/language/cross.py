@@ -9,7 +9,8 @@ from typing import Literal
 from scanbench.check.uses import Symbol, variable_symbol
 from scanbench.language.declared import Declared, member_of
 from scanbench.language.index import Occurrence
-from scanbench.language.navigate import references
+from scanbench.language.navigate import family, references
+from scanbench.language.passed import passed
 from scanbench.language.reading import Reading
 from scanbench.problems import Span
 from scanbench.program.types import ArrayType, Elementary, Member, Record, Reference, Section, StringType, Type
@@ -43,8 +44,9 @@ class Unused:
 
 
 def cross_references(reading: Reading, symbol: Symbol) -> list[CrossReference]:
-    """Every place that names a symbol, in order of files and lines."""
+    """Every place that names a symbol, in order of files and lines; of an input also where it gets a value by its position."""
     own = {_place(each.span) for each in reading.declared(symbol)}
+    places = [*references(reading, symbol, declaration=True), *passed(reading, family(reading, symbol))]
     return [
         CrossReference(
             each,
@@ -53,7 +55,7 @@ def cross_references(reading: Reading, symbol: Symbol) -> list[CrossReference]:
             else "written" if each.written else "read",
             *_around(reading, each),
         )
-        for each in references(reading, symbol, declaration=True)
+        for each in sorted(places, key=lambda each: _place(each.span))
     ]  # fmt: skip
 
 

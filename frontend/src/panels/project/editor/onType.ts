@@ -16,6 +16,8 @@ export function formatTyped(code: editor.IStandaloneCodeEditor, path: string): (
   let asking = false;
   let applying = false;
   let over = false;
+  /** Counts the changes that are not our own. */
+  let typed = 0;
 
   const ask = async ({ ch, line, column }: Finished) => {
     const { tabSize, insertSpaces } = code.getModel()?.getOptions() ?? { tabSize: 2, insertSpaces: true };
@@ -45,11 +47,17 @@ export function formatTyped(code: editor.IStandaloneCodeEditor, path: string): (
     asking = false;
   }
 
-  /** The line in which the caret is: only if nobody typed on. */
+  /** The line in which the caret is: only if nobody typed on. Where only our own edits came before the answer, it is asked for again. */
   async function here(finished: Finished): Promise<void> {
-    const version = code.getModel()?.getVersionId();
-    const edits = await ask(finished);
-    if (code.getModel()?.getVersionId() === version) apply(edits);
+    const mine = typed;
+    while (typed === mine && !over) {
+      const version = code.getModel()?.getVersionId();
+      const edits = await ask(finished);
+      if (typed === mine && code.getModel()?.getVersionId() === version) {
+        apply(edits);
+        return;
+      }
+    }
   }
 
   const typing = code.onDidChangeModelContent(({ changes, isFlush, isUndoing, isRedoing }) => {
@@ -59,6 +67,7 @@ export function formatTyped(code: editor.IStandaloneCodeEditor, path: string): (
       lines.own(changes);
       return;
     }
+    typed += 1;
     const wanted = usePrefs.getState().formatOnType && code.hasTextFocus() && !(isFlush || isUndoing || isRedoing);
     const finished = wanted ? finishedBy(changes, (line) => model.getLineContent(line)) : null;
     const enter = finished?.ch === "\n";
