@@ -17,9 +17,8 @@ from scanbench.syntax.source import Stretch
 def passed(reading: Reading, symbols: Sequence[Symbol]) -> list[Occurrence]:
     """The arguments by position that these variables get; nothing for what is no input or in-out."""
     members = ((symbol, member_of(reading.project.checker, symbol)) for symbol in symbols)
-    wanted = {
-        symbol for symbol, member in members if member is not None and member.section in (Section.INPUT, Section.IN_OUT)
-    }
+    sections = {symbol: member.section for symbol, member in members if member is not None}
+    wanted = {symbol for symbol, section in sections.items() if section in (Section.INPUT, Section.IN_OUT)}
     if not wanted:
         return []
     found = []
@@ -28,7 +27,8 @@ def passed(reading: Reading, symbols: Sequence[Symbol]) -> list[Occurrence]:
             for pou in (each for outer in chunk.file.pous for each in (outer, *outer.methods)):
                 for span, symbol in (*_in_calls(reading, chunk, pou), *_in_il(reading, pou)):
                     if symbol in wanted and isinstance(span, Stretch):
-                        found.append(Occurrence(span, symbol, written=True))
+                        # an in-out is bound, as where it is named
+                        found.append(Occurrence(span, symbol, written=sections[symbol] is Section.INPUT))
     return found
 
 

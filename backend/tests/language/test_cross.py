@@ -73,6 +73,66 @@ def test_a_reference_is_bound_and_what_it_leads_to_may_be_written() -> None:
     assert [each.declared.name for each in unused(read(text))] == ["m"]
 
 
+PASSED = """\
+FUNCTION_BLOCK Belt
+VAR_INPUT run : BOOL; speed : INT; END_VAR
+VAR_IN_OUT count : INT; END_VAR
+VAR_OUTPUT done : BOOL; END_VAR
+METHOD Go : BOOL
+VAR_INPUT fast : BOOL; END_VAR
+Go := fast AND run;
+END_METHOD
+done := run AND speed > count;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Long EXTENDS Belt
+VAR_INPUT length : INT; END_VAR
+END_FUNCTION_BLOCK
+FUNCTION Clamp : INT
+VAR_INPUT v, low : INT; END_VAR
+Clamp := MAX(v, low);
+END_FUNCTION
+PROGRAM Main
+VAR belts : ARRAY[1..2] OF Belt; n : INT; long : Long; END_VAR
+belts[n](TRUE, Clamp(n, 3), n);
+belts[1](run := TRUE, count := n);
+long(FALSE, 7, n);
+n := n + BOOL_TO_INT(belts[1].Go(TRUE));
+END_PROGRAM
+PROGRAM Listed
+VAR a, b : INT; belt : Belt; END_VAR
+LD a
+Clamp b
+ST b
+CAL belt(run := TRUE, speed := a, count := b)
+LD belt.done
+END_PROGRAM
+"""
+
+
+def test_an_input_gets_values_by_position_too_and_in_il() -> None:
+    def of(before: str, name: str, access: str = "written") -> list[int]:
+        found = crossed(PASSED.replace(f"{before}{name}", f"{before}|{name}", 1))
+        return [int(each.split()[0]) for each in found if each.split()[1] == access]
+
+    assert of("VAR_INPUT ", "run") == [20, 21, 22, 30]
+    assert of("run : BOOL; ", "speed") == [20, 22, 30]
+    assert of("VAR_IN_OUT ", "count", "read") == [9, 20, 21, 22, 30]
+    assert of("VAR_INPUT ", "v, low") == [20, 28]
+    assert of("VAR_INPUT v, ", "low") == [20, 28]
+    assert of("VAR_INPUT ", "fast") == [23]
+    assert of("VAR_OUTPUT ", "done") == [9]
+
+
+def test_il_reads_and_writes() -> None:
+    assert crossed(PASSED.replace("VAR a, b", "VAR a, |b")) == [
+        "26 declared Listed",
+        "28 read Listed",
+        "29 written Listed",
+        "30 written Listed",
+    ]
+    assert crossed(PASSED.replace("VAR_OUTPUT done", "VAR_OUTPUT |done"))[-1] == "31 read Listed"
+
+
 def test_the_line_is_told_without_its_indentation() -> None:
     reading, position = marked(PROGRAM.replace("speed := 3", "|speed := 3"))
     found = named_at(reading, FILE, position)

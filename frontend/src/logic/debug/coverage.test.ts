@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { CoveredSite } from "../../wire/types";
-import { linesOf, shareOf } from "./coverage";
+import { coveredAt, linesOf, shareOf } from "./coverage";
 
 const site = (line: number, reached: boolean, outcomes: [string, boolean][] = []): CoveredSite => ({
   line,
@@ -46,5 +46,23 @@ describe("coverage of lines", () => {
   it("gives the share of statements that were executed", () => {
     expect(shareOf([site(1, true), site(2, false)])).toBe(50);
     expect(shareOf([])).toBeNull();
+  });
+});
+
+describe("coverage of a place", () => {
+  const loop = { ...site(2, true), end_line: 6 };
+  const inner = { ...site(4, false), column: 3 };
+  const look = (line: number, column: number) =>
+    coveredAt([loop, inner, site(8, true)], { line, column })?.look ?? null;
+
+  it("is that of the innermost statement around it", () => {
+    expect([look(2, 5), look(4, 5), look(4, 2), look(5, 1), look(7, 1), look(8, 2)]).toEqual([
+      "full",
+      "none",
+      "full",
+      "full",
+      null,
+      "full",
+    ]);
   });
 });

@@ -29,6 +29,19 @@ function sayOf(sites: readonly CoveredSite[]): string {
   return t("coverage.missed", { ways: missed.map(({ name }) => name).join(", ") });
 }
 
+/** What is known of the innermost statement around a place; null where there is none. */
+export function coveredAt(
+  sites: readonly CoveredSite[],
+  place: { line: number; column: number },
+): Omit<CoveredLine, "line"> | null {
+  const from = (line: number, column: number) => line - place.line || column - place.column;
+  const around = sites
+    .filter((site) => from(site.line, site.column) <= 0 && from(site.end_line, site.end_column) >= 0)
+    .sort((a, b) => b.line - a.line || b.column - a.column);
+  const [site] = around;
+  return site ? { look: lookOf([site]), says: sayOf([site]) } : null;
+}
+
 /** The share of statements that were executed; null where there are none. */
 export function shareOf(sites: readonly CoveredSite[]): number | null {
   return sites.length === 0 ? null : (100 * sites.filter(({ reached }) => reached).length) / sites.length;

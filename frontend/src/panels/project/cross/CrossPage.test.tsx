@@ -1,10 +1,12 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { beforeEach, expect, onTestFinished, test, vi } from "vitest";
 import { showCrossReferences, showCrossReferencesOf, showUnused } from "../../../store/project/cross";
-import { useDocuments } from "../../../store/project/documents";
+import { edit, openDocument, useDocuments } from "../../../store/project/documents";
 import { openPage } from "../../../testing/page";
+import { symbol } from "../../../testing/samples";
 import { t } from "../../../text";
 import { LspClient } from "../../../wire/lsp";
+import type { Coverage } from "../../../wire/types";
 import { CrossPage } from "./CrossPage";
 
 const server = { asked: [] as [string, object][], answers: new Map<string, unknown>() };
@@ -23,6 +25,20 @@ const LEVEL = {
     { ...at("Main.st", 9), access: "read", pou: "Main", text: "level := level + 1;" },
   ],
 };
+
+const MAIN = `${"\n".repeat(8)}level := level + 1;\nEND_PROGRAM\n`;
+const covered = (reached: boolean): Coverage => ({
+  type: "coverage",
+  on: true,
+  since_scan: 1,
+  scans: 5,
+  files: [
+    {
+      file: "Main.st",
+      sites: [{ line: 9, column: 1, end_line: 9, end_column: 20, pou: "Main", reached, outcomes: [] }],
+    },
+  ],
+});
 
 /** The language server, which the fake server does not have. */
 beforeEach(() => {
@@ -84,4 +100,30 @@ test("what has no declaration says so; nothing is listed as unread while the pro
   await showUnused();
   await waitFor(() => expect(screen.getByRole("alert").textContent).toBe(t("cross.unanswered")));
   expect(screen.queryByRole("table")).toBeNull();
+});
+
+test("the value lives; with coverage on each line says whether it ran, an edited one that it is not built", async () => {
+  const { server: plc, user } = await openPage((server) => {
+    const file = { path: "Main.st", version: 1, author: "Mika" };
+    server.on("GET", "/projects/*/files", () => [file]);
+    server.on("GET", "/projects/*/files/**", () => ({ ...file, text: MAIN, saved_at: 0 }));
+  });
+  await openDocument("Main.st");
+  plc.has(symbol("level", "INT"), 7);
+  server.answers.set("crossReferences", LEVEL);
+  await showCrossReferences({ file: "Main.st", line: 9, column: 4 }, "level");
+  render(<CrossPage />);
+  await waitFor(() => expect(screen.getByTestId("value:level").textContent).toBe("7"));
+  plc.set("level", 8);
+  await waitFor(() => expect(screen.getByTestId("value:level").textContent).toBe("8"));
+
+  await user.click(screen.getByRole("button", { name: t("coverage.label") }));
+  expect(plc.sentOf("set_coverage").at(-1)).toMatchObject({ on: true });
+  plc.say(covered(false));
+  const ran = () => rows().map((row) => row.split(" | ")[3]);
+  await waitFor(() => expect(ran()).toEqual(["", t("coverage.none"), t("coverage.none")]));
+  plc.say(covered(true));
+  await waitFor(() => expect(ran()).toEqual(["", t("coverage.full"), t("coverage.full")]));
+  edit("Main.st", MAIN.replace("+ 1", "+ 2"));
+  await waitFor(() => expect(ran()).toEqual(["", t("cross.ran.edited"), t("cross.ran.edited")]));
 });
