@@ -10,7 +10,7 @@ test("files of a folder and those below it are found with their folders; what a 
     POUs: { "Belt.TcPOU": "<x/>", Deep: { "inputs.csv": "time; a" } },
     panels: { "Line.panel.json": "{}", "package.json": "{}" },
     "locked.st": new Error("no"),
-    "huge.st": "x".repeat(4_000_001),
+    "huge.st": "x".repeat(8_000_001),
     Empty: {},
   });
   const { files, left } = await filesIn([folder, folderEntry("Other", { "B.st": "" })]);

@@ -14,8 +14,8 @@ export interface Found {
   left: readonly LeftOut[];
 }
 
-/** The server takes no longer text. */
-const LARGEST = 4_000_000;
+/** The compiler reads no longer text. */
+const LARGEST = 8_000_000;
 const ENDINGS = FILE_ENDINGS.split(",");
 
 /** Whether a project has files of this kind. */

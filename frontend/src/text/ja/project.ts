@@ -139,7 +139,7 @@ export const project: Record<keyof typeof english, string> = {
   "file.left": "対象外のファイル",
   "file.left.hidden": "名前がピリオドで始まる隠しファイルです",
   "file.left.kind": "プログラム、入力の表、操作パネルのいずれでもありません",
-  "file.left.size": "4 MB を超えています",
+  "file.left.size": "8 MB を超えています",
   "file.left.unreadable": "このコンピュータで読み取れませんでした",
   "file.name": "名前",
   "file.new": "新しいファイル",

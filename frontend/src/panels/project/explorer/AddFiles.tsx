@@ -4,6 +4,7 @@ import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Dialog } from "../../../ui/Dialog";
 import { IconButton } from "../../../ui/IconButton";
+import "./addFiles.css";
 import type { Adding, Report } from "./useAddFiles";
 
 /** Adds files from this computer to the project; files that are left out are listed with the reason. */
@@ -44,6 +45,7 @@ function Told({ report: { added, left, ended }, onClose }: { report: Report; onC
   return (
     <Dialog
       title={title}
+      width={560}
       about={ended ? t("file.add.ended") : undefined}
       onClose={onClose}
       onSubmit={onClose}
@@ -59,7 +61,7 @@ function Told({ report: { added, left, ended }, onClose }: { report: Report; onC
       <div className="addedfiles">
         {left.length > 0 && <h3>{t("file.left")}</h3>}
         {left.length > 0 && (
-          <ul className="plainlist" aria-label={t("file.left")}>
+          <ul aria-label={t("file.left")}>
             {left.map(({ path, why }) => (
               <li key={path}>
                 <span className="mono">{path}</span>: {why}
@@ -69,7 +71,7 @@ function Told({ report: { added, left, ended }, onClose }: { report: Report; onC
         )}
         {added.length > 0 && <h3>{t("file.added")}</h3>}
         {added.length > 0 && (
-          <ul className="plainlist" aria-label={t("file.added")}>
+          <ul aria-label={t("file.added")}>
             {added.map((path) => (
               <li key={path} className="mono">
                 {path}
