@@ -130,8 +130,25 @@ def test_a_code_that_a_more_serious_error_hides_is_not_read(make: MakeObserved) 
     )  # fmt: skip
     hides = (Generate("Ada", (ref(first.id),)),)
     hidden = attempt(program, (second.id,), make, before=hides)
-    note = f"{first.id} was present before: what follows from both is no difference"
+    where = f"main.st:{line('IF code', CODE)}"
+    note = (
+        f"the error code was that of a more serious error where the program read it: {where}; "
+        f"{first.id} was present before: what follows from both is no difference"
+    )
     assert hidden == Reaction("never_read", 50, note=note, basis="exact")
+
+
+def test_a_condition_that_another_one_made_needless_names_its_own_statement(make: MakeObserved) -> None:
+    source = """
+PROGRAM Main
+VAR lamp AT CIO 100.00 : BOOL; horn AT CIO 100.01 : BOOL; basic AT A402.12 : BOOL; battery AT A402.04 : BOOL; END_VAR
+  IF basic THEN lamp := TRUE; ELSIF battery THEN horn := TRUE; END_IF;
+END_PROGRAM
+"""
+    found = reaction(source, "battery-error", make, before=(Generate("Ada", (ref("basic-io-error"),)),))
+    here = line("IF basic", source)
+    assert found.verdict == "not_reached"
+    assert [(each.line, each.why, each.at) for each in found.unreached] == [(here, "condition", f"main.st:{here}")]
 
 
 def test_reading_after_it_was_recovered_is_not_reading_it(make: MakeObserved) -> None:

@@ -174,6 +174,8 @@ class _Run:
         self._watched = Watched.of(resource.program, chosen)
         self._readers: dict[tuple[int, What], int] = {}
         self._triggered: dict[tuple[str, Span, What], int] = {}
+        self._hidden: set[int] = set()
+        """Statements that read the code word while it showed the code of a more serious error."""
         self._looked: set[int] = set()
         """Statements that came to read there, whatever it showed then."""
         self._reached: set[int] = set()
@@ -232,6 +234,8 @@ class _Run:
             for what in self._watched.kinds(read.offset, read.mask):
                 if what in shown:
                     self._readers.setdefault((read.site, what), scan)
+                elif what == "code" and "flag" in shown:
+                    self._hidden.add(read.site)
 
     def _reaction(self, scans: int, sites: Sequence[StatementSite]) -> Reaction:
         effects, readers = self._effects, self._places(sites)
@@ -254,7 +258,7 @@ class _Run:
             effects.shown(),
             effects.count,
             tuple(Line(*place) for place in sorted(reached)),
-            "; ".join((*self._notes(scans), *self._more(scans, first is None))),
+            "; ".join((*self._notes(scans), *self._more(scans, first is None, sites))),
             basis,
             carried,
             decided_by,
@@ -318,9 +322,13 @@ class _Run:
         if not self._effects.complete:
             yield f"more than {self._effects.count} variables differ"
 
-    def _more(self, scans: int, nothing: bool) -> Iterator[str]:
+    def _more(self, scans: int, nothing: bool, sites: Sequence[StatementSite]) -> Iterator[str]:
         if self._recovered is not None:
             yield f"the program recovered it itself, after {self._recovered} scan{'s' * (self._recovered != 1)}"
+        if nothing and self._hidden:
+            lines = sorted({(sites[each].span.file, sites[each].span.line) for each in self._hidden})
+            where = ", ".join(f"{file}:{line}" for file, line in lines)
+            yield f"the error code was that of a more serious error where the program read it: {where}"
         if nothing:
             yield from self._turns.notes(scans)
 

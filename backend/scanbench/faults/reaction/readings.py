@@ -116,6 +116,8 @@ class Readings:
         return Unreached(reading.file, reading.line, reading.paths, why, at)
 
     def _obstacle(self, reading: Reading, reached: Set[int], idle: Iterable[Task]) -> tuple[Obstacle, str]:
+        if reading.site in reached:  # a part of it that comes before has decided: ELSIF, OR_ELSE
+            return "condition", self.place(reading.site)
         around = self._around.get(reading.site)
         while around is not None:
             if around in reached:
