@@ -100,6 +100,7 @@ class Maker:
         self.kept(browser, trace)
         self.logs()
         self.later(browser)
+        self.labelled()
         self.drafted(browser)
 
     def lists(self) -> None:
@@ -198,6 +199,11 @@ class Maker:
         self.scans(browser, 2)
         other = self.post("/api/instances", {"project": self.project, "name": "line 2"})["id"]
         self.call("PATCH", f"/api/instances/{other}", {"power": False, "limits": {"memory_mib": 2000, "run_mib": 100}})
+
+    def labelled(self) -> None:
+        """The first version has a name and says what it is for."""
+        said = {"label": "Accepted", "message": "as it was when the belt was accepted"}
+        self.call("PATCH", f"/api/projects/{self.project}/versions/1", said, BOB)
 
     def drafted(self, browser: Browser) -> None:
         """Somebody types in a file, and does not save it."""

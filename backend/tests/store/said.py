@@ -54,6 +54,7 @@ def _project(store: Store, data: Path, project: ProjectRow) -> object:
         "files": [store.files.get(id, each.path) for each in store.files.all(id)],
         "drafts": [_draft(store, id, each.path) for each in store.files.all(id)],
         "builds": [store.builds.get(id, version + 1) for version in range(project.version)],
+        "versions": store.builds.all(id),
         "instances": [_instance(store, each) for each in store.instances.all() if each.project == id],
         "states": store.states.all(id),
         "sweeps": store.sweeps.all(id),
