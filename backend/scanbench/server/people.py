@@ -1,25 +1,42 @@
-"""Who is at a project, and where: in which file, at which line, with what selected. Everybody else there is told; nothing of it is kept."""
+"""Who is at a project, and where: in which file, at which line, with what selected. Everybody else there is told. Of all this only
+the colours of people are kept."""
 
+import asyncio
+import logging
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
+from scanbench.store.people import COLOURS
+from scanbench.store.records import NotFound, StoreError
 from scanbench.wire.events import Subscriber
 from scanbench.wire.together import PeopleChanged, Person
 
-COLOURS = 8
+log = logging.getLogger("scanbench")
+Colour = Callable[[int, str, Collection[int]], int]
+"""The colour of somebody at a project, and for who is new one that nobody there has: of the store."""
 
 
 class People:
     """Those who are connected to any PLC of a project."""
 
-    def __init__(self) -> None:
+    def __init__(self, colour: Colour) -> None:
+        self._kept_colour = colour
         self._here: dict[int, tuple[int, Subscriber, Person]] = {}
         self._last = 0
 
-    def come(self, project: int, instance: int, who: Subscriber) -> int:
+    async def colour(self, project: int, name: str) -> int:
+        """Somebody's colour at a project: the same whenever they come, and after a restart of the server."""
+        taken = {person.colour for of, _, person in self._here.values() if of == project and person.name != name}
+        try:
+            return await asyncio.to_thread(self._kept_colour, project, name, taken)
+        except (NotFound, StoreError) as error:
+            log.error("the colour of %s is not known: %s", name, error)
+            return next((each for each in range(COLOURS) if each not in taken), 0)
+
+    def come(self, project: int, instance: int, who: Subscriber, colour: int) -> int:
         """Somebody is here from now on; the number to move and leave with."""
         self._last += 1
         user = who.user
-        colour = self._colour(project, user.name)
         self._here[self._last] = (project, who, Person(self._last, user.name, user.initials, colour, instance))
         self._tell(project)
         return self._last
@@ -37,12 +54,6 @@ class People:
         """They are gone."""
         if id in self._here:
             self._tell(self._here.pop(id)[0])
-
-    def _colour(self, project: int, name: str) -> int:
-        """That of their other windows, else the first that nobody has."""
-        taken = {person.name: person.colour for of, _, person in self._here.values() if of == project}
-        free = (colour for colour in range(COLOURS) if colour not in taken.values())
-        return taken[name] if name in taken else next(free, len(taken) % COLOURS)
 
     def _tell(self, project: int) -> None:
         here = [(who, person) for of, who, person in self._here.values() if of == project]

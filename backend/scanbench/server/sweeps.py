@@ -165,10 +165,11 @@ class Sweeps:
             (error_of(cell.error), Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None
         ]
 
-    async def _show(self, project: int) -> None:
-        """Tells the PLCs of a project what its sweeps found out."""
-        found = await self.found(project)
-        for session in self._sessions_of(project):
+    async def show(self, sessions: Sequence[Session]) -> None:
+        """Tells PLCs of one project what its sweeps found out. A look at the past is at a time in which they were not."""
+        live = [session for session in sessions if not session.row.look]
+        found = await self.found(live[0].project_id) if live else {}
+        for session in live:
             session.errors.take_sweeps(found)
 
     async def _accepted(self, project: int) -> dict[tuple[str, str], AcceptedRow]:
@@ -247,7 +248,7 @@ class Sweeps:
         row = await self.cancel(id)
         await asyncio.to_thread(self._store.sweeps.delete, id)
         await self._states.discard(row)
-        await self._show(row.project)
+        await self.show(self._sessions_of(row.project))
 
     async def forget_project(self, project: int) -> None:
         """Ends and forgets the sweeps and states of a project that is about to be deleted."""
@@ -342,7 +343,7 @@ class Sweeps:
             change = partial(self._store.sweeps.change, id, status=status, message=message, seconds=seconds)
             over = await asyncio.to_thread(change)
             # Whoever hears of its end finds what it found out at the errors already.
-            await self._show(over.project)
+            await self.show(self._sessions_of(over.project))
             await self._tell(over, "", [])
 
     async def _hear(self, running: _Running, make: Make) -> tuple[SweepStatus, str]:

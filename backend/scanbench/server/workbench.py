@@ -20,6 +20,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.server.history import RunHistory
+from scanbench.server.looks import Looks
 from scanbench.server.missing import stand_in, why_missing
 from scanbench.server.people import People
 from scanbench.server.projects import Projects
@@ -62,7 +63,8 @@ class Workbench:
         self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
-        self.people = People()
+        self.people = People(store.people.colour)
+        self.looks = Looks(self.delete_instance)
         self.repositories = Repositories(store, data / "projects")
         self._reactions = SharedJob(self._cache)
         self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
@@ -90,9 +92,11 @@ class Workbench:
             await self._first_start()
         for instance in await asyncio.to_thread(self._store.instances.all):
             try:
-                await self._open(instance)
+                session = await self._open(instance)
             except Refused as error:  # the others must not suffer
                 log.error("%s", error)
+            else:
+                self.looks.left(session)
         if self.models:
             self._warming = asyncio.get_running_loop().create_task(self._warm())
 
@@ -109,6 +113,7 @@ class Workbench:
         if self._warming is not None:
             self._warming.cancel()
             await asyncio.gather(self._warming, return_exceptions=True)
+        await self.looks.close()
         await self.sweeps.close()
         await self.trace_records.close()
         await self.verifications.close()
@@ -164,10 +169,11 @@ class Workbench:
         await asyncio.to_thread(discard, run_path(self._runs, row.id))
         return await self._open(row)
 
-    async def branch(self, id: int, name: str, scan: int | None, author: str) -> Session:
-        """A new PLC that begins as this one was before `scan`, or is now; its past is the same."""
+    async def branch(self, id: int, name: str, scan: int | None, author: str, look: bool = False) -> Session:
+        """A new PLC that begins as this one was before `scan`, or is now; its past is the same. `look`: it ends when nobody is there
+        any more."""
         origin = self.session(id)
-        row = await asyncio.to_thread(self._store.instances.create, origin.project_id, name)
+        row = await asyncio.to_thread(self._store.instances.create, origin.project_id, name, look)
         try:
             await self._copied(origin, run_path(self._runs, row.id), scan, author)
         except BaseException:
@@ -176,6 +182,7 @@ class Workbench:
             raise
         session = await self._open(row, paused=scan is not None)
         session.log.add(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
+        self.looks.left(session)
         return session
 
     async def export(self, id: int, scan: int | None, author: str) -> Path:
@@ -292,7 +299,7 @@ class Workbench:
             why_not,
         )  # fmt: skip
         self._sessions[row.id] = session
-        session.errors.take_sweeps(await self.sweeps.found(project.id))
+        await self.sweeps.show([session])
         if row.powered:
             session.instance.start()
         return session

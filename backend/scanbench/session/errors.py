@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow, History, Swept
+from scanbench.faults.inject import Active
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.clock import wall_time
@@ -29,14 +30,17 @@ class Errors:
         self._history = history
         self._reacting = reacting(self._on_reaction)
         self._publish, self._keep, self._state = publish, keep, state
+        self._present: Mapping[str, Active] = {}
+        """Errors that are present in what is shown, live or past."""
         self._past_rows: list[ErrorRow] = []
+        self._past_version = 0
         self._armed: tuple[ArmedInfo, ...] = ()
         self._disturbances: tuple[DisturbanceInfo, ...] = ()
 
     @property
     def rows(self) -> list[ErrorRow]:
-        """The error history, in the order of the catalogue; while the past is shown, as it was then."""
-        return [self._history.with_sweep(row) for row in self._past_rows or self._history.rows]
+        """The error history, in the order of the catalogue; while the past is shown, as it was then, when no sweep of today was done."""
+        return self._past_rows or [self._history.with_sweep(row) for row in self._history.rows]
 
     @property
     def version(self) -> int:
@@ -91,7 +95,10 @@ class Errors:
             self._see_version(state.version, state.scan)
         if not state.past_by:
             self._reacting.reached(state.scan, state.state)
-        if self._past_rows and not state.past_by:
+        if state.past_by:
+            if not self._past_rows or state.version != self._past_version:
+                self._show_past(state)  # what is present may be the same then, and is not told again
+        elif self._past_rows:
             self._past_rows = []
             self._tell(self._history.rows)
 
@@ -140,12 +147,17 @@ class Errors:
         if in_effect.disturbances != self._disturbances:
             self._disturbances = in_effect.disturbances
             self._publish(events.Disturbances(self._disturbances))
+        self._present = in_effect.errors
         state = self._state()
         if state.past_by:
-            self._past_rows = self._history.as_of(in_effect.errors, wall_time(), state.version)
-            self._tell(self._past_rows)
+            self._show_past(state)
             return
         self._publish_rows(self._history.reconcile(in_effect.errors, wall_time()))
+
+    def _show_past(self, state: PlcState) -> None:
+        self._past_version = state.version
+        self._past_rows = self._history.as_of(self._present, wall_time(), state.version)
+        self._tell(self._past_rows)
 
     def _on_reaction(self, raised: Raised, found: Reaction | str) -> None:
         row = self._history.set_reaction(raised.error, raised.version, raised.scan, found)
@@ -165,4 +177,5 @@ class Errors:
             self._tell(now)
 
     def _tell(self, rows: Sequence[ErrorRow]) -> None:
-        self._publish(events.ErrorsChanged(tuple(map(self._history.with_sweep, rows))))
+        told = rows if self._past_rows else map(self._history.with_sweep, rows)
+        self._publish(events.ErrorsChanged(tuple(told)))

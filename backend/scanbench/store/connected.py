@@ -88,9 +88,9 @@ def check(what: str, text: str, limit: int | None = None) -> None:
         raise NotStorable(f"{what} has {len(text)} characters, 1 to {limit} are possible")
 
 
-def the_project(session: Session, id: int) -> Project:
-    """The project of this number, or `NotFound`."""
-    found = session.get(Project, id)
+def the_project(session: Session, id: int, lock: bool = False) -> Project:
+    """The project of this number, or `NotFound`. `lock`: until the end of the transaction nobody else gets it so."""
+    found = session.get(Project, id, with_for_update=True if lock else None)
     if found is None:
         raise NotFound(f"there is no project {id}")
     return found

@@ -21,13 +21,13 @@ class Instances(Repository):
         with self._database.reading() as session:
             return [rows.instance(found) for found in session.scalars(select(Instance).order_by(Instance.id))]
 
-    def create(self, project: int, name: str) -> InstanceRow:
-        """A new virtual PLC for a project."""
+    def create(self, project: int, name: str, look: bool = False) -> InstanceRow:
+        """A new virtual PLC for a project; `look`: for a look at the past."""
         check("the name", name, NAME)
         try:
             with self._database.writing() as session:
                 the_project(session, project)
-                made = Instance(project_id=project, name=name, created=wall_time())
+                made = Instance(project_id=project, name=name, created=wall_time(), look=look)
                 session.add(made)
                 session.flush()
                 return rows.instance(made)

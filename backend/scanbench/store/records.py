@@ -113,6 +113,8 @@ class InstanceRow:
     powered: bool = True
     """False: somebody switched it off, and it stays off."""
     limits: Limits = Limits()
+    look: bool = False
+    """A look at the past, of one person: it ends when nobody is there any more."""
 
 
 @dataclass(frozen=True, slots=True)

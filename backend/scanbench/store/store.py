@@ -8,6 +8,7 @@ from scanbench.store.imported import ImportedRecords
 from scanbench.store.instances import Instances, Logs
 from scanbench.store.kept import KeptRecords
 from scanbench.store.mappings import Mappings
+from scanbench.store.people import People
 from scanbench.store.projects import Builds, Files, Projects
 from scanbench.store.sweeps import Findings, States, Sweeps
 from scanbench.store.traces import Traces
@@ -21,7 +22,7 @@ class Store:
         """As `Database`."""
         database = self._database = Database(url, server)
         self.projects, self.files, self.builds = Projects(database), Files(database), Builds(database)
-        self.drafts = Drafts(database)
+        self.drafts, self.people = Drafts(database), People(database)
         self.instances, self.log, self.errors = Instances(database), Logs(database), Errors(database)
         self.breakpoints, self.traces, self.watch_lists = Breakpoints(database), Traces(database), WatchLists(database)
         self.states, self.sweeps, self.findings = States(database), Sweeps(database), Findings(database)

@@ -16,6 +16,7 @@ from sqlalchemy import (
     String,
     Text,
     UniqueConstraint,
+    false,
     true,
 )
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
@@ -149,6 +150,17 @@ class Instance(Base):
     memory_mib: Mapped[int | None]
     cpu_percent: Mapped[int | None]
     run_mib: Mapped[int | None]
+    look: Mapped[bool] = mapped_column(server_default=false())
+
+
+class Person(Base):
+    """Somebody at a project, by name."""
+
+    __tablename__ = "person"
+
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"), primary_key=True)
+    name: Mapped[str] = mapped_column(String(NAME), primary_key=True)
+    colour: Mapped[int]
 
 
 class ErrorHistory(Base):

@@ -261,10 +261,11 @@ class NewInstance(Wire):
 
 
 class Branch(Wire):
-    """A new instance that begins as this one was before `scan`; null is now (a clone)."""
+    """A new instance that begins as this one was before `scan`; null is now (a clone). A `look` is deleted a minute after its last viewer left."""
 
     name: str = Field(min_length=1, max_length=100)
     scan: Scan | None = None
+    look: bool = False
 
 
 class ChangeInstance(Wire):
@@ -302,9 +303,7 @@ class User(Wire):
 
 class AppInfo(Wire):
     version: str
-    public_url: str = Field(
-        description="what links that are passed on begin with; empty: the address of the page itself"
-    )
+    public_url: str = Field(description="what links that are passed on begin with; empty: the address of the page")
     you: User
     projects: list[Project]
     instances: list[Instance]

@@ -54,6 +54,15 @@ def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None
         assert (rows["battery-error"]["swept"]["verdict"], rows["battery-error"]["reaction"]) == ("no_effect", None)
         assert (rows["basic-io-error"]["swept"]["verdict"], rows["basic-io-error"]["swept"]["scans"]) == ("acted", 1)
 
+        # The past does not know what came later: neither a look alone, nor everybody's.
+        own = server.http.post(f"/api/instances/{instance}/branch", json={"name": "alone", "scan": 3, "look": True})
+        assert browser.ask(type="travel", scan=3)["ok"]
+        assert not any(row["swept"] for row in server.http.get(f"/api/instances/{own.json()['id']}/errors").json())
+        browser.wait(
+            lambda: not any(row["swept"] for row in server.http.get(f"/api/instances/{instance}/errors").json())
+        )
+        assert browser.ask(type="travel", scan=None)["ok"]
+
         cell = {"error": "plc-setup-error", "state": "Idle"}
         told = server.http.post(f"/api/sweeps/{sweep}/reaction", json=cell).json()
         assert (told["verdict"], told["readers"], told["difference_count"]) == ("never_read", [], 0)

@@ -2472,7 +2472,7 @@ export interface components {
             projects: components["schemas"]["Project"][];
             /**
              * Public Url
-             * @description what links that are passed on begin with; empty: the address of the page itself
+             * @description what links that are passed on begin with; empty: the address of the page
              */
             public_url: string;
             /** Version */
@@ -2721,9 +2721,14 @@ export interface components {
         };
         /**
          * Branch
-         * @description A new instance that begins as this one was before `scan`; null is now (a clone).
+         * @description A new instance that begins as this one was before `scan`; null is now (a clone). A `look` is deleted a minute after its last viewer left.
          */
         Branch: {
+            /**
+             * Look
+             * @default false
+             */
+            look: boolean;
             /** Name */
             name: string;
             /** Scan */

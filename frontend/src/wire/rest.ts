@@ -222,9 +222,9 @@ export const rest = {
   createInstance: (project: number, name: string) => json<Instance>("POST", "/instances", { project, name }),
   changeInstance: (instance: number, change: Partial<ChangeInstance>) =>
     json<Instance>("PATCH", `/instances/${instance}`, change),
-  /** A new instance that begins with the state of this one before a scan; null is now. */
-  branch: (instance: number, name: string, scan: number | null) =>
-    json<Instance>("POST", `/instances/${instance}/branch`, { name, scan }),
+  /** A new instance that begins with the state of this one before a scan; null is now. A look ends when nobody is there. */
+  branch: (instance: number, name: string, scan: number | null, look: boolean) =>
+    json<Instance>("POST", `/instances/${instance}/branch`, { name, scan, look }),
   deleteInstance: async (instance: number): Promise<void> => {
     await request("DELETE", `/instances/${instance}`);
   },

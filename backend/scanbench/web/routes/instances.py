@@ -71,7 +71,7 @@ async def on_change_instance(
 @router.post("/instances/{instance}/branch", status_code=201)
 async def on_branch(bench: Bench, request: Request, instance: Id, branch: wire.Branch) -> wire.Instance:
     """A new PLC that begins as this one was before a scan, or is now."""
-    session = await bench.branch(instance, branch.name.strip(), branch.scan, user_of(request).name)
+    session = await bench.branch(instance, branch.name.strip(), branch.scan, user_of(request).name, branch.look)
     return await _instance(bench, session)
 
 
@@ -181,7 +181,11 @@ async def on_socket(bench: SocketBench, socket: WebSocket, instance: Id) -> None
         await socket.close(1008, str(error))
         return
     client = Client(socket, session, user_of(socket), bench.projects.drafts, bench.people)
-    await client.serve(described, bench.verifications.of(session))
+    bench.looks.came(session)
+    try:
+        await client.serve(described, bench.verifications.of(session))
+    finally:
+        bench.looks.left(session)
 
 
 async def _instance(bench: Workbench, session: Session) -> wire.Instance:

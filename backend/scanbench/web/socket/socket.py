@@ -127,8 +127,9 @@ class Client:
     async def serve(self, instance: wire.Instance, verifications: Iterable[events.VerificationStatus]) -> None:
         """Speaks with the browser until it goes."""
         await self._socket.accept()
+        colour = await self._people.colour(self._session.project_id, self.user.name)
         self._id = self._session.join(self)
-        self._person = self._people.come(self._session.project_id, self._session.id, self)
+        self._person = self._people.come(self._session.project_id, self._session.id, self, colour)
         hello = wire.Hello(
             you=translate.user(self.user),
             users=list(map(translate.user, self._session.users)),

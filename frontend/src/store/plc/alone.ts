@@ -2,27 +2,18 @@
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { copyName } from "../../logic/plc/instances";
-import { keep, recall } from "../page/localStorage";
 import { chooseInstance, useBench } from "./bench";
 import { branch, deleteInstance } from "./instances";
+import { keepLooks, keptLooks, type Looks } from "./looks";
 import { answerTravel } from "./timeline";
 
-interface Look {
-  /** The PLC that one came from. */
-  of: number;
-  scan: number;
-}
-
 interface Alone {
-  /** By the branch that was made for it. */
-  looks: Readonly<Record<string, Look>>;
+  looks: Looks;
   busy: boolean;
   trouble: string | null;
 }
 
-const KEY = "looks";
-
-export const useAlone = create<Alone>(() => ({ looks: recall(KEY, {}), busy: false, trouble: null }));
+export const useAlone = create<Alone>(() => ({ looks: keptLooks(), busy: false, trouble: null }));
 
 const get = useAlone.getState;
 const set = useAlone.setState;
@@ -32,8 +23,8 @@ export const lookAlone = (scan: number) =>
     const { instance, app } = useBench.getState();
     if (!instance) return;
     const taken = (app?.instances ?? []).map(({ name }) => name);
-    const made = await branch(instance, copyName(instance.name, taken), scan);
-    keepLooks({ ...get().looks, [made.id]: { of: instance.id, scan } });
+    const made = await branch(instance, copyName(instance.name, taken), scan, true);
+    setLooks({ ...get().looks, [made.id]: { of: instance.id, scan } });
     answerTravel(false);
     await chooseInstance(made);
   });
@@ -48,14 +39,14 @@ export const endLook = () =>
     if (origin) await chooseInstance(origin);
     await deleteInstance(instance);
     const { [instance.id]: _ended, ...others } = get().looks;
-    keepLooks(others);
+    setLooks(others);
   });
 
 export const putAwayLookTrouble = () => set({ trouble: null });
 
-function keepLooks(looks: Alone["looks"]): void {
+function setLooks(looks: Looks): void {
   set({ looks });
-  keep(KEY, looks);
+  keepLooks(looks);
 }
 
 async function guarded(deed: () => Promise<void>): Promise<void> {

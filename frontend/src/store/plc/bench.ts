@@ -7,6 +7,7 @@ import { Refused, rest } from "../../wire/rest";
 import { link } from "../../wire/socket";
 import type { AppInfo, Instance, ModelInfo, Project } from "../../wire/types";
 import { keep, recall } from "../page/localStorage";
+import { keptLooks } from "./looks";
 import { resetPlc, usePlc } from "./plc";
 import { instanceChanged } from "./reset";
 
@@ -31,12 +32,15 @@ export const useBench = create<Bench>(() => ({
 const get = useBench.getState;
 const set = useBench.setState;
 
-/** At the start: loads the server's projects, then selects the instance of the address, else that of the last visit, else the first. */
+/** At the start: loads the server's projects, then selects the instance of the address, else that of the last visit, else the first. In the
+ * place of a look at the past that has ended, it is the PLC that it was of. */
 export async function start(): Promise<void> {
   try {
     const app = await rest.app();
     set({ app, phase: "ready" });
-    const known = (id: number | null) => app.instances.find((instance) => instance.id === id);
+    const looks = keptLooks();
+    const there = (id: number | null | undefined) => app.instances.find((instance) => instance.id === id);
+    const known = (id: number | null) => there(id) ?? there(looks[id ?? ""]?.of);
     const linked = readLink(location)?.instance ?? null;
     const instance = known(linked) ?? known(recall<number | null>("instance", null)) ?? app.instances[0];
     if (instance) await chooseInstance(instance);

@@ -104,8 +104,8 @@ export async function changeInstance(instance: Instance, change: Partial<ChangeI
 }
 
 /** Makes a new instance from a scan of an existing one (null: from now). Throws the server's refusal. */
-export async function branch(instance: Instance, name: string, scan: number | null): Promise<Instance> {
-  const made = await rest.branch(instance.id, name, scan);
+export async function branch(instance: Instance, name: string, scan: number | null, look = false): Promise<Instance> {
+  const made = await rest.branch(instance.id, name, scan, look);
   await Promise.all([refreshInstances(), refreshApp()]);
   set({ selected: made.id });
   return made;

@@ -89,7 +89,7 @@ test("a branch gets a name and begins in the scan that is shown; the page goes t
   await user.type(box(t("instances.name")), "what-if");
   await user.click(button(t("create")));
   await waitFor(() => expect(server.asked.map(({ path }) => path)).toContain(`/instances/${id + 5000}/model`));
-  expect(server.askedOf("POST", `/instances/${id}/branch`)).toEqual([{ name: "what-if", scan: 500 }]);
+  expect(server.askedOf("POST", `/instances/${id}/branch`)).toEqual([{ name: "what-if", scan: 500, look: false }]);
   await waitFor(() => expect(screen.queryByRole("region", { name: t("past.label") })).toBeNull());
 });
 
@@ -209,7 +209,7 @@ test("who would take others to the past is asked: everybody, or oneself alone at
   await user.click(button(t("alone.look")));
   const alone = await screen.findByRole("region", { name: t("alone.label") });
   expect(textOf(alone)).toContain("400");
-  expect(server.askedOf("POST", `/instances/${id}/branch`)).toMatchObject([{ scan: 400 }]);
+  expect(server.askedOf("POST", `/instances/${id}/branch`)).toMatchObject([{ scan: 400, look: true }]);
   expect(server.sentOf("travel")).toHaveLength(1);
   await user.click(within(alone).getByRole("button"));
   await waitFor(() => expect(screen.queryByRole("region", { name: t("alone.label") })).toBeNull());
