@@ -74,7 +74,8 @@ class Draft:
         if length != real:
             raise Refused("these are no changes of a draft: they insert what is no text")
         if length > max(before, MOST_BYTES):
-            raise Refused(f"the text would have {length} bytes, {MOST_BYTES} are possible: make two files of it")
+            message = f"the text would have {length} bytes, {MOST_BYTES} are possible: make two files of it"
+            raise Refused(message, final=True)
         return self._taken()
 
     def become(self, text: str) -> bytes:

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from weakref import WeakValueDictionary
 
-from scanbench.server.draft import Draft, update_of
+from scanbench.server.draft import Draft, update_of, with_line_feeds
 from scanbench.store.drafts import DraftRow
 from scanbench.store.records import FileRow, NotFound
 from scanbench.store.store import Store
@@ -131,6 +131,21 @@ class Drafts:
             raise Refused(f"nothing was changed: open {path} first")
         shared.edit(update, by)
         await shared.kept()
+
+    async def unsaved(self, project: int) -> list[str]:
+        """The files whose draft says something else than what is saved, whoever has them open, or nobody."""
+        found = await asyncio.to_thread(self._unsaved_of, project)
+        live = {path: shared.draft.text for (of, path), shared in self._shared.items() if of == project}
+        return sorted(path for path, (saved, draft) in found.items() if live.get(path, draft) != saved)
+
+    def _unsaved_of(self, project: int) -> dict[str, tuple[str, str]]:
+        """Of each file with a draft the saved text, and the draft as it is stored."""
+        found: dict[str, tuple[str, str]] = {}
+        for path, text in self._store.files.sources(project).items():
+            row = self._store.drafts.get(project, path)
+            if row is not None:
+                found[path] = (with_line_feeds(text), Draft(row.key, row.parts).text)
+        return found
 
     async def save(self, project: int, path: str, text: str, version: int, author: str, draft: str | None) -> FileRow:
         """Saves a file (see `store.Files.save`). A text that is not of `draft` was made elsewhere, of the text before: its change

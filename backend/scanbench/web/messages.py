@@ -56,9 +56,7 @@ class NewProject(Wire):
     name: str = Field(min_length=1, max_length=100)
     model: str = "GENERIC-IEC"
     watch: list[str] = Field(default_factory=list, max_length=1000, description="what a fresh watch list begins with")
-    template: str = Field(
-        default="", max_length=100, description="`id` of a template; empty is a project without files"
-    )
+    template: str = Field(default="", max_length=100, description="`id` of a template; empty: without files")
 
 
 class ProjectTemplate(Wire):
@@ -378,6 +376,7 @@ class Done(Wire):
     message: str
     scan: int | None
     near: list[str] = Field(default_factory=list)
+    final: bool = Field(default=False, description="refused, and would be whenever it is sent again")
 
 
 class Errors(Wire):

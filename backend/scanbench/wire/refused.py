@@ -2,11 +2,11 @@
 
 
 class Refused(Exception):
-    """A request that makes no sense; the message says why, and what to do."""
+    """A request that makes no sense; the message says why, and what to do. `final`: the same request is always refused."""
 
-    def __init__(self, message: str, near: tuple[str, ...] = ()) -> None:
+    def __init__(self, message: str, near: tuple[str, ...] = (), final: bool = False) -> None:
         super().__init__(message)
-        self.message, self.near = message, near
+        self.message, self.near, self.final = message, near, final
 
 
 class Unavailable(Exception):

@@ -271,12 +271,31 @@ def test_what_cannot_be_typed_leaves_the_draft_as_it_was(
         ada, grace = Page("Ada"), Page("Grace")
         await ada.connect(bench.drafts, bench.project)
         await grace.connect(bench.drafts, bench.project)
-        with pytest.raises(Refused, match=why):
+        with pytest.raises(Refused, match=why) as refused:
             await grace.send(craft(grace))
+        assert refused.value.final == (craft is _too_long)
         await ada.send(ada.type(0, "x"))
         late = Page("Jo")
         await late.connect(bench.drafts, bench.project)
         assert (str(late.text), len(late.text)) == (f"x{BEGUN}", len(BEGUN) + 1)
+
+    run(story())
+
+
+def test_what_nobody_saved_is_known_also_when_nobody_has_it_open(bench: Bench) -> None:
+    async def story() -> None:
+        for path in ("Belt.st", "Never.st"):
+            bench.store.files.save(bench.project, path, "\r\n", 0, "Ada")
+        ada = Page("Ada")
+        await ada.connect(bench.drafts, bench.project)
+        assert await bench.drafts.unsaved(bench.project) == []
+        await ada.send(ada.type(0, "x"))
+        assert await bench.drafts.unsaved(bench.project) == [PATH]
+        await ada.lose()
+        bench.kill()
+        assert await bench.drafts.unsaved(bench.project) == [PATH]
+        await bench.save(str(ada.text), ada.draft)
+        assert await bench.drafts.unsaved(bench.project) == []
 
     run(story())
 

@@ -11,7 +11,7 @@ import { someHello, someInstance, someProject } from "./samples";
 import type { FakeSocket } from "./socket";
 
 /** What a command is answered with: nothing is `done`, a text is why not. */
-type Verdict = string | Refusal | undefined;
+export type Verdict = string | (Refusal & { final?: boolean }) | undefined;
 
 type Message<T extends ClientMessage["type"]> = Extract<ClientMessage, { type: T }>;
 
@@ -167,8 +167,9 @@ export class FakeServer {
     else if (message.type === "dap") this.debugAnswer(requestIn(message.message));
     else {
       const verdict = this.verdicts.get(message.type)?.(message);
-      const { message: why, near } = typeof verdict === "object" ? verdict : { message: verdict ?? "", near: [] };
-      this.say({ type: "done", ref: message.ref, ok: verdict === undefined, message: why, near, scan: null });
+      const refused = typeof verdict === "object" ? verdict : { message: verdict ?? "" };
+      const { message: why, near = [], final = false } = refused;
+      this.say({ type: "done", ref: message.ref, ok: verdict === undefined, message: why, near, final, scan: null });
     }
   }
 

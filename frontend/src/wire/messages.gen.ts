@@ -1712,6 +1712,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/unsaved": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The files that somebody edited, and nobody has saved since
+         * @description The files that somebody edited, and nobody has saved since.
+         */
+        get: operations["list_project_unsaved"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/user-errors": {
         parameters: {
             query?: never;
@@ -3532,6 +3552,12 @@ export interface components {
          * @description Answer to every command: applied in the seam before `scan`, or refused with a reason.
          */
         Done: {
+            /**
+             * Final
+             * @description refused, and would be whenever it is sent again
+             * @default false
+             */
+            final: boolean;
             /** Message */
             message: string;
             /** Near */
@@ -4795,7 +4821,7 @@ export interface components {
             name: string;
             /**
              * Template
-             * @description `id` of a template; empty is a project without files
+             * @description `id` of a template; empty: without files
              * @default
              */
             template: string;
@@ -11124,6 +11150,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["UploadedTrace"];
+                };
+            };
+        };
+    };
+    list_project_unsaved: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": string[];
                 };
             };
         };

@@ -218,6 +218,9 @@ export const rest = {
     await request("DELETE", `/projects/${project}/records/${record}`);
   },
 
+  /** The files that somebody edited and nobody saved. */
+  unsaved: (project: number) => json<string[]>("GET", `/projects/${project}/unsaved`),
+
   instances: () => json<Instance[]>("GET", "/instances"),
   createInstance: (project: number, name: string) => json<Instance>("POST", "/instances", { project, name }),
   changeInstance: (instance: number, change: Partial<ChangeInstance>) =>

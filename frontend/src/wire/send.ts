@@ -40,5 +40,5 @@ export function abandon(message: string): void {
 }
 
 function unanswered(ref: number, message: string): Answer {
-  return { type: "done", ref, ok: false, message, scan: null, near: [], sent: false };
+  return { type: "done", ref, ok: false, message, scan: null, near: [], final: false, sent: false };
 }

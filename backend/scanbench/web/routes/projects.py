@@ -77,6 +77,13 @@ async def on_build(bench: Bench, request: Request, project: Id, how: wire.Build 
     return translate.build_result(outcome)
 
 
+@router.get("/{project}/unsaved")
+async def on_unsaved(bench: Bench, project: Id) -> list[str]:
+    """The files that somebody edited, and nobody has saved since."""
+    await bench.projects.get(project)
+    return await bench.projects.drafts.unsaved(project)
+
+
 @router.get("/{project}/versions")
 async def on_versions(bench: Bench, project: Id) -> list[messages_versions.ProjectVersion]:
     """Every build of a project that was accepted, the last one first."""

@@ -190,8 +190,10 @@ class Client:
                 self._asked = True
                 self._session.watching.want_snapshot(self._id)
 
-    def _answer(self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = ()) -> None:
-        self._texts.add(_text(wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near))))
+    def _answer(
+        self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = (), final: bool = False
+    ) -> None:
+        self._texts.add(_text(wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near), final=final)))
         self._wake.set()
 
     # ---- from the browser -----------------------------------------------------------------------------------------
@@ -249,7 +251,7 @@ class Client:
         try:
             ack = await self._done(message)
         except Refused as error:
-            self._answer(message.ref, False, error.message, None, error.near)
+            self._answer(message.ref, False, error.message, None, error.near, error.final)
             return
         self._answer(message.ref, ack.ok, ack.message, ack.scan, ack.near)
 

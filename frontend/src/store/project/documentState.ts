@@ -14,6 +14,8 @@ export interface Document {
   conflict: FileText | null;
   /** The file was deleted, but its edited text stays: who deleted it; empty when that is not known. */
   deletedBy: string | null;
+  /** Why the server does not take what was typed last, however often it is sent. */
+  refused?: string | null;
   /** The text of a draft from which it was made, as this browser kept it, while the draft itself is not here. */
   base?: string | undefined;
 }

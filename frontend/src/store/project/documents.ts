@@ -105,6 +105,7 @@ followDrafts({
     scheduleCheck();
   },
   onUnsent: keepPending,
+  onRefused: (path, refused) => get().open[path] && patch(path, { refused }),
   onEnd: (path) => {
     const document = get().open[path];
     // With the saved version that it is not of: to save it is a conflict, and shows both.

@@ -35,6 +35,8 @@ interface Listener {
   onText(path: string): void;
   /** What the server has not acknowledged changed. */
   onUnsent(path: string): void;
+  /** The server does not take what was typed, and would not later; null when it took something again. */
+  onRefused(path: string, why: string | null): void;
   /** The file was made again on the server: its draft is a different one, and this one has ended. */
   onEnd(path: string): void;
   /** A change that was not typed in this editor. */
@@ -237,7 +239,10 @@ function flush(path: string, known: Shared): void {
     known.sending = null;
     if (!done.ok) known.waiting = library?.joined(known.waiting ? [update, known.waiting] : [update]) ?? null;
     told?.onUnsent(path);
+    if (done.ok || done.final) told?.onRefused(path, done.ok ? null : done.message);
     if (done.ok) flush(path, known);
+    else if (done.final)
+      return; // it goes again with the next change, which may make it one that the server takes
     else if (done.sent) askAgain(path, () => NOTHING); // perhaps the server does not know any more that it is open here
     end(path, known);
   });

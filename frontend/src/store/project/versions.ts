@@ -9,8 +9,9 @@ import { git } from "../../wire/git";
 import { rest } from "../../wire/rest";
 import type { GitCommit, GitStatus, ProjectVersion } from "../../wire/types";
 import { openFile, openPage } from "../page/navigate";
-import { createFile, edit, openDocument, save, textHere, useDocuments } from "./documents";
+import { createFile, edit, openDocument, textHere, useDocuments } from "./documents";
 import { savedText } from "./sourceText";
+import { saveAll } from "./unsaved";
 
 interface Versions {
   all: readonly ProjectVersion[];
@@ -183,8 +184,8 @@ export async function commitNow(message: string): Promise<void> {
   const { git: status } = get();
   if (project === null || status === null) return;
   try {
-    for (const path of Object.keys(useDocuments.getState().open))
-      if (!(await save(path))) throw new Error(t("git.unsaved", { path }));
+    const path = await saveAll();
+    if (path !== null) throw new Error(t("git.unsaved", { path }));
     // Who sees which files another program committed, and commits all the same, has agreed.
     await git.commitNow(project, { message, head: status.head, agreed: status.elsewhere.length > 0 });
   } finally {

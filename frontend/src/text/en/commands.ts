@@ -33,12 +33,15 @@ export const commands = {
   "git.commit.anyway": "Commit all the same",
   "git.commit.hint": "Saves all files and commits them with your name",
   "git.detached": "no branch",
+  "git.edited": "{count} texts not saved",
+  "git.edited.one": "{path} not saved",
   "git.elsewhere":
     "Another program committed changes of {paths}. Take that commit into the editor, or your commit takes these changes back.",
   "git.folder": "The folder on the server: {folder}",
   "git.message": "What was changed, and why",
   "git.missing":
     "git is not installed on the server, so there are no commits here. Install it there (apt-get install git), then open this page again. Versions are kept without it.",
+  "git.notsaved": "{path} could not be saved. Look at the file.",
   "git.none": "With git this project also has a folder on the server, commits and their history.",
   "git.unsaved": "{path} could not be saved, so nothing was committed. Look at the file, then commit again.",
   "keys.about": "Ctrl+Shift+P lists all commands, also those without a key; F1 explains what has the focus.",

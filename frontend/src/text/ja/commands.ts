@@ -33,12 +33,15 @@ export const commands = {
   "git.commit.anyway": "それでもコミット",
   "git.commit.hint": "すべてのファイルを保存し、自分の名前でコミットします",
   "git.detached": "ブランチなし",
+  "git.edited": "未保存のテキスト {count} 件",
+  "git.edited.one": "{path} は未保存",
   "git.elsewhere":
     "他のプログラムが {paths} の変更をコミットしました。そのコミットをエディタに読み込んでください。そのままコミットすると、その変更は元に戻ります。",
   "git.folder": "サーバー上のフォルダ: {folder}",
   "git.message": "変更の内容と理由",
   "git.missing":
     "サーバーに git がインストールされていないため、コミットは使えません。サーバーに git をインストールし (apt-get install git)、このページを開き直してください。版は git がなくても保存されます。",
+  "git.notsaved": "{path} を保存できませんでした。ファイルを確認してください。",
   "git.none": "git を使うと、このプロジェクトはサーバー上のフォルダ、コミット、履歴を持ちます。",
   "git.unsaved":
     "{path} を保存できなかったため、コミットしていません。ファイルを確認して、もう一度コミットしてください。",

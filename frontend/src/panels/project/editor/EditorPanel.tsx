@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
-import { isDirty, openDocument, useDocuments } from "../../../store/project/documents";
+import { isDirty, isKept, openDocument, useDocuments } from "../../../store/project/documents";
 import { useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -41,6 +41,21 @@ function UnsureNote({ version, refused }: { version: number; refused: string }) 
     <p className="trouble st warning" role="status">
       <Icon name="warning" small />
       <span>{t("past.text.unsure", { version, message: refused })}</span>
+    </p>
+  );
+}
+
+/** What was typed is only here: why the server does not take it, and what to do. */
+function RefusedNote({ path }: { path: string }) {
+  const refused = useDocuments((documents) => documents.open[path]?.refused ?? null);
+  if (refused === null) return null;
+  return (
+    <p className="trouble st fatal" role="alert">
+      <Icon name="error" small />
+      <span>
+        <b>{t("draft.refused", { message: refused })}</b>{" "}
+        {t(isKept(path) ? "draft.refused.kept" : "draft.refused.unkept")}
+      </span>
     </p>
   );
 }
@@ -87,6 +102,7 @@ export function EditorPanel({ path }: { path: string }) {
           </span>
         </p>
       )}
+      <RefusedNote path={path} />
       {version !== null && past && <PastNote path={path} version={version} />}
       {version !== null && !past && unsure !== null && <UnsureNote version={version} refused={unsure} />}
       {!past

@@ -1,5 +1,6 @@
 import { type FormEvent, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
+import { saveAll, useUnsavedPaths } from "../../../store/project/unsaved";
 import { beginGit, commitNow } from "../../../store/project/versions";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -31,6 +32,7 @@ function Commit({ status }: { status: GitStatus }) {
   const [refused, setRefused] = useState<string | null>(null);
   const [busy, setBusy] = useState(false);
   const others = elsewhere.length > 0;
+  const unsaved = useUnsavedPaths();
 
   async function commit(event: FormEvent): Promise<void> {
     event.preventDefault();
@@ -46,6 +48,15 @@ function Commit({ status }: { status: GitStatus }) {
     setBusy(false);
   }
 
+  async function saveFirst(): Promise<void> {
+    try {
+      const path = await saveAll();
+      setRefused(path === null ? null : t("git.notsaved", { path }));
+    } catch (error) {
+      setRefused(messageOf(error));
+    }
+  }
+
   return (
     <>
       <form className="gitbar" onSubmit={(event) => void commit(event)}>
@@ -53,8 +64,20 @@ function Commit({ status }: { status: GitStatus }) {
           {branch || t("git.detached")}
         </span>
         <span className="faint count" title={changes.map(({ path }) => path).join("\n")}>
-          {changes.length === 0 ? t("git.clean") : t("git.changes", { count: changes.length })}
+          {changes.length > 0 && t("git.changes", { count: changes.length })}
+          {changes.length === 0 && unsaved.length === 0 && t("git.clean")}
         </span>
+        {unsaved.length > 0 && (
+          <>
+            <span className="st warning count" title={unsaved.join("\n")}>
+              <Icon name="warning" small />
+              {t(unsaved.length === 1 ? "git.edited.one" : "git.edited", { count: unsaved.length, path: unsaved[0] })}
+            </span>
+            <button type="button" className="btn sm" onClick={() => void saveFirst()}>
+              {t("save")}
+            </button>
+          </>
+        )}
         <input
           className="inp grow"
           aria-label={t("git.message")}

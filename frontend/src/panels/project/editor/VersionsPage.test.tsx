@@ -87,6 +87,34 @@ test("a project is put under git, and a commit that is refused says why", async 
   });
 });
 
+test("texts that are not saved are named beside what a commit would keep, and saved there", async () => {
+  const { prepare } = having({ ...FOLDER, head: "abcdef0123456" });
+  const file = (path: string) => ({ path, version: 1, author: "Mika" });
+  const saved: string[] = [];
+  const { user } = await openPage((server) => {
+    prepare(server);
+    server.on("GET", "/projects/*/files", () => ["Belt.st", "Main.st"].map(file));
+    server.on("GET", "/projects/*/files/**", (_, [, , path]) => ({ ...file(path ?? ""), text: "stored" }));
+    server.on("GET", "/projects/*/unsaved", () => (saved.includes("Belt.st") ? [] : ["Belt.st"]));
+    server.on("PUT", "/projects/*/files/**", (_, [, , path]) => {
+      saved.push(path ?? "");
+      return { ...file(path ?? ""), version: 2 };
+    });
+  });
+  render(<VersionsPage />);
+  await openVersions();
+  expect(await screen.findByText(t("git.edited.one", { path: "Belt.st" }))).toBeTruthy();
+  expect(screen.queryByText(t("git.clean"))).toBeNull();
+  await openDocument("Main.st");
+  act(() => edit("Main.st", "typed"));
+  expect(await screen.findByText(t("git.edited", { count: 2 }))).toBeTruthy();
+  await openDocument("Belt.st");
+  act(() => edit("Belt.st", "typed, too"));
+  await user.click(screen.getByRole("button", { name: t("save") }));
+  await waitFor(() => expect(saved).toEqual(["Belt.st", "Main.st"]));
+  expect(await screen.findByText(t("git.clean"))).toBeTruthy();
+});
+
 test("without git the page says what to do", async () => {
   const { prepare } = having({ ...NO_GIT, missing: "the program git is not installed" });
   await openPage(prepare);

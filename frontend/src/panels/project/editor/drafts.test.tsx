@@ -1,4 +1,5 @@
 /** Texts that a browser has and the server has not (yet): they come back once, whole, and nothing is forgotten that nobody else has. */
+import { render, screen } from "@testing-library/react";
 import { expect, onTestFinished, test, vi } from "vitest";
 import * as Y from "yjs";
 import { closeDocument, edit, openDocument, save, useDocuments } from "../../../store/project/documents";
@@ -7,8 +8,10 @@ import { decode, encode } from "../../../store/project/sharedText";
 import { eventually } from "../../../testing/eventually";
 import { openPage } from "../../../testing/page";
 import { Status } from "../../../testing/routes";
-import type { FakeServer } from "../../../testing/server";
+import type { FakeServer, Verdict } from "../../../testing/server";
+import { t } from "../../../text";
 import type { ClientMessage } from "../../../wire/types";
+import { EditorPanel } from "./EditorPanel";
 
 const PATH = "Main.st";
 const DRAFT = "draft";
@@ -17,7 +20,7 @@ const DRAFT = "draft";
 class Shared {
   readonly doc = new Y.Doc();
   /** Why changes are refused. */
-  refusal: string | undefined;
+  refusal: Verdict;
   refusesToOpen: string | undefined;
 
   constructor(private readonly server: FakeServer) {
@@ -118,6 +121,25 @@ test("a change that the server refused is sent again after the draft was opened 
   await vi.advanceTimersByTimeAsync(5000);
   await eventually(() => expect(drafts.text.toString()).toBe("saved typed"));
   expect(server.sentOf("open_draft")).toHaveLength(2);
+});
+
+test("what the server never takes is said, kept here, and sent again only with the next change", async () => {
+  const { drafts, server } = await openShared();
+  render(<EditorPanel path={PATH} />);
+  withOwnClock();
+  drafts.refusal = { message: "the text would have 3000000 bytes", near: [], final: true };
+  edit(PATH, "saved typed");
+  await eventually(() => expect(screen.getByRole("alert").textContent).toContain("3000000 bytes"));
+  expect(screen.getByRole("alert").textContent).toContain(t("draft.refused.kept"));
+  await vi.advanceTimersByTimeAsync(10_000);
+  expect(server.sentOf("edit_draft")).toHaveLength(1);
+  expect(textHere()).toBe("saved typed");
+  expect(keptTexts()).toHaveLength(1);
+  drafts.refusal = undefined;
+  edit(PATH, "saved type");
+  await eventually(() => expect(drafts.text.toString()).toBe("saved type"));
+  await eventually(() => expect(screen.queryByRole("alert")).toBeNull());
+  expect(keptTexts()).toEqual([]);
 });
 
 test("what a different page of this browser has not sent is not forgotten when all of this page is", async () => {

@@ -17,7 +17,8 @@ import { openFile } from "../../../store/page/navigate";
 import { useBench } from "../../../store/plc/bench";
 import { isAway, loadMembers, useMembers } from "../../../store/plc/members";
 import { usePlc } from "../../../store/plc/plc";
-import { isDirty, useDocuments } from "../../../store/project/documents";
+import { useDocuments } from "../../../store/project/documents";
+import { useUnsavedPaths } from "../../../store/project/unsaved";
 import { addToTrace } from "../../../store/trace/traces";
 import { verifyPou } from "../../../store/verify/verify";
 import { showInMemory } from "../../../store/watch/memory";
@@ -78,7 +79,7 @@ export function useExplorerRows(
   const here = active === null ? undefined : shownAt(pous, active, cursor?.line ?? 1);
   const { instance, model } = useBench();
   const members = useMembers((state) => state.of);
-  const open = useDocuments((documents) => documents.open);
+  const unsaved = useUnsavedPaths();
 
   const { isOpen } = folding;
   const answers = usePlc(() => !isAway());
@@ -115,7 +116,7 @@ export function useExplorerRows(
         meta: (
           <FileMarks
             file={node.file}
-            dirty={isDirty(open[node.file])}
+            dirty={unsaved.includes(node.file)}
             problems={problems}
             holds={(line) => isAround(node, group.kind, shownAt(pous, node.file, line))}
           />
