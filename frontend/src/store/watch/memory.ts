@@ -66,6 +66,11 @@ export function showArea(area: string): void {
   keep(KEPT, { area, format: get().format });
 }
 
+/** The area that is looked at is not there: this one is shown, until an address that was asked for is found. */
+export function fallBackTo(area: string): void {
+  set({ area, selected: 0 });
+}
+
 export function showFormat(format: MemoryFormat): void {
   set({ format });
   keep(KEPT, { area: get().area ?? "", format });

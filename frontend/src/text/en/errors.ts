@@ -26,6 +26,7 @@ export const errors = {
   "errors.status.cleared": "Cleared",
   "errors.status.generated": "Generated",
   "errors.status.never": "Never",
+  "errors.status.swept": "In a sweep",
   "errors.tested": "{tested} of {total} tested",
   "errors.unverified": "Not verified",
   "errors.verified": "Verified",

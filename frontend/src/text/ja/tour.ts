@@ -34,7 +34,7 @@ export const tour: Record<keyof typeof english, string> = {
   "tour.show": "場所を表示",
   "tour.skip": "スキップ",
   "tour.step": "ステップ {at}/{of}",
-  "tour.sweep": "「全件実行」を押し、異常スイープを開始します。",
+  "tour.sweep": "「すべて実行」を押し、異常スイープを開始します。",
   "tour.sweep.done":
     "各異常を、同じ状態から一つずつ発生させます。表にプログラムの反応が出ます。Inner board error は読まれても効果がなく、Battery error は読まれません。",
   "tour.title": "ツアー",

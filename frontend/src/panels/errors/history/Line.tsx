@@ -9,7 +9,7 @@ import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { ReactionWord } from "../../../ui/ReactionWord";
 import { StateWord } from "../../../ui/StateWord";
-import { STATUS_ICONS } from "../../../ui/statuses";
+import { StatusWord } from "../../../ui/StatusWord";
 
 /** One error: how often it was raised, and how the program reacted. */
 export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
@@ -28,7 +28,7 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
         />
       </td>
       <td>
-        <StateWord tone={line.status} icon={STATUS_ICONS[line.status]} word={t(`errors.status.${line.status}`)} />
+        <StatusWord status={line.status} swept={isSwept(line) && line.status === "never"} />
       </td>
       <td>
         <Reaction line={line} />

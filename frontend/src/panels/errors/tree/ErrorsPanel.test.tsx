@@ -170,6 +170,15 @@ const REACTED: Reaction = {
   difference_count: 1,
 };
 
+test("an error that only a sweep raised says so, beside the count of those that were tested", async () => {
+  const { server } = await openSimulator();
+  server.say({ type: "errors", rows: [row(BASIC, { swept: verdict("acted", 1) })] });
+  await shows(BASIC.name, t("verdict.acted"));
+  expect(textOf(line("Units"))).toContain(t("errors.tested", { tested: 1, total: 1 }));
+  expect(textOf(line(BASIC.name))).toContain(t("errors.status.swept"));
+  expect(textOf(line(BASIC.name))).not.toContain(t("errors.status.never"));
+});
+
 test("the reaction is shown in the tree and in words; its readers are links; a finding says what to do next", async () => {
   const { server, user, places } = await openSimulator((server) => {
     const unread: Reaction = {

@@ -9,7 +9,7 @@ import { Checkbox } from "../../../ui/Checkbox";
 import { Icon } from "../../../ui/Icon";
 import { ReactionWord } from "../../../ui/ReactionWord";
 import { StateWord } from "../../../ui/StateWord";
-import { STATUS_ICONS } from "../../../ui/statuses";
+import { StatusWord } from "../../../ui/StatusWord";
 import type { ErrorInfo, ReactionState } from "../../../wire/types";
 import { WayOn } from "./WayOn";
 
@@ -91,7 +91,7 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
           {row.armed && row.status !== "generated" ? (
             <StateWord tone="recording" icon="clock" word={t("errors.armed")} title={t("errors.armed.about")} />
           ) : (
-            <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
+            <StatusWord status={row.status} swept={row.swept && row.status === "never"} />
           )}
         </span>
         <span role="gridcell" className="c-reaction">

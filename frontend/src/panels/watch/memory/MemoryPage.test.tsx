@@ -1,8 +1,10 @@
 import { render, screen, waitFor } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { showInMemory, useMemory } from "../../../store/watch/memory";
 import { openPage } from "../../../testing/page";
 import { refusal } from "../../../testing/routes";
 import { MODEL } from "../../../testing/samples";
+import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
 import type { MemoryWord, PlcSymbol } from "../../../wire/types";
 import { MemoryPage } from "./MemoryPage";
@@ -13,22 +15,32 @@ const word = (path: string): PlcSymbol => ({
 });
 const LEVEL: PlcSymbol = { ...word("Main.level"), type: "INT", kind: "int", address: "D12" };
 
+function serveMemory(server: FakeServer): void {
+  const area = { description: "Data", retain: true, program: "write", engine: "write" } as const;
+  server.on("GET", "/instances/*/model", () => ({
+    ...MODEL,
+    areas: [
+      { ...area, name: "CIO", words: 40, first: "CIO 0", last: "CIO 39", tool: "write" as const },
+      { ...area, name: "D", words: 30, first: "D0", last: "D29", tool: "write" as const },
+      { ...area, name: "D", words: 10, first: "D30", last: "D39", tool: "read" as const },
+    ],
+  }));
+  server.on("GET", "/instances/*/memory/*/words", (_, [, , area]) =>
+    Array.from(
+      { length: 40 },
+      (_, at): MemoryWord => ({
+        address: area === "D" ? `D${at}` : `CIO ${at}`,
+        symbols: area === "D" && at === 12 ? [LEVEL] : [],
+      }),
+    ),
+  );
+  for (let at = 0; at < 40; at += 1) server.has(word(`D${at}`), at === 12 ? 0x1f : 0);
+  server.has(LEVEL, 0x1f);
+}
+
 async function openMemory() {
-  const page = await openPage((server) => {
-    const area = { description: "Data", retain: true, program: "write", engine: "write" } as const;
-    server.on("GET", "/instances/*/model", () => ({
-      ...MODEL,
-      areas: [
-        { ...area, name: "D", words: 30, first: "D0", last: "D29", tool: "write" as const },
-        { ...area, name: "D", words: 10, first: "D30", last: "D39", tool: "read" as const },
-      ],
-    }));
-    server.on("GET", "/instances/*/memory/*/words", () =>
-      Array.from({ length: 40 }, (_, at): MemoryWord => ({ address: `D${at}`, symbols: at === 12 ? [LEVEL] : [] })),
-    );
-    for (let at = 0; at < 40; at += 1) server.has(word(`D${at}`), at === 12 ? 0x1f : 0);
-    server.has(LEVEL, 0x1f);
-  });
+  useMemory.setState({ area: "D", selected: 0 });
+  const page = await openPage(serveMemory);
   render(<MemoryPage />);
   await waitFor(() => expect(cell("D12").querySelector(".txt")?.textContent).toBe("001F"));
   return { ...page, grid: screen.getByRole("grid") };
@@ -36,6 +48,27 @@ async function openMemory() {
 
 const cell = (address: string) => screen.getByTestId(`memory:${address}`);
 const details = (address: string) => screen.getByRole("region", { name: t("memory.word", { address }) });
+
+test("the page opens at the address that was asked for, also when it is opened for the first time", async () => {
+  useMemory.setState({ area: null, selected: 0 });
+  let answer: () => void = () => undefined;
+  const place = new Promise<void>((settle) => {
+    answer = settle;
+  });
+  await openPage((server) => {
+    serveMemory(server);
+    server.on("GET", "/instances/*/memory", async () => {
+      await place;
+      return { area: "D", word: 20 };
+    });
+  });
+  const going = showInMemory("Main.level");
+  render(<MemoryPage />);
+  await waitFor(() => expect(useMemory.getState().area).toBe("CIO"));
+  answer();
+  await going;
+  await waitFor(() => expect(cell("D20").getAttribute("aria-selected")).toBe("true"));
+});
 
 test("a word is chosen by keys, its details name the variables in it, and it is written in the format of the grid", async () => {
   const { server, user, grid } = await openMemory();

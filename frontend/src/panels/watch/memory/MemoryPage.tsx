@@ -4,7 +4,15 @@ import { FIND_BITS, type FindBits, MEMORY_FORMATS, type WholeArea, wholeAreas } 
 import { useBench } from "../../../store/plc/bench";
 import { complete } from "../../../store/plc/completion";
 import { usePlc } from "../../../store/plc/plc";
-import { findValue, forgetNames, goToAddress, showArea, showFormat, useMemory } from "../../../store/watch/memory";
+import {
+  fallBackTo,
+  findValue,
+  forgetNames,
+  goToAddress,
+  showArea,
+  showFormat,
+  useMemory,
+} from "../../../store/watch/memory";
 import { t } from "../../../text";
 import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
@@ -23,7 +31,7 @@ export function MemoryPage() {
   const name = area?.name;
   // What was looked at on a different model may not be there.
   useEffect(() => {
-    if (name !== undefined && name !== wanted) showArea(name);
+    if (name !== undefined && name !== wanted) fallBackTo(name);
   }, [name, wanted]);
   const away = usePlc(
     ({ link, state }) => link.state !== "open" || ["off", "silent", "failed"].includes(state?.state ?? "off"),
