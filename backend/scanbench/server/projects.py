@@ -93,7 +93,7 @@ class Projects:
             refuse_broken(path, text)
         file = await self.drafts.save(id, path, text, version, author, draft)
         for session in self._sessions_of(id):
-            session.tell(FileSaved(author, file.path, file.version))
+            session.tell(FileSaved(author, file.path, file.version, file.saved))
         return file
 
     async def delete_file(self, id: int, path: str, author: str) -> None:

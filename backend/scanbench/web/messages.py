@@ -79,6 +79,7 @@ class FileInfo(Wire):
     path: str
     version: int
     author: str = Field(description="who saved this version; empty when nobody knows")
+    saved: str = Field(default_factory=str, description="when, ISO 8601; empty when nobody knows")
 
 
 class FileText(FileInfo):

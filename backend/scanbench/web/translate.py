@@ -37,12 +37,12 @@ def project(row: ProjectRow) -> wire.Project:
 
 def file_info(row: FileInfo | FileRow) -> wire.FileInfo:
     """A file without its text."""
-    return wire.FileInfo(path=row.path, version=row.version, author=row.author)
+    return wire.FileInfo(path=row.path, version=row.version, author=row.author, saved=iso(row.saved))
 
 
 def file_text(row: FileRow) -> wire.FileText:
     """A file with its text."""
-    return wire.FileText(path=row.path, version=row.version, author=row.author, text=row.text)
+    return wire.FileText(path=row.path, version=row.version, author=row.author, saved=iso(row.saved), text=row.text)
 
 
 def problem(found: Problem) -> wire.Problem:
@@ -196,7 +196,8 @@ def _of_project(
         case events.ProgramBuilt():
             return wire.Built(author=happened.author, result=build_result(happened.outcome))
         case events.FileSaved():
-            file = wire.FileInfo(path=happened.path, version=happened.version, author=happened.author)
+            saved = iso(happened.saved)
+            file = wire.FileInfo(path=happened.path, version=happened.version, author=happened.author, saved=saved)
             return wire.Saved(author=happened.author, file=file)
         case events.SweepChanged():
             return translate_sweeps.progress(happened)

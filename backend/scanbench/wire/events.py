@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from datetime import datetime
 from typing import ClassVar, Literal, Protocol
 
 from scanbench.check.build import PouInfo
@@ -137,6 +138,7 @@ class FileSaved:
     author: str
     path: str
     version: int
+    saved: datetime
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,5 @@
 import { useEffect, useRef } from "react";
 import { loneIn, operatedPanel } from "../logic/plc/links";
-import { showState } from "../logic/plc/plcstate";
 import { DebugSide } from "../panels/debug/stack/DebugSide";
 import { Sweeping } from "../panels/errors/sweep/Sweeping";
 import { BuildMessage } from "../panels/project/change/BuildMessage";
@@ -19,7 +18,6 @@ import { offerCommands } from "../store/page/palette";
 import { usePrefs } from "../store/page/prefs";
 import { useTour } from "../store/page/tour";
 import { start, useBench } from "../store/plc/bench";
-import { useOnline, usePlc } from "../store/plc/plc";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
@@ -32,6 +30,7 @@ import { LoneWindow } from "./LoneWindow";
 import { PanelWindow } from "./PanelWindow";
 import { Splitter } from "./Splitter";
 import { useFlyout } from "./useFlyout";
+import { useFrame } from "./useFrame";
 
 const Tour = later(() => import("../panels/tour/Tour"));
 
@@ -51,11 +50,7 @@ export function App() {
 function Window() {
   const dock = useRef<DockHandle>(null);
   const { side, toggle } = useFlyout();
-  const online = useOnline();
-  const connecting = usePlc((plc) => plc.link.state === "none" || plc.link.state === "connecting");
-  const state = usePlc((plc) => plc.state);
-  const tone = showState(state, online).tone;
-  const name = useBench((bench) => bench.instance?.name ?? bench.project?.name);
+  const { frame } = useFrame(useBench((bench) => bench.instance?.name ?? bench.project?.name));
 
   useEffect(() => installKeys(), []);
   useEffect(() => {
@@ -66,12 +61,9 @@ function Window() {
     };
     return offerCommands(() => windowCommands(arrangement));
   }, []);
-  useEffect(() => {
-    document.title = name ? `${name} – Scanbench` : "Scanbench";
-  }, [name]);
 
   return (
-    <div className="app" data-tone={connecting ? "none" : tone} data-link={online || connecting ? "open" : "lost"}>
+    <div className="app" {...frame}>
       <div className="rail" />
       <TopBar onResetLayout={() => dock.current?.reset()} />
       <div className="bannerslot">

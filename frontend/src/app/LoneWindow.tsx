@@ -1,13 +1,11 @@
 import { useEffect, useRef, useState } from "react";
 import { linkPath, readLink } from "../logic/plc/links";
-import { showState } from "../logic/plc/plcstate";
 import { OnlineChange } from "../panels/project/change/OnlineChange";
 import { Banners } from "../panels/run/banner/Banners";
 import { Past } from "../panels/run/past/Past";
 import { Palette } from "../panels/shell/palette/Palette";
 import { offerCommands } from "../store/page/palette";
 import { useBench } from "../store/plc/bench";
-import { useOnline, usePlc } from "../store/plc/plc";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { StateWord } from "../ui/StateWord";
@@ -15,20 +13,15 @@ import { windowCommands } from "./commands";
 import { Dock, type DockHandle } from "./Dock";
 import { Keys } from "./Keys";
 import { installKeys } from "./keys";
+import { useFrame } from "./useFrame";
 
 /** A window with one panel, and whatever is opened from there: it works as the whole page does, and without it. */
 export function LoneWindow({ panel }: { panel: string }) {
   const dock = useRef<DockHandle>(null);
   const instance = useBench((bench) => bench.instance);
-  const online = useOnline();
-  const state = usePlc((plc) => plc.state);
-  const shown = showState(state, online);
   const [wanted] = useState(() => readLink(location)?.instance);
   const [title, setTitle] = useState("");
-  const plc = instance?.name ?? "";
-  useEffect(() => {
-    document.title = [title, plc, "Scanbench"].filter(Boolean).join(" – ");
-  }, [title, plc]);
+  const { frame, shown } = useFrame(title, instance?.name);
   useEffect(() => installKeys(), []);
   useEffect(() => {
     const arrangement = {
@@ -39,11 +32,11 @@ export function LoneWindow({ panel }: { panel: string }) {
     return offerCommands(() => windowCommands(arrangement));
   }, []);
   return (
-    <div className="app lone" data-tone={shown.tone} data-link={online ? "open" : "lost"}>
+    <div className="app lone" {...frame}>
       <div className="rail" />
       <header className="lonehead">
-        <h1>{plc}</h1>
-        {state && <StateWord tone={shown.tone} icon={shown.icon} word={shown.word} />}
+        <h1>{instance?.name}</h1>
+        {shown && <StateWord tone={shown.tone} icon={shown.icon} word={shown.word} />}
         <span className="grow" />
         {instance && (
           <a className="link" href={linkPath({ instance: instance.id, scan: null, panel: null })}>

@@ -3982,6 +3982,11 @@ export interface components {
             author: string;
             /** Path */
             path: string;
+            /**
+             * Saved
+             * @description when, ISO 8601; empty when nobody knows
+             */
+            saved?: string;
             /** Version */
             version: number;
         };
@@ -3994,6 +3999,11 @@ export interface components {
             author: string;
             /** Path */
             path: string;
+            /**
+             * Saved
+             * @description when, ISO 8601; empty when nobody knows
+             */
+            saved?: string;
             /** Text */
             text: string;
             /** Version */

@@ -57,6 +57,9 @@ export function dayTime(iso: string): string {
   return `${date.getFullYear()}-${pad(date.getMonth() + 1)}-${pad(date.getDate())} ${clockTime(iso)}`;
 }
 
+/** Whether an ISO timestamp is of this day, in the browser's zone. */
+export const isToday = (iso: string) => new Date(iso).toDateString() === new Date().toDateString();
+
 /** A size in bytes as 3.4 KiB, 12 MiB, 1.2 GiB. */
 export function bytes(count: number): string {
   const units = ["B", "KiB", "MiB", "GiB", "TiB"];

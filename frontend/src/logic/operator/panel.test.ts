@@ -15,6 +15,17 @@ import {
 
 type New = Parameters<typeof addElement>[1];
 const add = (panel: Panel, element: New) => addElement(panel, element, 24);
+test("a meaning is kept with the element; one that is not known is none", () => {
+  const lamp = (tone: string) =>
+    `{"version":1,"elements":[{"id":"a","kind":"lamp","column":0,"row":0,"width":4,"height":2,"tone":"${tone}"}]}`;
+  const tones = ["fault", "normal", "purple"].map((tone) => {
+    const read = parsePanel(lamp(tone));
+    if (!("elements" in read)) throw new Error(read.why);
+    return parsePanel(textOf(read));
+  });
+  expect(tones.map((read) => "elements" in read && read.elements[0]?.tone)).toEqual(["fault", undefined, undefined]);
+});
+
 const two = add(add(EMPTY_PANEL, { id: "a", kind: "lamp", path: "motor" }), { id: "b", kind: "slider", path: "speed" });
 
 const placeOf = (panel: Panel, id: string) => {

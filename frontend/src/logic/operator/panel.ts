@@ -4,6 +4,10 @@
 export const KINDS = ["switch", "button", "lamp", "number", "slider", "bar", "trend", "text"] as const;
 export type Kind = (typeof KINDS)[number];
 
+/** What it means that a lamp is on, or a button pressed: as the colours of IEC 60073 do. */
+export const TONES = ["normal", "neutral", "warning", "fault"] as const;
+export type Tone = (typeof TONES)[number];
+
 /** Cells of the grid, counted from 0 at the top left. */
 interface Place {
   column: number;
@@ -22,6 +26,8 @@ export interface PanelElement extends Place {
   /** The ends of the scale of a slider, a bar and a trend. */
   low: number;
   high: number;
+  /** Not there: normal. */
+  tone?: Tone | undefined;
 }
 
 export interface Panel {
@@ -50,6 +56,8 @@ export const SIZES: Record<Kind, readonly [width: number, height: number, least:
 
 /** Kinds that write the variable. */
 export const WRITES: readonly Kind[] = ["switch", "button", "number", "slider"];
+/** Kinds whose light has a meaning. */
+export const TONED: readonly Kind[] = ["lamp", "button"];
 /** Kinds that have a scale. */
 export const SCALED: readonly Kind[] = ["slider", "bar", "trend"];
 
@@ -101,11 +109,14 @@ function elementOf(read: unknown): PanelElement | null {
     row,
     width,
     height,
+    tone,
   } = read as Partial<PanelElement>;
   const texts = [id, path, label].every((each) => typeof each === "string");
   const numbers = [low, high, column, row, width, height].every((each) => Number.isFinite(each));
   if (!texts || !numbers || id === "" || !KINDS.some((known) => known === kind)) return null;
   const element = { id, kind, path, label, low, high, column, row, width, height } as PanelElement;
+  const known = TONES.find((each) => each === tone);
+  if (known !== undefined && known !== "normal") element.tone = known;
   return fitting(element);
 }
 

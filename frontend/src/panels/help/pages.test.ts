@@ -40,6 +40,14 @@ describe("the help", () => {
     expect(search("nothingsaysthis")).toEqual([]);
   });
 
+  it("finds pages for users before those for developers", () => {
+    for (const words of ["instance", "force", "breakpoint", "model"]) {
+      const found = search(words).map(({ path }) => /^(\.\.\/|api|dap|features|formats|lsp|scripts)/.test(path));
+      expect(found[0]).toBe(false);
+      expect(found).toEqual([...found].sort());
+    }
+  });
+
   it("shows the HTML of a text as text, and gives headings of the same words places of their own", () => {
     const { html, entries } = helpPage("# A & B\n\n<script>alert(1)</script>\n\n## Same\n\nOne\n\n## Same\n\nTwo\n");
     expect(html).not.toContain("<script>");

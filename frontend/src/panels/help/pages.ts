@@ -33,7 +33,11 @@ interface Found extends HelpEntry {
 
 const MOST = 60;
 
-/** Places with all the words: those with them in their titles first. */
+/** Pages about scripts, other programs, formats and what the page is made of; who works at a PLC looks for the others. */
+const DEVELOPERS = ["api.md", "dap.md", "features.md", "formats.md", "lsp.md", "scripts.md"];
+const isForDevelopers = (path: string) => DEVELOPERS.includes(path) || path.startsWith("../");
+
+/** Places with all the words: those of pages for users first, and of each kind those with the words in their titles. */
 export function search(text: string): Found[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const all = [...pages].flatMap(([path, page]) =>
@@ -41,7 +45,10 @@ export function search(text: string): Found[] {
   );
   return all
     .filter(({ score }) => score > 0)
-    .sort((one, other) => other.score - one.score)
+    .sort(
+      (one, other) =>
+        Number(isForDevelopers(one.path)) - Number(isForDevelopers(other.path)) || other.score - one.score,
+    )
     .slice(0, MOST);
 }
 

@@ -1,5 +1,14 @@
 import { type ReactNode, useState } from "react";
-import { changeElement, KINDS, type PanelElement, removeElement, SCALED, SIZES } from "../../logic/operator/panel";
+import {
+  changeElement,
+  KINDS,
+  type PanelElement,
+  removeElement,
+  SCALED,
+  SIZES,
+  TONED,
+  TONES,
+} from "../../logic/operator/panel";
 import { editPanel } from "../../store/operator/panels";
 import { complete } from "../../store/plc/completion";
 import { t } from "../../text";
@@ -57,6 +66,25 @@ export function ElementForm({ path, element, onRemoved }: Props) {
       <Entry value={element.label} onEntered={(label) => change({ label })}>
         {(entry) => <Field label={t("operator.label")} {...entry} />}
       </Entry>
+      {TONED.includes(kind) && (
+        <label className="field">
+          <span>{t("operator.tone")}</span>
+          <select
+            className="inp"
+            value={element.tone ?? "normal"}
+            onChange={({ target }) => {
+              const tone = TONES.find((each) => each === target.value);
+              change({ tone: tone === "normal" ? undefined : tone });
+            }}
+          >
+            {TONES.map((each) => (
+              <option key={each} value={each}>
+                {t(`operator.tone.${each}`)}
+              </option>
+            ))}
+          </select>
+        </label>
+      )}
       {SCALED.includes(kind) && (
         <div className="opfour">
           <NumberEntry label={t("operator.low")} value={element.low} onChange={(low) => change({ low })} />

@@ -81,7 +81,7 @@ function Content({ element, label, reading, still }: ContentProps) {
     case "slider":
       return <Slider {...props} />;
     case "lamp":
-      return <Lamp label={label} reading={reading} />;
+      return <Lamp element={element} label={label} reading={reading} />;
     case "bar":
       return <Bar element={element} label={label} reading={reading} />;
     case "trend":
@@ -121,7 +121,7 @@ function SwitchControl({ element: { id, path }, label, reading, locked }: Contro
 }
 
 /** TRUE while it is held. */
-function PushButton({ element: { id, path }, label, reading, locked }: ControlProps) {
+function PushButton({ element: { id, path, tone = "normal" }, label, reading, locked }: ControlProps) {
   // Whatever happens to this element meanwhile, the variable that was pressed is the one that is let go.
   const held = useRef<string | null>(null);
   const letGo = useRef(() => {
@@ -143,7 +143,7 @@ function PushButton({ element: { id, path }, label, reading, locked }: ControlPr
   return (
     <button
       type="button"
-      className={`oppush${reading.on ? " on" : ""}`}
+      className={`oppush tone-${tone}${reading.on ? " on" : ""}`}
       aria-label={label}
       aria-pressed={reading.on === true}
       disabled={locked !== null || reading.on === null}

@@ -11,9 +11,9 @@ interface Props {
   reading: Reading;
 }
 
-export function Lamp({ label, reading: { on, text } }: Omit<Props, "element">) {
+export function Lamp({ element: { tone = "normal" }, label, reading: { on, text } }: Props) {
   return (
-    <span className={`oplamp${on ? " on" : ""}`} role="img" aria-label={`${label}: ${text}`}>
+    <span className={`oplamp tone-${tone}${on ? " on" : ""}`} role="img" aria-label={`${label}: ${text}`}>
       <span className="opbulb" />
       <span className="opword mono">{text}</span>
     </span>

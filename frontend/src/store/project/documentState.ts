@@ -9,7 +9,9 @@ export interface Document {
   savedText: string;
   /** The stored version on which the text is based. */
   version: number;
-  savedAt: number | null;
+  /** When the version was saved, and by whom; empty when that is not known. */
+  savedAt: string;
+  savedBy: string;
   /** The version of somebody who saved meanwhile, to be shown beside one's own. */
   conflict: FileText | null;
   /** The file was deleted, but its edited text stays: who deleted it; empty when that is not known. */

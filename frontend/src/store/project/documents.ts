@@ -64,7 +64,8 @@ export async function openDocument(path: string): Promise<void> {
     text: kept?.text ?? stored?.text ?? "",
     savedText: stored?.text ?? "",
     version: stored ? (kept?.version ?? stored.version) : 0,
-    savedAt: null,
+    savedAt: stored?.saved ?? "",
+    savedBy: stored?.author ?? "",
     conflict: null,
     deletedBy: stored ? null : "",
     base: kept?.base,
@@ -209,7 +210,7 @@ async function saveNow(project: number | null, path: string): Promise<boolean> {
       const newer = shared && theirs.version > document.version;
       if (newer && (await refresh(path)) && shared === sharedText(path)) {
         // The draft has what they saved, too, and by now it is here: nothing is lost.
-        patch(path, { savedText: theirs.text, version: theirs.version });
+        patch(path, savedAs(theirs));
         return saveNow(project, path);
       }
       patch(path, { conflict: theirs });
@@ -224,6 +225,10 @@ async function saveNow(project: number | null, path: string): Promise<boolean> {
   }
 }
 
+const savedAs = ({ text, version, saved, author }: FileText) => ({
+  ...{ savedText: text, version, savedAt: saved ?? "", savedBy: author },
+});
+
 /** Without a connection a request would wait for ever, and would save unexpectedly later. */
 function isCutOff(): boolean {
   const lost = usePlc.getState().link.state === "lost";
@@ -236,7 +241,8 @@ function stored(path: string, text: string, file: FileInfo): void {
   patch(path, {
     savedText: text,
     version: file.version,
-    savedAt: Date.now(),
+    savedAt: file.saved ?? "",
+    savedBy: file.author,
     conflict: null,
     deletedBy: null,
     base: undefined,
@@ -259,19 +265,13 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
     return;
   }
   if (choice === "theirs") {
-    patch(path, {
-      text: theirs.text,
-      savedText: theirs.text,
-      version: theirs.version,
-      conflict: null,
-      base: undefined,
-    });
+    patch(path, { text: theirs.text, ...savedAs(theirs), conflict: null, base: undefined });
     forgetDraft(project, path);
     void share(path);
     scheduleCheck();
     return;
   }
-  patch(path, { savedText: theirs.text, version: theirs.version, conflict: null });
+  patch(path, { ...savedAs(theirs), conflict: null });
   await save(path);
 }
 
@@ -362,7 +362,7 @@ export async function onSaved(file: FileInfo): Promise<void> {
   const fresh = await rest.file(project, file.path);
   const now = get().open[file.path];
   if (now && fresh.version > now.version) {
-    const saved = { savedText: fresh.text, version: fresh.version };
+    const saved = savedAs(fresh);
     if (shared()) patch(file.path, saved);
     else if (!isDirty(now)) patch(file.path, { text: fresh.text, ...saved });
   }

@@ -78,6 +78,7 @@ export const common = {
   "status.restarts": "{count} restarts",
   "status.restarts.one": "1 restart",
   "status.saved": "Saved {at}",
+  "status.savedby": "Saved {at} by {author}",
   "status.stored": "Saved, version {version}",
   "status.task": "Task {interval}, {speed}",
   "strip.label": "Left panels",

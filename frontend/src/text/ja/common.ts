@@ -80,6 +80,7 @@ export const common: Record<keyof typeof english, string> = {
   "status.restarts": "再起動 {count} 回",
   "status.restarts.one": "再起動 1 回",
   "status.saved": "{at} に保存",
+  "status.savedby": "{at} に {author} が保存",
   "status.stored": "保存済み、版 {version}",
   "status.task": "タスク {interval}、{speed}",
   "strip.label": "左のパネル",

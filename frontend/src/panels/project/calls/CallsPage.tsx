@@ -12,6 +12,7 @@ import {
 } from "../../../store/project/calls";
 import { t } from "../../../text";
 import type { IconName } from "../../../ui/Icon";
+import { PageHead } from "../../../ui/PageHead";
 import { Segments } from "../../../ui/Segments";
 import { Tree, type TreeRow } from "../../../ui/Tree";
 import { Trouble } from "../../../ui/Trouble";
@@ -28,15 +29,15 @@ export function CallsPage() {
   const rows = useRows(root);
   return (
     <section className="pane flexcol" aria-label={t("calls.title")} data-pane="calls">
-      <div className="sub tall">
-        <h2 className={root ? "mono grow" : "grow"}>{root?.name ?? t("calls.title")}</h2>
+      <PageHead title={root?.name ?? t("calls.title")} name={root !== null}>
+        <span className="grow" />
         <Segments
           label={t("calls.direction")}
           value={direction}
           options={DIRECTIONS.map((value) => ({ value, word: t(`calls.${value}`) }))}
           onChoose={turnAround}
         />
-      </div>
+      </PageHead>
       <PastNote of="cross" />
       <Trouble text={trouble} />
       {state === "asking" && trouble === null && <p className="lonely faint">{t("calls.asking")}</p>}

@@ -12,6 +12,7 @@ import { type CrossReference, followTexts, showUnused, type Unused, useCross } f
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
+import { PageHead } from "../../../ui/PageHead";
 import { Trouble } from "../../../ui/Trouble";
 import { useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
@@ -31,8 +32,7 @@ export function CrossPage() {
   const { name, path, complete, state, trouble, references, unused } = useCross();
   return (
     <section className="pane flexcol cross" aria-label={t("cross.title")} data-pane="cross">
-      <div className="sub tall crossbar">
-        <h2 className={name ? "mono" : ""}>{name === null ? t("cross.unused") : name || t("cross.title")}</h2>
+      <PageHead title={name === null ? t("cross.unused") : name || t("cross.title")} name={Boolean(name)}>
         {name !== null && state === "there" && <span className="muted">{counted(references)}</span>}
         {path !== null && state === "there" && <LiveValue key={path} path={path} />}
         <span className="grow" />
@@ -47,7 +47,7 @@ export function CrossPage() {
             {t("cross.unused")}
           </button>
         )}
-      </div>
+      </PageHead>
       <PastNote of="cross" />
       <Trouble text={trouble} />
       {state === "there" && !complete && (

@@ -6,7 +6,7 @@ import type { Person } from "../../../wire/types";
 import { editor, type IPosition, type ISelection } from "./monaco";
 import "./others.css";
 
-const { ABOVE, BELOW } = editor.ContentWidgetPositionPreference;
+const { EXACT } = editor.ContentWidgetPositionPreference;
 
 interface Flag extends editor.IContentWidget {
   at: IPosition;
@@ -14,14 +14,21 @@ interface Flag extends editor.IContentWidget {
   quiet?: ReturnType<typeof setTimeout>;
 }
 
-/** The flag of somebody who has not moved for so long, in ms, covers less of the text. */
-const QUIET = 3000;
+/** For so long, in ms, the name of somebody who moved is shown. */
+const SHOWN = 1000;
 
 /** Returns a function that ends it. */
 export function showOthers(code: editor.IStandaloneCodeEditor, path: string): () => void {
   const marks = code.createDecorationsCollection();
   const flags = new Map<number, Flag>();
   let revealed = "";
+
+  /** The mouse is at the caret of somebody: their name is shown for as long. */
+  const hover = ({ target }: editor.IEditorMouseEvent) => {
+    const { position } = target;
+    for (const { at, element } of flags.values())
+      element.classList.toggle("hovered", position !== null && isNear(position, at));
+  };
 
   const show = () => {
     const here = othersOf(usePeople.getState()).filter(({ file }) => file === path);
@@ -55,6 +62,7 @@ export function showOthers(code: editor.IStandaloneCodeEditor, path: string): ()
   tell();
   const moved = code.onDidChangeCursorSelection(tell);
   const typed = code.onDidChangeModelContent(show);
+  const pointed = code.onMouseMove(hover);
   const stops = [
     usePeople.subscribe(show),
     useDocuments.subscribe((now, before) => now.active !== before.active && tell()),
@@ -62,6 +70,7 @@ export function showOthers(code: editor.IStandaloneCodeEditor, path: string): ()
   return () => {
     moved.dispose();
     typed.dispose();
+    pointed.dispose();
     for (const stop of stops) stop();
     for (const flag of flags.values()) code.removeContentWidget(flag);
     marks.clear();
@@ -110,36 +119,45 @@ function decorations({ person, start, end, head }: Drawn): editor.IModelDeltaDec
   return [{ range: range(start, end), options: { className: `otherselection ${colour}` } }, caret];
 }
 
-/** The name at the caret. */
+/** Beside a caret, or at it. */
+const isNear = (one: IPosition, other: IPosition) =>
+  one.lineNumber === other.lineNumber && Math.abs(one.column - other.column) <= 1;
+
+/** The name, in the line above the caret: beside what is typed there, not over it. */
 function fly(code: editor.IStandaloneCodeEditor, flags: Map<number, Flag>, person: Person, at: IPosition): void {
   const { id, name, colour } = person;
   const known = flags.get(id);
   if (known) {
-    if (known.at.lineNumber !== at.lineNumber || known.at.column !== at.column) unfurl(known, person);
+    if (known.at.lineNumber !== at.lineNumber || known.at.column !== at.column) unfurl(known);
     known.at = at;
     code.layoutContentWidget(known);
     return;
   }
   const element = document.createElement("div");
   element.className = `othername person${colour}`;
-  element.title = name;
+  element.textContent = name;
   const flag: Flag = {
     at,
     element,
     getId: () => `scanbench.other.${id}`,
     getDomNode: () => element,
-    getPosition: () => ({ position: flag.at, preference: [ABOVE, BELOW] }),
+    getPosition: () => ({ position: freeAt(code, flag.at), preference: [EXACT] }),
   };
   flags.set(id, flag);
-  unfurl(flag, person);
+  unfurl(flag);
   code.addContentWidget(flag);
 }
 
-/** The whole name for a while, then the initials. */
-function unfurl(flag: Flag, { name, initials }: Person): void {
+/** Where the name covers no text: in the line above the caret, after its text; in the first line, after that of the caret. */
+function freeAt(code: editor.IStandaloneCodeEditor, { lineNumber, column }: IPosition): IPosition {
+  const line = Math.max(1, lineNumber - 1);
+  const end = code.getModel()?.getLineMaxColumn(line) ?? 1;
+  return { lineNumber: line, column: Math.max(end, lineNumber > 1 ? column : 1) };
+}
+
+/** The name is shown for a moment. */
+function unfurl(flag: Flag): void {
   clearTimeout(flag.quiet);
-  flag.element.textContent = name;
-  flag.quiet = setTimeout(() => {
-    flag.element.textContent = initials;
-  }, QUIET);
+  flag.element.classList.add("moved");
+  flag.quiet = setTimeout(() => flag.element.classList.remove("moved"), SHOWN);
 }

@@ -1,4 +1,4 @@
-import { interval, percent } from "../../../logic/format/numbers";
+import { clockTime, dayTime, interval, isToday, percent } from "../../../logic/format/numbers";
 import { useDebug } from "../../../store/debug/debug";
 import { speedName, useRun } from "../../../store/debug/run";
 import { showSweep, useSweeps } from "../../../store/errors/sweeps";
@@ -6,7 +6,7 @@ import { showPanel } from "../../../store/page/navigate";
 import { chooseLanguage, usePrefs } from "../../../store/page/prefs";
 import { useOnline, usePlc } from "../../../store/plc/plc";
 import { useTimeline } from "../../../store/plc/timeline";
-import { isDirty, useDocuments } from "../../../store/project/documents";
+import { type Document, isDirty, useDocuments } from "../../../store/project/documents";
 import { languageNames, languages, t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
@@ -114,17 +114,22 @@ function RunRefusal() {
 function FileState() {
   const cursor = useDocuments((documents) => documents.cursor);
   const document = useDocuments((documents) => (documents.active ? documents.open[documents.active] : undefined));
+  const you = usePlc((plc) => plc.you?.name);
   if (!document) return null;
-  const saved = document.savedAt
-    ? t("status.saved", { at: new Date(document.savedAt).toLocaleTimeString("en-GB", { timeStyle: "short" }) })
-    : t("status.stored", { version: document.version });
   return (
     <>
       {cursor && <span>{t("status.place", cursor)}</span>}
       <span>ST</span>
-      <span>{isDirty(document) ? t("unsaved") : saved}</span>
+      <span>{isDirty(document) ? t("unsaved") : savedOf(document, you)}</span>
     </>
   );
+}
+
+/** When the text was saved, and by whom if it was somebody else. */
+function savedOf({ savedAt, savedBy, version }: Document, you: string | undefined): string {
+  if (savedAt === "") return t("status.stored", { version });
+  const at = isToday(savedAt) ? clockTime(savedAt) : dayTime(savedAt);
+  return savedBy === "" || savedBy === you ? t("status.saved", { at }) : t("status.savedby", { at, author: savedBy });
 }
 
 function Language() {
