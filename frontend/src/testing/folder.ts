@@ -1,5 +1,5 @@
 /** A folder as a browser gives it to whoever it is dropped on: names lead to texts, or to more of that; an error cannot be read. */
-export interface Tree {
+interface Tree {
   [name: string]: string | Error | Tree;
 }
 

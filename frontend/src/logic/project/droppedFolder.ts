@@ -3,12 +3,12 @@ import { FILE_ENDINGS } from "./explorer";
 
 type Why = "hidden" | "kind" | "size" | "unreadable";
 
-export interface LeftOut {
+interface LeftOut {
   path: string;
   why: Why;
 }
 
-export interface Found {
+interface Found {
   /** With their folders. */
   files: readonly { path: string; file: File }[];
   left: readonly LeftOut[];

@@ -41,7 +41,7 @@ export const placeOf = ({ selectionRange: { start } }: DocumentSymbol): Place =>
   column: start.character + 1,
 });
 
-export interface OutlineRow {
+interface OutlineRow {
   /** Names from the outermost one on, each with which one of this name it is: it stays when lines are added above. */
   key: string;
   level: number;
