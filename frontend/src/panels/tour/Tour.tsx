@@ -17,7 +17,7 @@ export default function Tour() {
   useEffect(() => watch(WATCHED), []);
   const step = STEPS[at];
   return (
-    <section className="tour" aria-label={t("tour.title")}>
+    <section className="tour" aria-label={t("tour.title")} data-pane="tour">
       <b>{t("tour.title")}</b>
       <span className="faint">{t("tour.step", { at: Math.min(at + 1, STEPS.length), of: STEPS.length })}</span>
       {step ? <Doing key={step.name} step={step} at={at} /> : <End />}
