@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { symbolOf } from "../../testing/symbols";
-import { chainAt, declared, keysAt, outlineRows, placeOf } from "./outline";
+import { chainAt, declared, keysAt, outlineRows, placeOf, unsectioned } from "./outline";
 
 // 1 FUNCTION_BLOCK Belt / 2 VAR run : BOOL; END_VAR / 3 VAR / 4 speed : INT; / 5 END_VAR / 6 IF run THEN / 7 END_IF / 8 END_FUNCTION_BLOCK
 const SYMBOLS = [
@@ -43,6 +43,10 @@ test("the tree has no statements; what is closed hides what is inside; two secti
     "2 speed undefined",
     "0 Main undefined",
   ]);
+});
+
+test("for lists of names there are neither statements nor sections", () => {
+  expect(unsectioned(SYMBOLS).map(({ children }) => children?.map(({ name }) => name))).toEqual([["run", "speed"], []]);
 });
 
 test("while something is looked for, it is shown with what is around it", () => {

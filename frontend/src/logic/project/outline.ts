@@ -15,6 +15,15 @@ export const declared = (symbols: readonly DocumentSymbol[]): DocumentSymbol[] =
     .filter(({ kind }) => kind !== STATEMENT)
     .map((symbol) => ({ ...symbol, children: declared(symbol.children ?? []) }));
 
+const SECTION: SymbolKind = 4;
+
+/** The same without a level for the sections of variables: for lists of names, and for lines that stay in sight while one scrolls. */
+export const unsectioned = (symbols: readonly DocumentSymbol[]): DocumentSymbol[] =>
+  declared(symbols).flatMap((symbol) => {
+    const children = unsectioned(symbol.children ?? []);
+    return symbol.kind === SECTION ? children : [{ ...symbol, children }];
+  });
+
 export interface Level {
   symbol: DocumentSymbol;
   /** What is beside it, and itself. */

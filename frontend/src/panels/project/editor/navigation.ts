@@ -1,7 +1,7 @@
 /** Definition, implementation, references, names of the same kind in the text, the outline of a file and what can be folded: by the language server. */
 
 import type { DocumentHighlight, DocumentSymbol, FoldingRange, Location } from "vscode-languageserver-types";
-import { declared } from "../../../logic/project/outline";
+import { unsectioned } from "../../../logic/project/outline";
 import { openFile } from "../../../store/page/navigate";
 import { askAt, askOf } from "../../../store/project/language";
 import { symbolsOf } from "../../../store/project/outline";
@@ -54,7 +54,7 @@ languages.registerDocumentHighlightProvider(LANGUAGE, {
 languages.registerDocumentSymbolProvider(LANGUAGE, {
   displayName: "Scanbench",
   provideDocumentSymbols: async (model) =>
-    isPast(model) ? [] : declared((await symbolsOf(pathOfModel(model))) ?? []).map(symbolOf),
+    isPast(model) ? [] : unsectioned((await symbolsOf(pathOfModel(model))) ?? []).map(symbolOf),
 });
 
 const symbolOf = (symbol: DocumentSymbol): languages.DocumentSymbol => ({
