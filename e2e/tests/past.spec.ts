@@ -241,6 +241,62 @@ test('the past before a build shows the text, the values and the version of its 
   });
 });
 
+test('the past across three versions: each scan with its text, its values and the name of its version', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  const main = ann.editor('Main.st');
+  const scans: number[] = [];
+  const live = async (version: number) => {
+    await expect(ann.statusBar).toContainText(`Program version ${version}`);
+    await ann.top.scansGoOn();
+    scans.push(await ann.top.scan());
+  };
+  await live(1);
+  await main.addBelow('uptime    : TIME;', '  second    : DINT := 2000;');
+  await main.addBelow('uptime := TIME();', '  second := second + 1;');
+  await main.build();
+  await live(2);
+  await main.addBelow('second    : DINT := 2000;', '  third     : DINT := 3000;');
+  await main.addBelow('second := second + 1;', '  third := third + 1;');
+  await main.build();
+  await live(3);
+  for (const path of ['Main.uptime', 'Main.second', 'Main.third']) await ann.watch.add(path);
+
+  const names = ['uptime', 'second', 'third'];
+  for (const version of [1, 3, 2, 1]) {
+    await test.step(`in a scan of version ${version}`, async () => {
+      await ann.timeline.goTo(scans[version - 1] ?? 0);
+      await expect(ann.statusBar).toContainText(`Program version ${version}`);
+      await expect(ann.top.picker).toContainText(`version ${version}`);
+      // The newest version is also that of the text that is edited: nothing is to be said then.
+      if (version < 3) await expect(main.pastNote).toContainText(`Program version ${version}`);
+      else await expect(main.pastNote).toHaveCount(0);
+      for (const [index, name] of names.entries()) {
+        const known = index < version;
+        if (known) await main.reveal(`${name} :=`);
+        await expect(main.line(`${name} :=`)).toHaveCount(known ? 1 : 0);
+        if (!known) {
+          await expect(ann.watch.row(`Main.${name}`)).toContainText(`not in version ${version}`);
+          continue;
+        }
+        await expect(ann.watch.row(`Main.${name}`)).not.toContainText('not in version');
+        await expect(ann.watch.value(`Main.${name}`)).toHaveText(/[0-9]/);
+        await expect(main.inlineValue(name)).toHaveText((await ann.watch.value(`Main.${name}`).textContent()) ?? '');
+      }
+    });
+  }
+
+  await test.step('live again, in the newest version', async () => {
+    await ann.timeline.returnToLive();
+    await expect(ann.statusBar).toContainText('Program version 3');
+    await expect(ann.top.picker).toContainText('version 3');
+    await expect(main.pastNote).toHaveCount(0);
+    await expect(ann.watch.value('Main.third')).toHaveText(/[0-9]/);
+  });
+});
+
 /** A number as the page shows it, with thin gaps. */
 const grouped = (scan: number) => String(scan).replace(/\B(?=(\d{3})+(?!\d))/g, ',');
 

@@ -119,8 +119,8 @@ class Client:
         if event.ref is None:
             items = tuple(item for item in items if item.id in self._ids)
         self._ids.update(item.id for item in items if item.sent)
-        if event.ref is not None or items:
-            self._texts.add(_text(translate.event(events.Watching(event.ref, items))))
+        # Also without items: then this browser asks again for what it was refused.
+        self._texts.add(_text(translate.event(events.Watching(event.ref, items))))
 
     # ---- the socket -----------------------------------------------------------------------------------------------
 

@@ -87,4 +87,11 @@ export function onWatching(items: readonly Watched[], moved: boolean): void {
     }
   }
   useWatches.setState({ symbols, refusals });
+  if (moved) askForTheRest(new Set(items.map(({ path }) => path)));
+}
+
+/** The server forgets paths that it refused: a different program may have them. */
+function askForTheRest(told: ReadonlySet<string>): void {
+  for (const path of counts.keys()) if (!told.has(path)) toWatch.add(path);
+  schedule();
 }
