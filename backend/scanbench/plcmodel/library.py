@@ -12,6 +12,7 @@ from scanbench.plcmodel.catalogue import CodeForm
 from scanbench.plcmodel.document import Document, read, schema_of
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.read_catalogue import read_catalogue
+from scanbench.plcmodel.read_facts import read_facts
 from scanbench.plcmodel.read_instructions import instructions, resets
 from scanbench.plcmodel.read_memory import read_memory
 from scanbench.plcmodel.read_system import (
@@ -125,7 +126,7 @@ def _model(layers: list[Reader]) -> Model:
     for reader in layers:
         reader.symbols = {entry.symbol.upper(): entry.location for entry in places if entry.symbol}
         reader.code_form = form
-    catalogue = read_catalogue(layers)
+    catalogue, elements = read_catalogue(layers)
     errors = {error.id: error for group in catalogue for error in group.walk()}
     described = next((reader.root for reader in reversed(layers) if text_of(reader.root, "Description")), own)
     return Model(
@@ -147,6 +148,7 @@ def _model(layers: list[Reader]) -> Model:
         error_reset=error_reset(layers),
         error_time=error_time(layers),
         resets=resets(layers),
+        facts=read_facts(layers, [(elements[id], error) for id, error in errors.items()]),
     )
 
 

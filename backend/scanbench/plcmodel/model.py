@@ -19,6 +19,7 @@ from scanbench.plcmodel.catalogue import (
     Wording,
     show_code,
 )
+from scanbench.plcmodel.facts import Fact
 
 __all__ = [
     "Access",
@@ -34,6 +35,7 @@ __all__ = [
     "ErrorLog",
     "ErrorReset",
     "ErrorTime",
+    "Fact",
     "FatalBehaviour",
     "IecMap",
     "Instruction",
@@ -193,6 +195,8 @@ class Model:
     error_reset: ErrorReset | None = None
     error_time: ErrorTime | None = None
     resets: tuple[ResetInstruction, ...] = ()
+    facts: tuple[Fact, ...] = ()
+    """Everything that the model file says about the device, and where it comes from."""
 
     def area(self, name: str) -> Area | None:
         """The area of this name (not of an alias)."""

@@ -40,8 +40,8 @@ class _Branch:
             yield from branch.walk()
 
 
-def read_catalogue(layers: Sequence[Reader]) -> tuple[ErrorGroup, ...]:
-    """The tree that the layers make together, the base first.
+def read_catalogue(layers: Sequence[Reader]) -> tuple[tuple[ErrorGroup, ...], dict[str, Element]]:
+    """The tree that the layers make together, the base first, and where each error was read.
 
     An error with an id of the base's takes its place; groups of the same name become one.
     """
@@ -56,8 +56,9 @@ def read_catalogue(layers: Sequence[Reader]) -> tuple[ErrorGroup, ...]:
         for node in reader.root.iterchildren("ErrorGroup"):
             _add(reader, node, root, left, own)
     made = _made(root)
-    _unique(made, {id: element for branch in root.walk() for id, element in branch.errors.items()})
-    return made.groups
+    elements = {id: element for branch in root.walk() for id, element in branch.errors.items()}
+    _unique(made, elements)
+    return made.groups, elements
 
 
 def _add(

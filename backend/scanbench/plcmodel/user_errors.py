@@ -98,7 +98,10 @@ def _extend(model: Model, text: str, file: str) -> Extended:
     reader = Reader(document)
     reader.areas, reader.iec_maps, reader.code_form = device.areas, device.iec_maps, device.code_form
     reader.symbols = {entry.symbol.upper(): entry.location for entry in device.specials if entry.symbol}
-    groups = read_catalogue((reader,))
+    groups, _ = read_catalogue((reader,))
+    for node in reader.root.iter("Fact"):
+        message = "an error of a project has its Source and Verified as a whole: leave out Fact"
+        reader.problem("M010", message, node)
     _compare(reader, device, groups)
     if reader.problems:
         found = sorted(dict.fromkeys(reader.problems), key=lambda each: (each.span.line, each.span.column))

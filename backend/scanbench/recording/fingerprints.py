@@ -13,7 +13,7 @@ from scanbench.program.program import Program
 from scanbench.program.types import Record
 
 _SAMPLES = 500
-_WORDS = frozenset({"description", "source", "verified", "wordings", "user"})
+_WORDS = frozenset({"description", "source", "verified", "wordings", "user", "facts"})
 _F64 = struct.Struct("<d")
 
 

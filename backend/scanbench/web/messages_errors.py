@@ -48,6 +48,16 @@ class ErrorChoiceInfo(Wire):
     wordings: list[Wording] = Field(default_factory=list)
 
 
+class Fact(Wire):
+    """One statement of the model about the device, and where it comes from."""
+
+    of: str = Field(description="flag, code, severity, priority, cause, memory, log, details, text")
+    value: str
+    source: str = Field(description="keys are in models/FORMAT.md")
+    verified: bool = Field(description="somebody found it on the page that `source` names")
+    inherited: bool = Field(description="it has no source of its own, but that of the whole error")
+
+
 class ErrorInfo(Wire):
     id: str
     name: str
@@ -58,6 +68,7 @@ class ErrorInfo(Wire):
     priority: int = Field(description="1 is the most serious")
     verified: bool
     source: str
+    facts: list[Fact] = Field(default_factory=list, description="none of a project's own error")
     details: list[ErrorDetail]
     user: bool = Field(default=False, description="one of the project's own (errors.xml)")
     wordings: list[Wording] = Field(default_factory=list)

@@ -27,7 +27,9 @@ class ModelSummary(Wire):
     vendor: str
     description: str
     error_count: int
-    verified_count: int = Field(description="errors whose facts were looked up, not only known")
+    verified_count: int = Field(description="errors all of whose facts were looked up, not only known")
+    fact_count: int = Field(description="statements about the device, each with a source: `scanbench model facts`")
+    verified_facts: int = Field(description="how many of them were looked up on a page")
 
 
 class ModelInfo(ModelSummary):

@@ -2,6 +2,7 @@
 
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
+from scanbench.plcmodel.facts import share
 from scanbench.problems import Problem
 from scanbench.program.sites import CheckSite
 from scanbench.public import iso
@@ -210,9 +211,10 @@ def _of_project(
 
 def model_summary(model: plc.Model) -> messages_models.ModelSummary:
     """A model in a list."""
+    verified, facts = share(model.facts)
     return messages_models.ModelSummary(
         name=model.name, vendor=model.vendor, description=model.description, error_count=len(list(model.errors())),
-        verified_count=sum(error.verified for error in model.errors()),
+        verified_count=sum(error.verified for error in model.errors()), fact_count=facts, verified_facts=verified,
     )  # fmt: skip
 
 
@@ -227,7 +229,7 @@ def model_info(model: plc.Model) -> messages_models.ModelInfo:
         if word is None
         else [model.format(word.area, word.byte + at, None, 16) for at in range(0, word.bits // 8, 2)],
         status_words=list(model.status_words),
-        catalogue=translate_errors.groups(model.catalogue),
+        catalogue=translate_errors.groups(model.catalogue, translate_errors.facts_by_error(model)),
     )
 
 

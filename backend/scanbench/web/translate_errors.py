@@ -1,6 +1,6 @@
 """The error simulator's dataclasses -> wire shapes, and back. Nothing is decided here."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 
 from scanbench.faults.history import RowReaction, Swept
 from scanbench.plcmodel import model as plc
@@ -21,21 +21,39 @@ def swept(of: Swept | None) -> wire.ReactionState | None:
     return None if of is None else wire.ReactionState(state="done", verdict=of.verdict, scans=of.scans, message="")
 
 
-def groups(of: Iterable[plc.ErrorGroup]) -> list[wire.ErrorGroup]:
+Facts = Mapping[str, Sequence[plc.Fact]]
+"""By the id of the error."""
+
+
+def facts_by_error(model: plc.Model) -> Facts:
+    """What the model states about each of its errors."""
+    found: dict[str, list[plc.Fact]] = {}
+    for fact in model.facts:
+        if fact.kind == "error":
+            found.setdefault(fact.subject, []).append(fact)
+    return found
+
+
+def groups(of: Iterable[plc.ErrorGroup], facts: Facts) -> list[wire.ErrorGroup]:
     """The catalogue."""
     return [
         wire.ErrorGroup(
-            name=group.name, groups=groups(group.groups), errors=list(map(_error, group.errors)),
+            name=group.name, groups=groups(group.groups, facts),
+            errors=[_error(error, () if error.user else facts.get(error.id, ())) for error in group.errors],
             wordings=_wordings(group.wordings),
         )
         for group in of
     ]  # fmt: skip
 
 
-def _error(error: plc.ErrorEntry) -> wire.ErrorInfo:
+def _error(error: plc.ErrorEntry, facts: Iterable[plc.Fact]) -> wire.ErrorInfo:
     return wire.ErrorInfo(
         id=error.id, name=error.name, description=error.description, code=error.code_text, flag=error.flag_text,
         severity=error.severity, priority=error.priority, verified=error.verified, source=error.source,
+        facts=[
+            wire.Fact(of=each.of, value=each.value, source=each.source, verified=each.verified, inherited=each.inherited)
+            for each in facts
+        ],
         details=list(map(_detail, error.details)), user=error.user, wordings=_wordings(error.wordings),
     )  # fmt: skip
 

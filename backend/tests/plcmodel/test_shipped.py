@@ -85,12 +85,8 @@ def test_everything_has_a_japanese_name(model: Model) -> None:
 
 @every_model
 def test_what_is_from_knowledge_is_not_called_verified(model: Model) -> None:
-    facts = [(each.source, each.verified) for each in model.errors()]
-    facts += [(each.source, each.verified) for each in model.specials]
-    facts += [(each.source, each.verified) for each in model.instructions]
-    facts += [(each.source, each.verified) for each in model.areas]
-    assert all(source for source, _ in facts)
-    assert not any(verified for source, verified in facts if "K-" in source)
+    assert [fact for fact in model.facts if not fact.source] == []
+    assert [fact for fact in model.facts if fact.verified and "K-" in fact.source] == []
 
 
 @every_model
