@@ -25,7 +25,7 @@ from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.requirements import BadRequirements, read_requirements, wanted_of
 from scanbench.cli.run_options import read_interval
-from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
+from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state, while_present
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.reaction.choices import Choices
 from scanbench.faults.reaction.compare import Outcome, compare
@@ -151,6 +151,7 @@ def sweep_errors(
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
     states: Path | None = typer.Option(None, metavar="FILE", help="States to begin from (JSON, docs/error-sweep.md); else 100 scans from a cold start."),
     window: int = typer.Option(WINDOW, min=1, max=100_000, metavar="N", help="Scans that the program gets to react."),
+    present: list[str] = typer.Option([], "--while", metavar="ERROR", help="Also from each state with this error present; may be given several times: with --only for both, a pair is tried in both orders."),
     severity: list[Severities] = typer.Option([Severities.ALL], help="Which errors count for exit code 1; may be given several times."),
     only: list[str] = typer.Option([], metavar="ID", help="Only this error; may be given several times."),
     interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),
@@ -175,7 +176,7 @@ def sweep_errors(
     chosen = _chosen(program.layout.model, only)
     required = _required(require, requirements, program.layout.model)
     make = _engine(engine)
-    points = _points(states, program, given, make)
+    points = _points(states, present, program, given, make)
     programs = cached({_VERSION: program}, observed(make))
     raised = Choices(program).expand(ErrorRef(each.id) for each in chosen)
     cells, whole = _swept(points, raised, window, programs)
@@ -257,9 +258,12 @@ def _chosen(model: Model, only: list[str]) -> list[ErrorEntry]:
     return [each for each in model.errors() if not only or each.id in only]
 
 
-def _points(path: Path | None, program: Program, sources: Sources, make: MakeObserved) -> dict[str, Point]:
+def _points(
+    path: Path | None, present: Sequence[str], program: Program, sources: Sources, make: MakeObserved
+) -> dict[str, Point]:
     try:
         wanted: list[State] = [START] if path is None else read_states(path)
+        wanted += map(while_present, present)
         return {each.name: _point(each, path, program, sources, make) for each in wanted}
     except (BadStates, Unreadable) as why:
         usage(str(why) if path is None else f"--states {path}: {why}")

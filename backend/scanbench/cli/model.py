@@ -17,7 +17,9 @@ from scanbench.plcmodel.model import Instruction, Model, ResetInstruction, WordR
 _WIDEST = 40
 """Characters of a value in the table of facts."""
 model = typer.Typer(
-    no_args_is_help=True, rich_markup_mode=None, help="PLC models: check a model file, list the models, and their facts with sources."
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="PLC models: check a model file, list the models, and their facts with sources.",
 )
 
 

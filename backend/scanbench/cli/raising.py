@@ -4,8 +4,10 @@ battery-error                                    raised
 battery-error for 5                              and recovered 5 scans later
 battery-error every 100 on 10 times 3 seed 7     present for 10 of every 100 scans, three times, varied by chance 7
 battery-error chatter times 4                    on and off in turn
+battery-error chance 0.5% on 3 seed 7            in each scan with this probability, present for 3 scans
 battery-error for 9 unless Main.ack              recovered after 9 scans, or when it is acknowledged before
 battery-error when Main.n > 3                    begins when this holds; `when main.st:12`: when that line is reached
+battery-error while basic-io-error               begins as soon as the other one is present (its flag is on)
 battery-error + io-bus-error:rack=1 gap 3        one 3 scans after the other; without a gap in one seam
 """
 
@@ -23,10 +25,9 @@ from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Refusal
 
 _LINE = re.compile(r"(\S.*\.\w+):(\d+)")
-_WORDS = ("for", "every", "on", "times", "seed", "gap")
-_HOW = (
-    "write e.g. `battery-error for 5`, `battery-error every 100 on 10 times 3 seed 7`, `battery-error when Main.n > 3`"
-)
+_WORDS = ("for", "every", "on", "times", "seed", "gap", "chance")
+_PERCENT = re.compile(r"(\d{1,3})(?:\.(\d{1,4}))?%")
+_HOW = "write e.g. `battery-error for 5`, `battery-error every 100 on 10 times 3 seed 7`, `battery-error chance 0.5%`, `battery-error when Main.n > 3`"
 
 
 class BadCommand(Exception):
@@ -36,6 +37,9 @@ class BadCommand(Exception):
 def read_raise(program: Program, author: str, text: str) -> Command:
     """The command; `BadCommand`."""
     body, when = _cut(text, "when")
+    body, other = _cut(body, "while")
+    if other is not None:
+        when = _present(program, other, when)
     body, unless = _cut(body, "unless")
     references, words = _shape_words(body)
     errors = tuple(read_error(program, each) for each in references.split(" + "))
@@ -53,6 +57,15 @@ def read_error(program: Program, reference: str) -> ErrorRef:
     if isinstance(error, Refusal):
         raise BadCommand(with_near(error.message, error.near))
     return error
+
+
+def _present(program: Program, other: str, when: str | None) -> str:
+    """The condition that an error is present."""
+    if when is not None:
+        raise BadCommand("`while` and `when` both say when it begins: leave one out")
+    entry = program.layout.model.error(read_error(program, other).id)
+    assert entry is not None
+    return entry.flag_text
 
 
 def _must_mean_something(program: Program, wanted: Wanted) -> None:
@@ -85,9 +98,10 @@ def _numbers(words: list[str]) -> tuple[dict[str, int], bool]:
     left = [word for word in words if word != "chatter"]
     numbers: dict[str, int] = {}
     for word, number in zip(left[::2], [*left[1::2], ""][: len(left[::2])], strict=True):
-        if word not in _WORDS or word in numbers or not number.isdecimal():
+        percent = _PERCENT.fullmatch(number) if word == "chance" else None
+        if word not in _WORDS or word in numbers or (percent is None and (word == "chance" or not number.isdecimal())):
             raise BadCommand(f"`{f'{word} {number}'.strip()}` is not understood; {_HOW}")
-        numbers[word] = int(number)
+        numbers[word] = int(number) if percent is None else int(percent[1] + (percent[2] or "").ljust(4, "0"))
     return numbers, len(left) < len(words)
 
 
@@ -100,6 +114,8 @@ def _shape(numbers: dict[str, int], chatter: bool, unless: str | None) -> Shape:
         shape = Shape("for", numbers["for"])
     elif not chatter and {"every"} <= given <= {"every", "on", "times", "seed"}:
         shape = Shape("intermittent", numbers.get("on", 1), numbers["every"], times, seed)
+    elif not chatter and {"chance"} <= given <= {"chance", "on", "times", "seed"}:
+        shape = Shape("chance", numbers.get("on", 1), times=times, seed=seed, per_million=numbers["chance"])
     elif not chatter and not given:
         shape = Shape()
     else:

@@ -64,7 +64,7 @@ def run(
     interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Write before a scan (0 if none is named). Text with an @ in it: PATH='a@1'."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Force from a scan on."),
-    generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Raise an error of the model, e.g. io-bus-error:rack=1,slot=3@5; 'E for 5@100', 'E every 100 on 10 times 3 seed 7', 'E chatter times 4', 'E for 9 unless CONDITION', 'E when CONDITION', 'E when FILE:LINE', 'E + F gap 3'."),
+    generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Raise an error of the model, e.g. io-bus-error:rack=1,slot=3@5; 'E for 5@100', 'E every 100 on 10 times 3 seed 7', 'E chatter times 4', 'E chance 0.5% on 3 seed 7', 'E while OTHER', 'E for 9 unless CONDITION', 'E when CONDITION', 'E when FILE:LINE', 'E + F gap 3'."),
     clear: list[str] = typer.Option([], "--clear", metavar="ERROR|all[@SCAN]", help="Recover an error."),
     show: list[str] = typer.Option([], "--print", metavar="PATH", help="Print this variable or address at the end."),
     mode: list[str] = typer.Option([], "--mode", metavar="MODE[@SCAN]", help="Change to PROGRAM, MONITOR or RUN."),

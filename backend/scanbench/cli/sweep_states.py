@@ -13,6 +13,7 @@ from scanbench.cli.raising import BadCommand
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
 from scanbench.faults.reaction.steps import Point
+from scanbench.faults.schedule import Schedule
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.recording.headless import HeadlessRun, run_headless
@@ -49,6 +50,11 @@ class FromRun:
 State = FromStart | FromRun
 START = FromStart("Start")
 """Where a sweep begins that nobody gave states."""
+
+
+def while_present(error: str) -> FromStart:
+    """The state of `--while`: as from the start, with this error present all the time."""
+    return FromStart(f"{error} present", START.scans, (f"0: raise {error}",))
 
 
 # ---- the file ------------------------------------------------------------------------------------------------------
@@ -117,8 +123,9 @@ def run_state(state: FromStart, program: Program, make: MakeObserved, version: i
         if scan > state.scans:
             raise BadStates(f"{where}: `{text}` comes after its {state.scans} scans: give it more scans")
     result: HeadlessRun[None] = run_headless(
-        program, state.scans, lambda each, memory: make(each, memory)[0], commands, detect=Detection()
-    )
+        program, state.scans, lambda each, memory: make(each, memory)[0], commands, detect=Detection(),
+        agenda=Schedule(make),
+    )  # fmt: skip
     for refused in result.refused:
         why = with_near(refused.refusal.message, refused.refusal.near)
         raise BadStates(f"{where}: refused before scan {refused.scan}: {why}")

@@ -14,7 +14,7 @@ from scanbench.faults.details import choose
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.lines import find_line
 from scanbench.faults.reference import ErrorRef, find_error
-from scanbench.faults.shapes import Wanted, describe_shape, flaw, lasts, step_count
+from scanbench.faults.shapes import Wanted, describe_shape, flaw, lasts, step_count, waits_first
 from scanbench.public import Public
 from scanbench.runtime.command import Category, Command, Entry, Numbered, Plan, Refusal, View
 from scanbench.runtime.journal import Fold
@@ -179,7 +179,7 @@ def _refused(author: str, wanted: Wanted, view: View) -> Refusal | None:
     flawed = unmeant(wanted, view)
     if flawed is not None:
         return flawed
-    if wanted.start.kind == "now":
+    if wanted.start.kind == "now" and not waits_first(wanted.shape):
         plan = Generate(author, _lanes(wanted)[0]).plan(view)
         return plan if isinstance(plan, Refusal) else None
     return None
@@ -263,7 +263,7 @@ def _armed(command: Arm, entry: Entry) -> Iterator[tuple[str, Lane]]:
     begin = {"now": entry.scan, "scan": wanted.start.scan}.get(wanted.start.kind)
     for index, errors in enumerate(_lanes(wanted)):
         offset = index * wanted.gap
-        due = None if begin is None else begin + offset
+        due = None if begin is None else begin + offset + waits_first(wanted.shape)
         yield f"{number}.{index}", Lane(number, wanted, command.author, errors, offset, due)
 
 

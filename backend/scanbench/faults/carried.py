@@ -45,4 +45,4 @@ def _deeds(ref: ErrorRef, layout: Layout) -> object:
     if not isinstance(chosen, Chosen):
         return None
     error = chosen.error
-    return chosen.bits, chosen.code, error.severity, error.priority, error.keeps_memory, error.lasting, chosen.details
+    return chosen.bits, chosen.code, error.severity, error.priority, error.keeps_memory, chosen.lasting, chosen.details

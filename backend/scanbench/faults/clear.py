@@ -11,6 +11,7 @@ from typing import ClassVar, Literal
 from scanbench.faults.details import Chosen
 from scanbench.faults.inject import ACTIVE, Active, Raised, Recover, describe, present_choices
 from scanbench.faults.reference import ErrorRef
+from scanbench.faults.switch import rank
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.rights import Right, may
 
@@ -91,7 +92,7 @@ def clear(
 
 def holds(raised: Raised, chosen: Chosen) -> bool:
     """Whether the cause is still there."""
-    return chosen.error.lasting and raised.origin == "simulator"
+    return chosen.lasting and raised.origin == "simulator"
 
 
 def most_serious(
@@ -99,7 +100,7 @@ def most_serious(
 ) -> Callable[[Chosen], bool]:
     """Just the one that the code word shows, of those that `among` lets through."""
     every = [one for several in present_choices(view, present).values() for one in several if among(one)]
-    first = min(every, key=lambda one: (one.error.priority, one.code), default=None)
+    first = min(every, key=rank, default=None)
     return lambda one: first is not None and one.error is first.error and one.details == first.details
 
 

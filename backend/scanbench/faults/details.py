@@ -38,6 +38,12 @@ class Chosen:
     """The flag, and what else the error writes."""
 
     @property
+    def lasting(self) -> bool:
+        """Whether the cause is still there after a restart, and after the device's own way to clear it."""
+        chosen = (detail.choice(dict(self.details).get(detail.name, "")) for detail in self.error.details)
+        return self.error.lasting or any(choice is not None and choice.lasting for choice in chosen)
+
+    @property
     def bits(self) -> tuple[Bits, ...]:
         """Everything that the error writes."""
         return self.contents + self.marks

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from scanbench.faults.arm import ARMED, Lanes
+from scanbench.faults.details import Chosen, choose
 from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
 from scanbench.runtime.command import Entry, Refusal, View
 from scanbench.runtime.journal import Fold
@@ -47,7 +48,8 @@ def returning(view: View) -> Generate | None:
     """The first error that a restart cut off and whose cause is still there."""
     for raised in view.derived(CUT_OFF).gone:
         error = view.model.error(raised.ref.id)
-        if error is None or not error.lasting:
+        chosen = None if error is None else choose(error, dict(raised.ref.details), view.program.layout)
+        if not isinstance(chosen, Chosen) or not chosen.lasting:
             continue
         command = Generate(raised.by, (raised.ref,))
         if not isinstance(command.plan(view), Refusal):

@@ -26,7 +26,14 @@ def switch(view: View, off: Sequence[Chosen], on: Sequence[Chosen], others: Sequ
 
 def shown_code(present: Sequence[Chosen]) -> int:
     """The code of the most serious error; of one that is present with several numbers the lowest; 0 where none is."""
-    return min(((one.error.priority, one.code) for one in present), default=(0, 0))[1]
+    first = min(present, key=rank, default=None)
+    return 0 if first is None else first.code
+
+
+def rank(one: Chosen) -> tuple[int, int, int]:
+    """The most serious first: the device's own fatal errors, then fatal errors of a project, then everything by priority."""
+    place = 2 if one.error.severity == "nonfatal" else 1 if one.error.user else 0
+    return place, one.error.priority, one.code
 
 
 def _merge(bits: dict[int, tuple[int, int]], more: Iterable[Bits]) -> None:

@@ -56,6 +56,8 @@ class ErrorAddress:
     add_to_code: bool
     """The value is added to the error code."""
     wordings: tuple[Wording, ...] = ()
+    lasting: bool = False
+    """Of a choice: the error with it has a cause that lasts, see `ErrorEntry.lasting`."""
 
     @property
     def is_text(self) -> bool:

@@ -224,6 +224,7 @@ def _read_address(reader: Reader, node: etree._Element, inherited: bool) -> Erro
         default=optional["Default"],
         add_to_code=inherited if (own := node.get("AddToErrorCode")) is None else own in ("true", "1"),
         wordings=wordings_of(node),
+        lasting=node.get("Cause") == "lasting",
     )
 
 

@@ -96,7 +96,7 @@ def _area(node: etree._Element) -> Iterator[tuple[str, str]]:
 
 def _special(node: etree._Element) -> Iterator[tuple[str, str]]:
     yield "address", node.get("Address", "")
-    yield "meaning", node.get("Role") or node.get("Symbol") or node.get("Name", "")
+    yield "meaning", node.get("Role", "") or node.get("Symbol", "") or node.get("Name", "")
     yield from _text(node, "Description")
 
 

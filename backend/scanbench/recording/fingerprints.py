@@ -7,13 +7,15 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 
-from scanbench.plcmodel.model import Area, Model
+from scanbench.plcmodel.model import Area, ErrorAddress, Model
 from scanbench.plcmodel.user_errors import device_of
 from scanbench.program.program import Program
 from scanbench.program.types import Record
 
 _SAMPLES = 500
 _WORDS = frozenset({"description", "source", "verified", "wordings", "user", "facts"})
+_LATER = frozenset({(ErrorAddress, "lasting")})
+"""Fields that models did not have at first: with their default they say nothing, so that runs from before fit."""
 _F64 = struct.Struct("<d")
 
 
@@ -33,6 +35,8 @@ def _deeds(value: object, areas: set[str]) -> Iterator[str]:
         if isinstance(value, Area):
             areas.add(value.name)
         for field in fields(value):
+            if (type(value), field.name) in _LATER and getattr(value, field.name) == field.default:
+                continue
             if field.name not in _WORDS and not (field.name == "name" and hasattr(value, "id")):
                 yield field.name
                 yield from _deeds(getattr(value, field.name), areas)

@@ -6,7 +6,7 @@ from pydantic import Field, RootModel
 
 from scanbench.web.messages import Mode, RestartKind
 from scanbench.web.messages_base import Id, Wire
-from scanbench.web.messages_errors import ArmFaults, ClearErrors, DisarmFaults, GenerateErrors
+from scanbench.web.messages_errors import ArmFaults, ClearErrors, DisarmFaults, GenerateErrors, GenerateOne
 from scanbench.web.messages_verify import NewDisturbance
 
 
@@ -49,6 +49,13 @@ class Generate(Numbered, GenerateErrors):
     """Raises errors, all between the same two scans, or none of them."""
 
     type: Literal["generate"] = "generate"
+
+
+class GenerateAbsent(Numbered):
+    """Raises those of the errors that are not present, all between the same two scans; the others stay as they are."""
+
+    type: Literal["generate_absent"] = "generate_absent"
+    errors: list[GenerateOne] = Field(min_length=1)
 
 
 class Recover(Numbered):
@@ -120,6 +127,7 @@ Command = (
     | Force
     | Release
     | Generate
+    | GenerateAbsent
     | Recover
     | Arm
     | Disarm

@@ -68,7 +68,7 @@ class ErrorInfo(Wire):
     priority: int = Field(description="1 is the most serious")
     verified: bool
     source: str
-    facts: list[Fact] = Field(default_factory=list, description="none of a project's own error")
+    facts: list[Fact] = Field(description="none of a project's own error")
     details: list[ErrorDetail]
     user: bool = Field(default=False, description="one of the project's own (errors.xml)")
     wordings: list[Wording] = Field(default_factory=list)
@@ -146,14 +146,16 @@ class FaultStart(Wire):
 class FaultShape(Wire):
     """How a fault goes on. stay: until it is recovered. for: `scans`. intermittent: present for `scans` of each `period`,
     `times` times (null: until it is taken back), varied by chance when there is a `seed`. chatter: on and off in turn, scan by scan,
-    `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds."""
+    `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds. chance: while it is gone, it comes in each scan with a
+    probability of `per_million` millionths, and is present for `scans`; `seed` decides in which."""
 
-    kind: Literal["stay", "for", "intermittent", "chatter", "unacknowledged"] = "stay"
+    kind: Literal["stay", "for", "intermittent", "chatter", "unacknowledged", "chance"] = "stay"
     scans: Annotated[int, Field(ge=1, le=1_000_000_000)] = 1
     period: Annotated[int, Field(ge=2, le=1_000_000_000)] = 2
     times: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
     seed: Annotated[int, Field(ge=0, lt=1 << 32)] | None = None
     acknowledge: str = Field(default="", max_length=2000)
+    per_million: Annotated[int, Field(ge=1, le=1_000_000)] = 1_000
 
 
 class ArmFaults(Wire):

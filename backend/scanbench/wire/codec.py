@@ -15,6 +15,7 @@ from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.halt import Halt
 from scanbench.debug.set_value import SetLocal
+from scanbench.faults.absent import GenerateAbsent
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.disturb.definition import Disturbance
@@ -78,7 +79,7 @@ _CLASSES: dict[str, type] = {
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
         events.CheckOutcome, Problem, PouInfo, CheckSite, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
-        ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
+        GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
         debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,

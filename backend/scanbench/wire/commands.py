@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from scanbench.faults.absent import GenerateAbsent
 from scanbench.faults.arm import Arm, Disarm
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.disturb.disturb import Calm, Disturb
@@ -30,6 +31,7 @@ COMMANDS: dict[str, Known] = {
     "force": Known(Force, ("path", "value", "site")),
     "release": Known(Release, ("path",)),
     "generate": Known(Generate, ("errors", "again")),
+    "generate_absent": Known(GenerateAbsent, ("errors",)),
     "recover": Known(Recover, ("ids",)),
     "arm": Known(Arm, ("wanted",)),
     "disarm": Known(Disarm, ("ids",)),

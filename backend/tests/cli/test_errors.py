@@ -72,6 +72,29 @@ def test_a_sweep_names_what_is_forgotten_and_what_is_read_in_vain(project: Path)
     assert sorted(told["unhandled"]) == ["basic-io-error", "battery-error", "inner-board-error"]
 
 
+def test_a_pair_is_tried_in_both_orders(project: Path) -> None:
+    source = SOURCE.replace("lamp := battery", "lamp := battery AND inner")
+    (project / "main.st").write_text(source.replace("on : BOOL", "on : BOOL := TRUE"), "utf-8")
+    pair = ("--only", "battery-error", "--only", "inner-board-error")
+    result = scanbench(
+        "errors", "sweep", str(project), *pair, "--while", "battery-error", "--while", "inner-board-error", "--json"
+    )
+    assert result.returncode == 1, result.stderr
+    told = json.loads(result.stdout)
+    found = {(each["id"], each["state"]): each["verdict"] for each in told["results"]}
+    assert found["inner-board-error", "battery-error present"] == "acted"
+    assert found["battery-error", "inner-board-error present"] == "acted"
+    assert found["battery-error", "Start"] == "no_effect"
+
+
+def test_a_state_knows_what_outlives_a_restart(project: Path) -> None:
+    (project / "main.st").write_text(SOURCE.replace("on : BOOL", "on : BOOL := TRUE"), "utf-8")
+    told = [{"name": "Power was off", "scans": 30, "do": ["5: raise battery-error", "10: restart power"]}]
+    result = scanbench("errors", "sweep", str(project), "--only", "battery-error", "--states", states(project, told), "--json")  # fmt: skip
+    (cell,) = json.loads(result.stdout)["results"]
+    assert "already generated" in cell["note"]
+
+
 def test_a_copy_of_error_memory_fails_a_build(project: Path) -> None:
     """`d := A400` reads every error, and does nothing about any."""
     copy = "PROGRAM Main\nVAR code AT A400 : WORD; d AT D100 : WORD; END_VAR\n  d := code;\nEND_PROGRAM\n"

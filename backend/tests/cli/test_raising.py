@@ -48,6 +48,11 @@ def armed(text: str) -> tuple[int, Wanted]:
          Wanted((BATTERY,), Start(), Shape("unacknowledged", 9, acknowledge="Main.n > 3 AND NOT Main.battery"))),
         ("battery-error when Main.n > 3@5", 5, Wanted((BATTERY,), Start("condition", condition="Main.n > 3"))),
         ("battery-error for 2 when main.st:3", 0, Wanted((BATTERY,), Start("line", file="main.st", line=3), Shape("for", 2))),
+        ("battery-error chance 0.5% on 3 times 2 seed 7", 0, Wanted((BATTERY,), Start(), Shape("chance", 3, times=2, seed=7, per_million=5000))),
+        ("battery-error chance 100%", 0, Wanted((BATTERY,), Start(), Shape("chance", per_million=1_000_000))),
+        ("battery-error while basic-io-error", 0, Wanted((BATTERY,), Start("condition", condition="A402.12"))),
+        ("battery-error for 3 while basic-io-error:rack=1", 0,
+         Wanted((BATTERY,), Start("condition", condition="A402.12"), Shape("for", 3))),
         ("battery-error + basic-io-error:rack=1 gap 3@10", 10, Wanted((BATTERY, RACK), gap=3)),
     ],
 )  # fmt: skip
@@ -73,11 +78,28 @@ def test_without_a_shape_it_is_raised_at_once() -> None:
         ("battery-error chatter for 6", "for and chatter do not make a shape"),
         ("battery-error chatter unless Main.n > 3", "`unless` goes with `for`"),
         ("battery-error on 5", "on does not make a shape"),
+        ("battery-error chance 5", "`chance 5` is not understood"),
+        ("battery-error chance 5% for 3", "chance and for do not make a shape"),
+        ("battery-error while basic-oi-error", "Did you mean `basic-io-error`"),
+        ("battery-error while basic-io-error when Main.n > 3", "leave one out"),
     ],
 )
 def test_what_is_not_understood(text: str, words: str) -> None:
     with pytest.raises(BadCommand, match=words):
         read_raise(program(SOURCE), "Ada", text)
+
+
+@pytest.mark.parametrize(("first", "then"), [("battery-error", "basic-io-error"), ("basic-io-error", "battery-error")])
+def test_a_pair_in_both_orders(first: str, then: str, tmp_path: Path) -> None:
+    (tmp_path / "main.st").write_text(SOURCE)
+    ran = call(
+        "run", str(tmp_path / "main.st"), "--model", "CJ1M-CPU63", "--scans", "50", "--raise", f"{then} while {first}",
+        "--raise", f"{first}@20", "--print", "A402.04", "--print", "A402.12", "--print", "Main.first", "--json",
+    )  # fmt: skip
+    assert ran.exit_code == 0, ran.output
+    values = json.loads(ran.stdout)["values"]
+    assert (values["A402.04"], values["A402.12"]) == (True, True)
+    assert values["Main.first"] == (21 if first == "battery-error" else 22)  # seen one scan after the other one
 
 
 def call(*arguments: str) -> Result:

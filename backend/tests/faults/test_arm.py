@@ -135,6 +135,14 @@ def test_chance_is_the_same_everywhere(kind: Kind) -> None:
 
 
 @ON
+def test_a_probability_in_each_scan(kind: Kind) -> None:
+    """As `test_shapes` has it: it comes after 3 scans, and after each time when it has been gone for 7, 16, 2, 1 scans."""
+    run = ran(kind, 120, (7, arm(BATTERY, shape=Shape("chance", 3, times=5, seed=7, per_million=100_000))))
+    assert seen(run) == [scan for first in (10, 20, 39, 44, 48) for scan in range(first, first + 3)]
+    assert left(run) == 0
+
+
+@ON
 def test_two_in_one_scan_and_one_after_the_other(kind: Kind) -> None:
     run = ran(kind, 60, (5, arm(BATTERY, UNIT, shape=Shape("for", 2))))
     assert (seen(run), seen(run, "also")) == ([5, 6], [5, 6])

@@ -5,7 +5,7 @@ from itertools import accumulate
 import pytest
 
 from scanbench.faults.reference import ErrorRef
-from scanbench.faults.shapes import Shape, Start, Wanted, describe_shape, flaw, lasts, step_count
+from scanbench.faults.shapes import Shape, Start, Wanted, describe_shape, flaw, lasts, step_count, waits_first
 
 BATTERY = (ErrorRef("battery-error"),)
 
@@ -38,6 +38,26 @@ def test_chance_is_the_same_for_the_same_seed_and_around_what_was_asked_for() ->
     assert steps != [lasts(Shape("intermittent", 3, 10, seed=8), step) for step in range(2000)]
     # written down, as every machine and every later version has to come to the same
     assert steps[:8] == [3, 5, 3, 5, 5, 5, 2, 2]
+
+
+def test_a_probability_in_each_scan() -> None:
+    shape = Shape("chance", 3, seed=7, per_million=100_000)
+    on, off = [lasts(shape, step) for step in range(0, 4000, 2)], [lasts(shape, step) for step in range(1, 4000, 2)]
+    assert set(on) == {3}
+    assert 9.5 < sum(off) / len(off) < 10.5  # one in ten
+    assert 0.09 < off.count(1) / len(off) < 0.11  # at once as often as in any scan
+    assert waits_first(shape) == lasts(shape, -1) - 1
+    assert {lasts(Shape("chance", per_million=1_000_000, seed=each), 1) for each in range(9)} == {1}
+    rare = Shape("chance", seed=7, per_million=1)
+    assert sum(lasts(rare, step) for step in range(1, 400, 2)) / 200 > 700_000
+    # written down, as every machine and every later version has to come to the same
+    assert (waits_first(shape), off[:6]) == (3, [7, 16, 2, 1, 2, 9])
+    assert describe_shape(Wanted(BATTERY, Start(), shape)) == (
+        "now, for 3 scans, with a probability of 10 % in each scan, by chance 7"
+    )
+    assert flaw(Wanted(BATTERY, Start(), Shape("chance", per_million=0))) == (
+        "the probability is 0 millionths: it must be 1 to 1000000"
+    )
 
 
 @pytest.mark.parametrize(

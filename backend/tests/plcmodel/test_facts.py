@@ -34,7 +34,9 @@ def test_a_fact_has_its_own_source_or_that_of_its_element(tmp_path: Path) -> Non
     model, problems = load(tmp_path, '<Fact Of="flag code" Source="manual, p. 7" Verified="yes"/>')
     assert model is not None, problems
     found = {
-        fact.of: (fact.value, fact.source, fact.verified, fact.inherited) for fact in model.facts if fact.kind == "error"
+        fact.of: (fact.value, fact.source, fact.verified, fact.inherited)
+        for fact in model.facts
+        if fact.kind == "error"
     }
     assert found == {
         "flag": ("S1.00", "manual, p. 7", True, False),

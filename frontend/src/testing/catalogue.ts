@@ -12,6 +12,7 @@ function error(id: string, name: string, more: Partial<ErrorInfo>): ErrorInfo {
     priority: 100,
     description: "",
     details: [],
+    facts: [],
     source: "",
     user: false,
     verified: true,
@@ -32,7 +33,14 @@ const spin = (name: string, description: string, maximum: number): ErrorDetail =
   maximum,
 });
 
-export const BATTERY = error("battery-error", "Battery error", { code: "00F7", flag: "A402.04" });
+export const BATTERY = error("battery-error", "Battery error", {
+  code: "00F7",
+  flag: "A402.04",
+  facts: [
+    { of: "flag", value: "A402.04", source: "manual, p. 12", verified: true, inherited: false },
+    { of: "code", value: "00F7", source: "known", verified: false, inherited: true },
+  ],
+});
 
 export const BASIC = error("basic-io-error", "Basic I/O Unit error", {
   code: "009A",

@@ -68,6 +68,8 @@ export const MODEL: ModelInfo = {
   status_words: [],
   error_count: 0,
   verified_count: 0,
+  fact_count: 0,
+  verified_facts: 0,
 };
 
 export const RUN: Timeline = {

@@ -2560,6 +2560,7 @@ export interface components {
              * @default {
              *       "acknowledge": "",
              *       "kind": "stay",
+             *       "per_million": 1000,
              *       "period": 2,
              *       "scans": 1,
              *       "seed": null,
@@ -2644,6 +2645,7 @@ export interface components {
              * @default {
              *       "acknowledge": "",
              *       "kind": "stay",
+             *       "per_million": 1000,
              *       "period": 2,
              *       "scans": 1
              *     }
@@ -3121,7 +3123,7 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
         /** CloseDraft */
         CloseDraft: {
             /** Path */
@@ -3860,6 +3862,11 @@ export interface components {
             description: string;
             /** Details */
             details: components["schemas"]["ErrorDetail"][];
+            /**
+             * Facts
+             * @description none of a project's own error
+             */
+            facts: components["schemas"]["Fact"][];
             /** Flag */
             flag: string;
             /** Id */
@@ -3903,10 +3910,39 @@ export interface components {
             type: "errors";
         };
         /**
+         * Fact
+         * @description One statement of the model about the device, and where it comes from.
+         */
+        Fact: {
+            /**
+             * Inherited
+             * @description it has no source of its own, but that of the whole error
+             */
+            inherited: boolean;
+            /**
+             * Of
+             * @description flag, code, severity, priority, cause, memory, log, details, text
+             */
+            of: string;
+            /**
+             * Source
+             * @description keys are in models/FORMAT.md
+             */
+            source: string;
+            /** Value */
+            value: string;
+            /**
+             * Verified
+             * @description somebody found it on the page that `source` names
+             */
+            verified: boolean;
+        };
+        /**
          * FaultShape
          * @description How a fault goes on. stay: until it is recovered. for: `scans`. intermittent: present for `scans` of each `period`,
          *     `times` times (null: until it is taken back), varied by chance when there is a `seed`. chatter: on and off in turn, scan by scan,
-         *     `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds.
+         *     `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds. chance: while it is gone, it comes in each scan with a
+         *     probability of `per_million` millionths, and is present for `scans`; `seed` decides in which.
          */
         FaultShape: {
             /**
@@ -3919,7 +3955,12 @@ export interface components {
              * @default stay
              * @enum {string}
              */
-            kind: "stay" | "for" | "intermittent" | "chatter" | "unacknowledged";
+            kind: "stay" | "for" | "intermittent" | "chatter" | "unacknowledged" | "chance";
+            /**
+             * Per Million
+             * @default 1000
+             */
+            per_million: number;
             /**
              * Period
              * @default 2
@@ -4112,6 +4153,25 @@ export interface components {
              * @enum {string}
              */
             type: "generate";
+        };
+        /**
+         * GenerateAbsent
+         * @description Raises those of the errors that are not present, all between the same two scans; the others stay as they are.
+         */
+        GenerateAbsent: {
+            /** Errors */
+            errors: components["schemas"]["GenerateOne"][];
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "generate_absent";
         };
         /**
          * GenerateErrors
@@ -4687,6 +4747,11 @@ export interface components {
             description: string;
             /** Error Count */
             error_count: number;
+            /**
+             * Fact Count
+             * @description statements about the device, each with a source: `scanbench model facts`
+             */
+            fact_count: number;
             /** Name */
             name: string;
             /**
@@ -4698,9 +4763,14 @@ export interface components {
             vendor: string;
             /**
              * Verified Count
-             * @description errors whose facts were looked up, not only known
+             * @description errors all of whose facts were looked up, not only known
              */
             verified_count: number;
+            /**
+             * Verified Facts
+             * @description how many of them were looked up on a page
+             */
+            verified_facts: number;
         };
         /** ModelSummary */
         ModelSummary: {
@@ -4708,15 +4778,25 @@ export interface components {
             description: string;
             /** Error Count */
             error_count: number;
+            /**
+             * Fact Count
+             * @description statements about the device, each with a source: `scanbench model facts`
+             */
+            fact_count: number;
             /** Name */
             name: string;
             /** Vendor */
             vendor: string;
             /**
              * Verified Count
-             * @description errors whose facts were looked up, not only known
+             * @description errors all of whose facts were looked up, not only known
              */
             verified_count: number;
+            /**
+             * Verified Facts
+             * @description how many of them were looked up on a page
+             */
+            verified_facts: number;
         };
         /**
          * NewCommit
@@ -5132,7 +5212,7 @@ export interface components {
          * PlcCommand
          * @description A command by its `type`.
          */
-        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
+        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
         /**
          * Pou
          * @description What a file declares, for the explorer.

@@ -12,6 +12,7 @@ const error = (id: string, code: string, details: ErrorInfo["details"] = []): Er
   priority: 1,
   verified: true,
   source: "",
+  facts: [],
   details,
   user: false,
 });

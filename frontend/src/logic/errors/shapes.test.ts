@@ -10,7 +10,7 @@ describe("the shape of a fault", () => {
     expect(isPlain(form({ when: "line" }))).toBe(false);
     expect(readShape(plainShape)).toEqual({
       start: { kind: "now", scan: null, condition: "", file: "", line: 0 },
-      shape: { kind: "stay", scans: 1, period: 2, times: null, seed: null, acknowledge: "" },
+      shape: { kind: "stay", scans: 1, period: 2, times: null, seed: null, acknowledge: "", per_million: 1000 },
       troubles: {},
     });
   });
@@ -42,6 +42,17 @@ describe("the shape of a fault", () => {
     expect(readShape(form({ how: "chatter", times: "4" })).shape).toMatchObject({ kind: "chatter", times: 4 });
     const gone = form({ how: "unacknowledged", scans: "3", acknowledge: "reset" });
     expect(readShape(gone).shape).toMatchObject({ scans: 3, acknowledge: "reset" });
+  });
+
+  it("comes by chance, with a probability in each scan", () => {
+    const chance = form({ how: "chance", percent: "0.5", scans: "3", seed: "7" });
+    expect(readShape(chance)).toMatchObject({
+      shape: { kind: "chance", per_million: 5000, scans: 3, times: null, seed: 7 },
+      troubles: {},
+    });
+    expect(readShape(form({ how: "chance", percent: "100" })).shape.per_million).toBe(1_000_000);
+    for (const percent of ["", "0", "101", "x", "0.00001"])
+      expect(readShape(form({ how: "chance", percent })).troubles).toEqual({ percent: "shape.bad.percent" });
   });
 
   it("names the field that is wrong", () => {

@@ -18,12 +18,14 @@ export interface ShapeForm {
   chance: boolean;
   seed: string;
   acknowledge: string;
+  /** Probability in each scan, in percent. */
+  percent: string;
 }
 
 export type ShapeField = keyof ShapeForm;
 
 export const WHENS = ["now", "scan", "condition", "line"] as const;
-export const HOWS = ["stay", "for", "intermittent", "chatter", "unacknowledged"] as const;
+export const HOWS = ["stay", "for", "intermittent", "chatter", "chance", "unacknowledged"] as const;
 
 export const plainShape: ShapeForm = {
   when: "now",
@@ -37,6 +39,7 @@ export const plainShape: ShapeForm = {
   chance: false,
   seed: "1",
   acknowledge: "",
+  percent: "1",
 };
 
 /** Now, and until somebody recovers it: an ordinary Generate. */
@@ -75,25 +78,49 @@ function readStart(form: ShapeForm, now: number, troubles: ReadShape["troubles"]
 
 function readHow(form: ShapeForm, troubles: ReadShape["troubles"]): FaultShape {
   const { how } = form;
-  const shape: FaultShape = { kind: how, scans: 1, period: 2, times: null, seed: null, acknowledge: "" };
+  const shape: FaultShape = {
+    kind: how,
+    scans: 1,
+    period: 2,
+    times: null,
+    seed: null,
+    acknowledge: "",
+    per_million: 1000,
+  };
   const count = (field: "scans" | "period" | "times" | "seed", least: number, otherwise: number): number => {
     const read = readScan(form[field]);
     if (read !== null && read >= least) return read;
     troubles[field] = "shape.bad.count";
     return otherwise;
   };
-  if (how === "for" || how === "intermittent" || how === "unacknowledged") shape.scans = count("scans", 1, 1);
+  if (how === "for" || how === "intermittent" || how === "unacknowledged" || how === "chance")
+    shape.scans = count("scans", 1, 1);
   if (how === "intermittent") {
     shape.period = count("period", 2, 2);
     if (!troubles.period && !troubles.scans && shape.period <= shape.scans) troubles.period = "shape.bad.period";
     if (form.chance) shape.seed = count("seed", 0, 0);
   }
-  if (how === "intermittent" || how === "chatter") shape.times = form.times.trim() === "" ? null : count("times", 1, 1);
+  if (how === "chance") {
+    const millionths = readPercent(form.percent);
+    if (millionths === null) troubles.percent = "shape.bad.percent";
+    else shape.per_million = millionths;
+    shape.seed = count("seed", 0, 0);
+  }
+  if (how === "intermittent" || how === "chatter" || how === "chance")
+    shape.times = form.times.trim() === "" ? null : count("times", 1, 1);
   if (how === "unacknowledged") {
     shape.acknowledge = form.acknowledge.trim();
     if (shape.acknowledge === "") troubles.acknowledge = "run.noexpression";
   }
   return shape;
+}
+
+/** A percentage, as millionths: 0.0001 to 100 %. */
+function readPercent(text: string): number | null {
+  const value = /^\d{1,3}([.,]\d{1,4})?$/.test(text.trim())
+    ? Math.round(Number(text.trim().replace(",", ".")) * 10_000)
+    : 0;
+  return value >= 1 && value <= 1_000_000 ? value : null;
 }
 
 /** Milliseconds as scans of a task; at least one. */

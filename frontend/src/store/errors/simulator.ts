@@ -171,6 +171,13 @@ export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outco
   );
 }
 
+/** Repeats a Generate that was refused because some errors are present, without those. */
+export async function skipPresent(errors: readonly ErrorInfo[], outcome: Outcome): Promise<boolean> {
+  const ids = new Set(outcome.ids);
+  const wanted = errors.filter((error) => ids.has(error.id));
+  return report(send({ type: "generate_absent", errors: asWanted(wanted) }), wanted);
+}
+
 /** Recovers those of the chosen errors that are generated; `everything` recovers all errors. */
 export async function recover(everything: boolean): Promise<void> {
   const { errors } = usePlc.getState();

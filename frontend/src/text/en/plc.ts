@@ -184,7 +184,7 @@ export const plc = {
   "model.address": "Addresses",
   "model.area": "Area",
   "model.areas": "Memory of {model}",
-  "model.errors": "{count} errors, {share} verified",
+  "model.errors": "{count} errors, {share} of the facts verified",
   "model.errors.none": "no errors",
   "model.retain": "Retained",
   "model.retain.yes": "kept",

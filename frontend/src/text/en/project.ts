@@ -219,7 +219,7 @@ export const project = {
   "explorer.noretain": "Cleared when the power is off",
   "explorer.retain": "Kept when the power is off",
   "explorer.vendor": "Vendor: {vendor}",
-  "explorer.verified": "{verified} of {count} errors verified ({share})",
+  "explorer.verified": "{verified} of {count} facts verified ({share})",
   "explorer.words": "{words} words",
   "goto.label": "Go to",
   "goto.none": "Nothing in this project has these letters in its name: {text}.",

@@ -185,7 +185,7 @@ export const plc: Record<keyof typeof english, string> = {
   "model.address": "アドレス",
   "model.area": "エリア",
   "model.areas": "{model} のメモリ",
-  "model.errors": "異常 {count} 件、{share} が確認済み",
+  "model.errors": "異常 {count} 件、事実の {share} が確認済み",
   "model.errors.none": "異常なし",
   "model.retain": "保持",
   "model.retain.yes": "保持",

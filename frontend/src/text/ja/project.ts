@@ -220,7 +220,7 @@ export const project: Record<keyof typeof english, string> = {
   "explorer.noretain": "電源断時にクリア",
   "explorer.retain": "電源断時に保持",
   "explorer.vendor": "メーカー: {vendor}",
-  "explorer.verified": "異常 {count} 件中 {verified} 件が確認済み（{share}）",
+  "explorer.verified": "事実 {count} 件中 {verified} 件が確認済み（{share}）",
   "explorer.words": "{words} ワード",
   "goto.label": "移動",
   "goto.none": "この文字を含む名前はプロジェクトにありません: {text}",

@@ -10,6 +10,7 @@ import { Icon } from "../../../ui/Icon";
 import { ReactionWord } from "../../../ui/ReactionWord";
 import type { ErrorHistoryRow, ErrorInfo, ReactionState } from "../../../wire/types";
 import { Control } from "./controls";
+import { Facts } from "./Facts";
 import { Preview } from "./Preview";
 import { ReactionView } from "./ReactionView";
 import { ShapeFields } from "./ShapeFields";
@@ -54,6 +55,7 @@ export function Details({ error }: { error: ErrorInfo }) {
           ))}
         </div>
       </div>
+      <Facts facts={error.facts} />
       {row?.reaction && <ReactionView error={error} state={row.reaction} />}
       {!row?.reaction && row?.swept && <Swept reaction={row.swept} />}
       {present ? (

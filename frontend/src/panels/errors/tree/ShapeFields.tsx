@@ -137,6 +137,19 @@ function HowFields({ form, troubles }: FieldsProps) {
           </span>
         </>
       );
+    case "chance":
+      return (
+        <>
+          <Count field="percent" label={t("shape.percent")} after={t("shape.percent.each")} {...props} />
+          <Count field="scans" label={t("shape.on")} after={t("shape.scans")} {...props}>
+            <span className="faint">{t("shape.on")}</span>
+          </Count>
+          {times}
+          <Count field="seed" label={t("shape.seed")} {...props}>
+            <span className="faint">{t("shape.seed")}</span>
+          </Count>
+        </>
+      );
     case "chatter":
       return times;
     case "unacknowledged":
@@ -159,7 +172,7 @@ function HowFields({ form, troubles }: FieldsProps) {
 }
 
 interface CountProps extends FieldsProps {
-  field: "scan" | "scans" | "period" | "times" | "seed";
+  field: "scan" | "scans" | "period" | "times" | "seed" | "percent";
   label: string;
   placeholder?: string;
   after?: string;
@@ -176,7 +189,7 @@ function Count({ field, label, form, troubles, placeholder, after, wide, childre
         aria-label={label}
         aria-invalid={troubles[field] !== undefined}
         placeholder={placeholder}
-        inputMode="numeric"
+        inputMode={field === "percent" ? "decimal" : "numeric"}
         value={form[field]}
         spellCheck={false}
         onChange={(event) => setShape({ [field]: event.target.value })}

@@ -295,9 +295,9 @@ function userErrorsRow(model: ModelInfo): TreeRow {
   };
 }
 
-/** How many of the model's errors were checked against its manuals. */
-function verifiedOf({ error_count: count, verified_count: verified }: ModelInfo): string {
-  if (count === 0) return t("explorer.errorcount", { count });
+/** How many of the model's facts were checked against its manuals. */
+function verifiedOf({ error_count: errors, fact_count: count, verified_facts: verified }: ModelInfo): string {
+  if (count === 0) return t("explorer.errorcount", { count: errors });
   return t("explorer.verified", { count, verified, share: percent((100 * verified) / count) });
 }
 

@@ -7,7 +7,7 @@ import { t } from "../../../text";
 import { useColumns } from "../../../ui/useColumns";
 import type { Area, ModelInfo, ModelSummary } from "../../../wire/types";
 
-/** The description of a model: a sentence, how many of its errors were checked against manuals, and its memory with the access rights. */
+/** The description of a model: a sentence, how many of its facts were checked against manuals, and its memory with the access rights. */
 export function ModelFacts({ model }: { model: ModelSummary | undefined }) {
   const name = model?.name;
   const [info, setInfo] = useState<ModelInfo | null>(null);
@@ -23,11 +23,11 @@ export function ModelFacts({ model }: { model: ModelSummary | undefined }) {
     };
   }, [name]);
   if (!model) return null;
-  const { error_count: count, verified_count: verified } = model;
+  const { error_count: count, fact_count: facts, verified_facts: verified } = model;
   const errors =
     count === 0
       ? t("model.errors.none")
-      : t("model.errors", { count, share: percent(Math.round((100 * verified) / count)) });
+      : t("model.errors", { count, share: percent(Math.round((100 * verified) / Math.max(1, facts))) });
   return (
     <div className="modelfacts">
       <p className="hint">

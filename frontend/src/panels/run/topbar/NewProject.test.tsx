@@ -16,6 +16,8 @@ const MODELS: ModelSummary[] = ["CJ1M", "NJ501"].map((name) => ({
   description: "",
   error_count: 3,
   verified_count: 3,
+  fact_count: 12,
+  verified_facts: 9,
 }));
 
 test("a project needs its model: it is not made before the models are here, and they are asked for again", async () => {
