@@ -2,7 +2,7 @@
 
 import asyncio
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import cast
 
@@ -26,11 +26,12 @@ from scanbench.runtime.clock import wall_time
 from scanbench.server.sweep_rows import merged
 from scanbench.server.write_behind import WriteBehind
 from scanbench.session.session import Session
-from scanbench.store.records import AcceptedRow, BuildRow, CellRow, NotFound, RecordInfo, RecordRow, SweepRow
+from scanbench.store.records import AcceptedRow, BuildRow, CellRow, LogRow, NotFound, RecordInfo, RecordRow, SweepRow
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused
 
 LOG_LINES = 2000
+"""Of the log in a record, which people read; the record says how many came before."""
 """Of a record, the last ones."""
 SWEEPS = 20
 """Of a record, the newest ones: it is a page to sign, no archive."""
@@ -83,7 +84,7 @@ class Records:
 
         def make() -> TestRecord:
             project = self._store.projects.get(session.project_id)
-            lines = self._store.log.errors(session.id, version, LOG_LINES)
+            earlier, lines = self._store.log.errors(session.id, version, LOG_LINES)
             swept, accepted = self._sweeps(session, version)
             head = RecordHead(
                 project.name, model.name, session.name, version, "" if build is None else build.hash, wall_time(), by,
@@ -92,7 +93,7 @@ class Records:
             return make_record(
                 head, model, rows, language=language, sweeps=swept,
                 accepted=[(error_of(one.error), RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
-                log=[RecordLine(line.at, line.scan, line.author, line.text) for line in lines],
+                log=[*_earlier(earlier, lines), *(RecordLine(line.at, line.scan, line.author, line.text) for line in lines)],
             )  # fmt: skip
 
         return await asyncio.to_thread(make)
@@ -192,3 +193,9 @@ def _record_cell(cell: CellRow) -> RecordCell:
     error, _, details = cell.error.partition(":")
     note = "; ".join(filter(None, (details, cell.note)))
     return RecordCell(error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note)
+
+
+def _earlier(count: int, lines: Sequence[LogRow]) -> Iterator[RecordLine]:
+    if count:
+        said = f"{count:,} earlier lines are not in this record; the event log of the PLC has them"
+        yield RecordLine(lines[0].at, lines[0].scan, "server", said)

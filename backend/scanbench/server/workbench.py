@@ -33,12 +33,13 @@ from scanbench.server.trace_records import TraceRecords
 from scanbench.server.uploads import TraceFiles
 from scanbench.server.verifications import Verifications
 from scanbench.server.watch_lists import WatchLists
-from scanbench.server.write_behind import WriteBehind, line_of, row_of
+from scanbench.server.write_behind import LOG_KEPT, WriteBehind, line_of, row_of
 from scanbench.session.instance import Remembered
 from scanbench.session.log import LOG_LINES
 from scanbench.session.session import Session
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
+from scanbench.wire.events import LogPage
 from scanbench.wire.host import Driven
 from scanbench.wire.refused import Refused, Unavailable
 
@@ -149,6 +150,12 @@ class Workbench:
         self._looked_at = now
         pids = [session.state.pid for session in self.sessions]
         await asyncio.to_thread(self._loads.look, [pid for pid in pids if pid is not None])
+
+    async def log_page(self, session: Session, first: int | None, count: int, kind: str | None) -> LogPage:
+        """Lines of the event log of a PLC; all that happened until now is in it."""
+        await self._write_behind.flush()
+        begin, total, lines = await asyncio.to_thread(self._store.log.page, session.id, first, count, kind)
+        return LogPage(begin, total, LOG_KEPT, tuple(map(line_of, lines)))
 
     def session(self, id: int) -> Session:
         """The session of an instance."""

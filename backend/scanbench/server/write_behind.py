@@ -21,8 +21,10 @@ from scanbench.wire.events import LogEntry
 from scanbench.wire.host import MarkKind
 
 log = logging.getLogger("scanbench")
-LOG_KEPT = 20_000
-"""Lines of each instance; older ones go."""
+LOG_KEPT = 1_000_000
+"""Lines of each instance; older ones go, which the page of the log says."""
+LOG_WAITING = 200_000
+"""Lines of each instance that wait while the database cannot be used; older ones are lost, and the log says how many."""
 LOG_TRIMMED_EVERY = 1000
 AGAIN_S = 1.0
 """When it is tried again what the database refused."""
@@ -37,8 +39,9 @@ _KINDS: dict[str, MarkKind] = {kind: kind for kind in get_args(MarkKind)}
 class WriteBehind(Keeper):
     """One task that writes what has changed since its last turn, over and over."""
 
-    def __init__(self, store: Store) -> None:
-        self._store = store
+    def __init__(self, store: Store, kept: int = LOG_KEPT, waiting: int = LOG_WAITING) -> None:
+        self._store, self._kept, self._most = store, kept, waiting
+        self._lost: dict[int, int] = {}
         self._rows: _Rows = {}
         self._lines: _Lines = {}
         self._breakpoints: _Breakpoints = {}
@@ -76,9 +79,16 @@ class WriteBehind(Keeper):
 
     def keep_line(self, instance: int, line: LogEntry, version: int) -> None:
         """A line of the log, while this version of the program runs."""
-        lines = self._lines.setdefault(instance, deque(maxlen=LOG_KEPT))
+        lines = self._lines.setdefault(instance, deque())
         lines.append(LogRow(line.at, line.scan, line.author, line.kind, line.text, version))
+        self._bound(instance, lines)
         self._wake.set()
+
+    def _bound(self, instance: int, lines: deque[LogRow]) -> None:
+        """No more than may wait, and how many were lost."""
+        while len(lines) > self._most:
+            lines.popleft()
+            self._lost[instance] = self._lost.get(instance, 0) + 1
 
     def keep_breakpoints(self, instance: int, breakpoints: Sequence[Json]) -> None:
         """The breakpoints that everybody shares, all of them."""
@@ -132,7 +142,8 @@ class WriteBehind(Keeper):
         for instance, changed in rows.items():
             self._rows[instance] = changed | self._rows.get(instance, {})
         for instance, more in lines.items():
-            self._lines[instance] = deque([*more, *self._lines.get(instance, ())], maxlen=LOG_KEPT)
+            self._lines[instance] = deque([*more, *self._lines.get(instance, ())])
+            self._bound(instance, self._lines[instance])
         self._breakpoints = breakpoints | self._breakpoints
         self._traces = traces | self._traces
 
@@ -160,8 +171,12 @@ class WriteBehind(Keeper):
         due = untrimmed > LOG_TRIMMED_EVERY
 
         def write(some: Sequence[LogRow]) -> None:
-            self._store.log.add(instance, some, LOG_KEPT if due else None)
+            self._store.log.add(instance, some, self._kept if due else None)
 
+        if lost := self._lost.pop(instance, 0):
+            first = lines[0]
+            said = f"{lost:,} lines before this one could not be kept, as the database could not be used"
+            lines.appendleft(LogRow(first.at, first.scan, "server", "system", said, first.program_version))
         left = list(lines)
         try:
             _write_most(f"the log of instance {instance}", left, write)

@@ -13,7 +13,12 @@ from scanbench.wire.host import Diagnosed, MarkKind, PlcState, RunMarks
 
 LOG_LINES = 500
 LISTED = 100
-"""Entries of one moment that get a line each."""
+"""Entries of one moment that get a line each in the browsers."""
+
+
+def _line(entry: Entry) -> LogEntry:
+    command = entry.command
+    return LogEntry(entry.at, entry.scan, command.author, entry.plan.message, command.category)
 
 
 class Log:
@@ -50,9 +55,12 @@ class Log:
         self._add(LogEntry(wall_time(), self._state().scan if scan is None else scan, author, text, category))
 
     def _add(self, line: LogEntry) -> None:
+        self._keep(line)
+        self._show(line)
+
+    def _show(self, line: LogEntry) -> None:
         self._lines.append(line)
         del self._lines[:-LOG_LINES]
-        self._keep(line)
         self._publish(events.Logged((line,)))
 
     # ---- from the host --------------------------------------------------------------------------------------------
@@ -77,14 +85,15 @@ class Log:
             self.add("server", state.message, "system", state.scan)
 
     def on_entries(self, entries: Sequence[Entry]) -> None:
-        """What was entered; a program that raises errors all the time is summed up, not listed."""
+        """What was entered: all of it is kept; of a program that raises errors all the time most is summed up, not shown."""
         self._publish(self._marks.add(entries))
         for entry in entries[:LISTED]:
-            command = entry.command
-            self._add(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, command.category))
+            self._add(_line(entry))
         if len(entries) > LISTED:
+            for entry in entries[LISTED:]:
+                self._keep(_line(entry))
             last, more = entries[-1], len(entries) - LISTED
-            self._add(LogEntry(last.at, last.scan, last.command.author, f"... and {more} more entries", "system"))
+            self._show(LogEntry(last.at, last.scan, last.command.author, f"... and {more} more entries", "system"))
 
     def on_message(self, message: object) -> bool:
         """What the host says; whether it was for the log."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from sqlalchemy import delete, insert, select
+from sqlalchemy import delete, func, insert, select
 from sqlalchemy.exc import IntegrityError
 
 from scanbench.runtime.clock import wall_time
@@ -71,13 +71,25 @@ class Logs(Repository):
             found = select(Log).where(Log.instance_id == instance).order_by(Log.id.desc()).limit(limit)
             return [rows.log(entry) for entry in reversed(session.scalars(found).all())]
 
-    def errors(self, instance: int, version: int, limit: int) -> list[LogRow]:
-        """What was last raised and recovered while this version of the program ran, oldest first."""
+    def page(self, instance: int, first: int | None, limit: int, kind: str | None = None) -> tuple[int, int, list[LogRow]]:
+        """`limit` lines from the number `first` on, counted from 0, or the last ones: the first's number, how many there
+        are, and the lines, oldest first."""
+        with self._database.reading() as session:
+            the_instance(session, instance)
+            of = Log.instance_id == instance if kind is None else (Log.instance_id == instance) & (Log.kind == kind)
+            total = session.scalars(select(func.count()).select_from(Log).where(of)).one()
+            begin = max(0, total - limit) if first is None else first
+            found = select(Log).where(of).order_by(Log.id).offset(begin).limit(limit)
+            return begin, total, [rows.log(entry) for entry in session.scalars(found)]
+
+    def errors(self, instance: int, version: int, limit: int) -> tuple[int, list[LogRow]]:
+        """What was last raised and recovered while this version of the program ran, oldest first, and how much there was before."""
         with self._database.reading() as session:
             the_instance(session, instance)
             of = (Log.instance_id == instance) & (Log.program_version == version) & Log.kind.in_(("error", "recover"))
+            total = session.scalars(select(func.count()).select_from(Log).where(of)).one()
             found = select(Log).where(of).order_by(Log.id.desc()).limit(limit)
-            return [rows.log(entry) for entry in reversed(session.scalars(found).all())]
+            return max(0, total - limit), [rows.log(entry) for entry in reversed(session.scalars(found).all())]
 
     def add(self, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
         """More lines, in their order; with `keep` only the last so many lines of the instance stay."""

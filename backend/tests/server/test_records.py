@@ -106,7 +106,9 @@ def test_a_record_has_the_last_lines_and_the_newest_sweeps(
         if window != 40:  # it has not begun yet
             store.sweeps.add_cells(sweep.id, [CellRow("battery-error", "A", 5, "reacted")])
     record = made(store, plc)
-    assert [line.text for line in record.log] == ["line 8", "line 9", "line 11"]
+    assert [line.text for line in record.log] == [
+        "6 earlier lines are not in this record; the event log of the PLC has them", "line 8", "line 9", "line 11",
+    ]  # fmt: skip
     assert [sweep.window for sweep in record.sweeps] == [30, 20]
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.faults.history import ErrorRow
-from scanbench.server.write_behind import LOG_KEPT, LOG_TRIMMED_EVERY, WriteBehind
+from scanbench.server.write_behind import LOG_TRIMMED_EVERY, WriteBehind
 from scanbench.store.errors import Errors
 from scanbench.store.instances import Logs
 from scanbench.store.records import HistoryRow, LogRow, StoreError
@@ -73,7 +73,7 @@ def instance(store: Slow) -> int:
 
 @asynccontextmanager
 async def keeping(store: Store) -> AsyncIterator[WriteBehind]:
-    write_behind = WriteBehind(store)
+    write_behind = WriteBehind(store, KEPT, WAITING)
     write_behind.start()
     try:
         yield write_behind
@@ -81,12 +81,15 @@ async def keeping(store: Store) -> AsyncIterator[WriteBehind]:
         await write_behind.close()
 
 
+KEPT, WAITING = 3000, 2000
+
+
 def line(text: str) -> LogEntry:
     return LogEntry(NOON, 1, "ada", text, "error")
 
 
 def texts(store: Store, instance: int) -> list[str]:
-    return [each.text for each in store.log.last(instance, 10 * LOG_KEPT)]
+    return [each.text for each in store.log.last(instance, 10 * KEPT)]
 
 
 def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: int) -> None:
@@ -102,10 +105,11 @@ def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: 
             store.may.set()
             await write_behind.flush()
             assert store.rows == [1, 3]
-            assert store.lines == [LOG_KEPT]
+            assert store.lines == [WAITING + 1]
             told = {(row.error, row.program_version): row.count for row in store.errors.history(instance)}
             assert told == {("battery-error", 3): 30_000, ("fal", 3): 2, ("battery-error", 4): 1}
-            assert texts(store, instance) == [f"line {count}" for count in range(30_001 - LOG_KEPT, 30_001)]
+            lost = f"{29_999 - WAITING:,} lines before this one could not be kept, as the database could not be used"
+            assert texts(store, instance) == [lost, *(f"line {count}" for count in range(30_001 - WAITING, 30_001))]
 
     asyncio.run(story())
 
@@ -145,15 +149,15 @@ def test_the_end_writes_the_rest(store: Slow, instance: int) -> None:
 
 def test_old_lines_go(store: Slow, instance: int) -> None:
     async def story() -> None:
-        store.log.add(instance, [LogRow(NOON, 1, "ada", "error", f"old {number}") for number in range(LOG_KEPT)])
+        store.log.add(instance, [LogRow(NOON, 1, "ada", "error", f"old {number}") for number in range(KEPT)])
         async with keeping(store) as write_behind:
             write_behind.keep_line(instance, line("first"), 3)
             await write_behind.flush()
-            assert len(texts(store, instance)) == LOG_KEPT
+            assert len(texts(store, instance)) == KEPT
             for _ in range(LOG_TRIMMED_EVERY + 1):
                 write_behind.keep_line(instance, line("more"), 3)
             await write_behind.flush()
-            assert len(texts(store, instance)) == LOG_KEPT
+            assert len(texts(store, instance)) == KEPT
             assert texts(store, instance)[0] == f"old {LOG_TRIMMED_EVERY + 2}"
 
     asyncio.run(story())

@@ -205,6 +205,17 @@ def test_the_log_gives_the_last_lines(store: Store) -> None:
         store.log.add(4711, told)
 
 
+def test_the_log_is_read_page_by_page(store: Store) -> None:
+    instance = store.instances.create(store.projects.create("p", "CJ1M-CPU63").id, "i").id
+    told = lines(*(f"line {number}" for number in range(25)))
+    store.log.add(instance, told)
+    assert store.log.page(instance, None, 10) == (15, 25, told[15:])
+    assert store.log.page(instance, 5, 10) == (5, 25, told[5:15])
+    assert store.log.page(instance, 20, 10) == (20, 25, told[20:])
+    assert store.log.page(instance, None, 10, "mode") == (0, 0, [])
+    assert store.log.page(instance, 90, 10) == (90, 25, [])
+
+
 def test_the_log_keeps_so_many_lines(store: Store) -> None:
     project = store.projects.create("p", "CJ1M-CPU63").id
     instance, other = store.instances.create(project, "i").id, store.instances.create(project, "j").id

@@ -685,6 +685,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/log": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this `kind`), or the last ones
+         * @description Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this
+         *     `kind`), or the last ones.
+         */
+        get: operations["get_instance_log"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/memory": {
         parameters: {
             query?: never;
@@ -4667,6 +4688,29 @@ export interface components {
             scan: number;
             /** Text */
             text: string;
+        };
+        /**
+         * LogPage
+         * @description A stretch of the log as it is kept.
+         */
+        LogPage: {
+            /**
+             * First
+             * @description The number of the first of these lines, counted from 0.
+             */
+            first: number;
+            /**
+             * Kept
+             * @description Lines that are kept at most; older ones go.
+             */
+            kept: number;
+            /** Lines */
+            lines: components["schemas"]["LogLine"][];
+            /**
+             * Total
+             * @description Lines that are kept (of the kind that was asked for).
+             */
+            total: number;
         };
         /**
          * LostVariable
@@ -9258,6 +9302,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["LastWriter"];
+                };
+            };
+        };
+    };
+    get_instance_log: {
+        parameters: {
+            query?: {
+                count?: number;
+                first?: number | null;
+                kind?: ("write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt" | "disturbance") | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LogPage"];
                 };
             };
         };

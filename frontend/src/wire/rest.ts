@@ -16,6 +16,8 @@ import type {
   ImportedRecord,
   Instance,
   Invitation,
+  LogLine,
+  LogPage,
   MemoryPlace,
   MemoryWord,
   ModelInfo,
@@ -212,6 +214,12 @@ export const rest = {
   historyOf: (instance: number, version: number) =>
     json<HistoryOfVersion>("GET", `/instances/${instance}/history?version=${version}`),
   records: (project: number) => json<RecordInfo[]>("GET", `/projects/${project}/records`),
+  logPage: (instance: number, first: number | null, kind: LogLine["kind"] | null) => {
+    const wanted = new URLSearchParams();
+    if (first !== null) wanted.set("first", String(first));
+    if (kind !== null) wanted.set("kind", kind);
+    return json<LogPage>("GET", `/instances/${instance}/log?${wanted}`);
+  },
   record: (project: number, record: number) => json<ImportedRecord>("GET", `/projects/${project}/records/${record}`),
   importRecord: (project: number, file: Blob) => json<RecordInfo>("POST", `/projects/${project}/records`, file),
   deleteRecord: async (project: number, record: number): Promise<void> => {

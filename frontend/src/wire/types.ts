@@ -65,6 +65,7 @@ export type InstanceLimits = Shapes["InstanceLimits"];
 export type InstanceLoad = Shapes["InstanceLoad"];
 export type InstanceState = Shapes["InstanceState"];
 export type LogLine = Shapes["LogLine"];
+export type LogPage = Shapes["LogPage"];
 export type LostVariable = Shapes["LostVariable"];
 export type Mark = Shapes["Mark"];
 export type Mode = InstanceState["mode"];

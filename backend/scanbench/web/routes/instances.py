@@ -1,8 +1,9 @@
 """REST: instances, their symbols and error histories; and the WebSocket of each."""
 
 import asyncio
+from typing import Annotated
 
-from fastapi import APIRouter, Request, WebSocket
+from fastapi import APIRouter, Query, Request, WebSocket
 from fastapi.responses import FileResponse
 from starlette.background import BackgroundTask
 
@@ -18,11 +19,14 @@ from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket.socket import Client
+from scanbench.wire.events import LogPage
+from scanbench.wire.host import MarkKind as LogKind
 from scanbench.wire.refused import Refused
 from scanbench.wire.symbols import SymbolInfo
 
 router = APIRouter(prefix="/api", tags=["instances"])
 LARGEST_IMPORT = 1 << 30
+MOST_LOG_LINES = 1000
 
 
 @router.get("")
@@ -169,6 +173,16 @@ async def on_program(bench: Bench, instance: Id, version: Version) -> wire.Progr
 async def on_errors(bench: Bench, instance: Id) -> list[ErrorHistoryRow]:
     """The error history, in the order of the catalogue."""
     return list(map(translate.error_row, bench.session(instance).errors.rows))
+
+
+@router.get("/instances/{instance}/log")
+async def on_log(
+    bench: Bench, instance: Id, first: Annotated[int, Query(ge=0)] | None = None,
+    count: Annotated[int, Query(ge=1, le=MOST_LOG_LINES)] = MOST_LOG_LINES, kind: LogKind | None = None,
+) -> LogPage:  # fmt: skip
+    """Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this
+    `kind`), or the last ones."""
+    return await bench.log_page(bench.session(instance), first, count, kind)
 
 
 @router.websocket("/instances/{instance}/socket")

@@ -4,8 +4,10 @@ import { grouped, wallTime } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { useWidths } from "../../../store/page/columns";
 import { usePlc } from "../../../store/plc/plc";
+import { goLive, LOG_PAGE, turnTo, useWholeLog } from "../../../store/plc/wholelog";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
+import { IconButton } from "../../../ui/IconButton";
 import { MenuButton } from "../../../ui/Menu";
 import { useColumns } from "../../../ui/useColumns";
 import { useGrid } from "../../../ui/useGrid";
@@ -27,22 +29,84 @@ const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
 /** Every command for this PLC, with its author and the scan before which it was applied; the newest at the end. */
 export function LogPanel() {
   const log = usePlc((plc) => plc.log);
+  const page = useWholeLog((whole) => whole.page);
   const [kind, setKind] = useState<Filter>("all");
-  const shown = useMemo(() => (kind === "all" ? log : log.filter((line) => line.kind === kind)), [log, kind]);
+  const live = useMemo(() => (kind === "all" ? log : log.filter((line) => line.kind === kind)), [log, kind]);
+  const shown = page?.lines ?? live;
+
+  function choose(next: Filter): void {
+    setKind(next);
+    if (page) void turnTo(null, kindOf(next));
+  }
   return (
     <div className="pane flexcol" data-pane="log">
-      {log.length === 0 ? (
+      {log.length === 0 && !page ? (
         <p className="lonely faint">{t("log.none")}</p>
       ) : (
         <>
           <div className="sub">
+            <Pages kind={kindOf(kind)} />
             <span className="grow" />
-            <KindMenu kind={kind} onKind={setKind} />
+            <KindMenu kind={kind} onKind={choose} />
           </div>
-          {shown.length === 0 ? <p className="lonely faint">{t("log.nomatch")}</p> : <Lines key={kind} log={shown} />}
+          {shown.length === 0 ? (
+            <p className="lonely faint">{t("log.nomatch")}</p>
+          ) : (
+            <Lines key={`${kind} ${page?.first ?? "live"}`} log={shown} />
+          )}
         </>
       )}
     </div>
+  );
+}
+
+const kindOf = (kind: Filter): LogLine["kind"] | null => (kind === "all" ? null : kind);
+
+/** From the live lines to the whole log, and from page to page in it. */
+function Pages({ kind }: { kind: LogLine["kind"] | null }) {
+  const { page, busy, trouble } = useWholeLog();
+  const said = trouble && <span className="hint bad">{trouble}</span>;
+  if (!page)
+    return (
+      <>
+        <button
+          type="button"
+          className="link"
+          title={t("log.whole.hint")}
+          disabled={busy}
+          onClick={() => void turnTo(null, kind)}
+        >
+          {t("log.whole")}
+        </button>
+        {said}
+      </>
+    );
+  const { first, total, kept, lines } = page;
+  const range = { first: grouped(first + 1), last: grouped(first + lines.length), total: grouped(total) };
+  return (
+    <>
+      <IconButton
+        icon="chev-u"
+        label={t("log.earlier")}
+        small
+        disabled={busy || first === 0}
+        onClick={() => void turnTo(Math.max(0, first - LOG_PAGE), kind)}
+      />
+      <IconButton
+        icon="chev-d"
+        label={t("log.later")}
+        small
+        disabled={busy || first + lines.length >= total}
+        onClick={() => void turnTo(first + LOG_PAGE, kind)}
+      />
+      <span className="muted" role="status" title={t("log.kept", { count: grouped(kept) })}>
+        {total === 0 ? t("log.page.none") : t("log.page", range)}
+      </span>
+      <button type="button" className="link" onClick={goLive}>
+        {t("log.live")}
+      </button>
+      {said}
+    </>
   );
 }
 
