@@ -77,10 +77,10 @@ def _part(node: etree._Element) -> Iterator[tuple[str, str]]:
         case "ErrorLog":
             yield "place", node.get("First", "")
             yield "records", node.get("Records", "")
-            yield "format", f"{node.get('RecordWords')} words"
+            yield "format", node.get("RecordWords", "")
             yield "counter", node.get("Counter", "")
         case "ErrorReset":
-            yield "reset", f"{node.get('Bit')}, code in {node.get('Code')}"
+            yield "reset", f"{node.get('Bit')} {node.get('Code')}"
         case "ErrorTime":
             yield "place", node.get("First", "")
             yield "format", node.get("Fields", "")
@@ -102,9 +102,9 @@ def _special(node: etree._Element) -> Iterator[tuple[str, str]]:
 
 def _instruction(node: etree._Element) -> Iterator[tuple[str, str]]:
     if node.tag == "Reset":
-        yield "effect", f"clears {node.get('Flags')}"
+        yield "effect", node.get("Flags", "")
     else:
-        yield "effect", f"raises {node.get('Error')}"
+        yield "effect", node.get("Error", "")
         yield "numbers", f"{node.get('Min')}-{node.get('Max')}"
         if node.get("Clears") is not None:
             yield "clearing", node.get("Clears", "")
@@ -121,7 +121,7 @@ def _error(node: etree._Element, error: ErrorEntry) -> Iterator[tuple[str, str]]
     yield "cause", "lasting" if error.lasting else "passing"
     if error.severity == "fatal":
         yield "memory", "kept" if error.keeps_memory else "cleared"
-    yield "log", "first detail word" if error.details else "no contents"
+    yield "log", "details" if error.details else "none"
     if error.details:
         yield "details", ", ".join(detail.name for detail in error.details)
     yield from _text(node, "Name")

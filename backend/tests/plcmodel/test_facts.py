@@ -44,7 +44,7 @@ def test_a_fact_has_its_own_source_or_that_of_its_element(tmp_path: Path) -> Non
         "severity": ("nonfatal", "known", False, True),
         "priority": ("2", "known", False, True),
         "cause": ("passing", "known", False, True),
-        "log": ("no contents", "known", False, True),
+        "log": ("none", "known", False, True),
         "text": ("Alarm", "known", False, True),
     }
     assert share(model.facts) == (5, 11)  # words, access and retention of the area, and two of the error

@@ -222,7 +222,8 @@ def in_out(body: Body, member: Member, value: tree.Expression | None, span: Span
         return _constant_in_out(body, member, value, before)
     if not isinstance(value, VARIABLES):
         raise body.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
-    place = targets.target(body, value)
+    how = f" To read it through `{member.name}`, declare that in a VAR_IN_OUT CONSTANT."
+    place = targets.target(body, value, how)
     body.report.lent.append(targets.variable(value).span)
     return _bindable(body, member, place, value)
 

@@ -65,7 +65,7 @@ class Effects(Protocol):
     def repeats(self, value: Expr) -> bool:
         """Whether a value may be read several times as it is, because nothing changes it meanwhile."""
 
-    def assignable(self, body: "Body", place: Place, member: Member | None, span: Span) -> None:
+    def assignable(self, body: "Body", place: Place, member: Member | None, span: Span, how: str = "") -> None:
         """Refuses what cannot be assigned."""
 
     def library(self, body: "Body", name: str, args: tuple[Expr, ...]) -> Expr | None:

@@ -26,8 +26,8 @@ class PouEffects:
     def repeats(self, value: Expr) -> bool:
         return False
 
-    def assignable(self, body: Body, place: Place, member: Member | None, span: Span) -> None:
-        targets.assignable(body, place, member, span)
+    def assignable(self, body: Body, place: Place, member: Member | None, span: Span, how: str = "") -> None:
+        targets.assignable(body, place, member, span, how)
 
     def library(self, body: Body, name: str, args: tuple[Expr, ...]) -> Expr | None:
         functions = body.pous.functions

@@ -82,7 +82,8 @@ def refer(body: Body, node: tree.Expression, pointer: bool = False) -> RefOf:
         )
     if isinstance(place.type, OpenArray):
         raise body.report.reject("T013", "An ARRAY[*] cannot be referred to; refer to an element.", node.span)
-    writable(body, place, node.span)
+    how = " What is referred to could be written: pass its value, or pass it to a VAR_IN_OUT CONSTANT."
+    writable(body, place, node.span, how)
     return RefOf(place, reference_type(place.type, pointer))
 
 

@@ -8,16 +8,16 @@ from scanbench.program.types import Member, OpenArray, Section
 from scanbench.syntax import tree
 
 
-def target(body: Body, node: tree.Expression) -> Place:
-    """A place that may be written."""
-    return declared_target(body, node)[0]
+def target(body: Body, node: tree.Expression, how: str = "") -> Place:
+    """A place that may be written; `how` is told of one that may only be read: how to read it."""
+    return declared_target(body, node, how)[0]
 
 
-def declared_target(body: Body, node: tree.Expression) -> Found:
+def declared_target(body: Body, node: tree.Expression, how: str = "") -> Found:
     """The same, and the declared variable that it is, or is inside of."""
     place, member = body.place(node)
     note_written(body, node)
-    body.effects.assignable(body, place, member, node.span)
+    body.effects.assignable(body, place, member, node.span, how)
     return place, member
 
 
@@ -39,7 +39,7 @@ def variable(node: tree.Expression) -> tree.Expression:
     return node
 
 
-def assignable(body: Body, place: Place, member: Member | None, span: Span) -> None:
+def assignable(body: Body, place: Place, member: Member | None, span: Span, how: str = "") -> None:
     """Refuses what cannot be assigned: constants, outputs of others, memory that the model protects."""
     if member is not None:
         if member.constant and member.section is Section.IN_OUT and isinstance(member.type, OpenArray):
@@ -53,7 +53,7 @@ def assignable(body: Body, place: Place, member: Member | None, span: Span) -> N
             body.report.warn("W001", f"`{member.name}` is an input; the next call overwrites this.", span)
         if member.section is Section.OUTPUT and not own and not _own(body, member):
             raise body.report.reject("T003", f"`{member.name}` is an output; only its block writes it.", span)
-    writable(body, place, span)
+    writable(body, place, span, how)
 
 
 def _own(body: Body, member: Member) -> bool:
@@ -62,8 +62,8 @@ def _own(body: Body, member: Member) -> bool:
     return instance is not None and instance.members.get(member.name.upper()) is member
 
 
-def writable(body: Body, place: Place, span: Span) -> None:
-    """Refuses memory that the model protects from the program."""
+def writable(body: Body, place: Place, span: Span, how: str = "") -> None:
+    """Refuses memory that the model protects from the program; `how` says how to read it there."""
     if place.variable != "@":
         return
     model = body.declarations.model
@@ -76,5 +76,5 @@ def writable(body: Body, place: Place, span: Span) -> None:
                 bits, byte = (16, 2 * word) if bit is None else (1, byte)
                 where = model.format(area, byte, bit, bits)
                 raise body.report.reject(
-                    "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.", span
+                    "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.{how}", span
                 )

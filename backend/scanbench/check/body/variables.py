@@ -57,7 +57,7 @@ def undeclared(body: Body, name: str, span: Span) -> Rejected:
     known = [*body.scope.names(), *(pou.name for pou in body.pous.functions.values())]
     hint = did_you_mean(name, [*known, *body.declarations.values.names()])
     if body.declarations.model.locate(name) is not None:  # after AT it needs no percent sign
-        hint += f" The address of the PLC is written `%{name}` in statements."
+        hint += f" The address of the PLC is written `%{name}` in statements; or declare a variable AT it."
     return body.report.reject("T001", f"`{name}` is not declared.{hint}", span)
 
 

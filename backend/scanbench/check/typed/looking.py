@@ -22,7 +22,7 @@ class Looking:
     def repeats(self, value: Expr) -> bool:
         return isinstance(value.operand if isinstance(value, Convert) else value, Load)
 
-    def assignable(self, body: Body, place: Place, member: Member | None, span: Span) -> None:
+    def assignable(self, body: Body, place: Place, member: Member | None, span: Span, how: str = "") -> None:
         # what a tool may write, whoever stores the value looks at
         if member is not None and member.constant:
             raise body.report.reject("T003", f"`{member.name}` is a CONSTANT and cannot be assigned.", span)
