@@ -71,7 +71,9 @@ class Logs(Repository):
             found = select(Log).where(Log.instance_id == instance).order_by(Log.id.desc()).limit(limit)
             return [rows.log(entry) for entry in reversed(session.scalars(found).all())]
 
-    def page(self, instance: int, first: int | None, limit: int, kind: str | None = None) -> tuple[int, int, list[LogRow]]:
+    def page(
+        self, instance: int, first: int | None, limit: int, kind: str | None = None
+    ) -> tuple[int, int, list[LogRow]]:
         """`limit` lines from the number `first` on, counted from 0, or the last ones: the first's number, how many there
         are, and the lines, oldest first."""
         with self._database.reading() as session:
