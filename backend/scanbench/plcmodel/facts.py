@@ -22,7 +22,7 @@ class Fact:
     verified: bool
     """Somebody found it on a page that `source` names."""
     inherited: bool
-    """It has no Source of its own: that of the element it stands in."""
+    """It has no Source of its own: that of the element around it."""
 
 
 KINDS: Mapping[str, tuple[str, ...]] = {

@@ -1,4 +1,4 @@
-"""Facts of a model: each with a source of its own, or with that of the element it stands in."""
+"""Facts of a model: each with a source of its own, or with that of the element around it."""
 
 from pathlib import Path
 
