@@ -1,5 +1,6 @@
 """`scanbench model`: what it prints, and its exit codes."""
 
+import json
 from pathlib import Path
 
 from scanbench.plcmodel.load import model_directory
@@ -39,3 +40,18 @@ def test_the_list() -> None:
     assert result.returncode == 0, result.stderr
     for name in ("GENERIC-IEC", "CJ1M-CPU63", "CJ2M-CPU33", "Q03UD", "NJ501-1300"):
         assert f"\n{name} " in result.stdout
+
+
+def test_the_facts_of_a_model() -> None:
+    result = scanbench("model", "facts", "cj1m-cpu13", "--error", "basic-io-error")
+    assert result.returncode == 0, result.stderr
+    lines = [line.split() for line in result.stdout.splitlines()]
+    assert ["error", "basic-io-error", "flag", "A402.12", "yes", "ELIB", "page", "on", "A408.08-15;"] in [
+        line[:9] for line in lines
+    ]
+    assert result.stdout.splitlines()[-1].startswith("CJ1M-CPU13: ")
+    told = json.loads(scanbench("model", "facts", "CJ1M-CPU13", "--unverified", "--json").stdout)
+    assert not any(fact["verified"] for fact in told["list"])
+    assert len(told["list"]) == told["facts"] - told["verified"]
+    wrong = scanbench("model", "facts", "CJ1M-CPU13", "--error", "battery")
+    assert (wrong.returncode, "has no error battery" in wrong.stderr) == (2, True)

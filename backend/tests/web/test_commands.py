@@ -49,6 +49,21 @@ def test_a_command_by_its_type(server: Server, path: str) -> None:
     assert server.http.get(f"{path}/forces").json() == server.http.get(f"{path}/disturbances").json() == []
 
 
+def test_what_is_present_is_skipped_and_the_log_has_pages(server: Server, path: str) -> None:
+    def post(type: str, *ids: str) -> int:
+        body = {"type": type, "errors": [{"id": id} for id in ids]}
+        return server.http.post(f"{path}/commands", json=body).status_code
+
+    assert post("generate", "battery-error") == 200
+    assert post("generate", "battery-error", "plc-setup-error") == 422
+    assert post("generate_absent", "battery-error", "plc-setup-error") == 200
+    page = server.http.get(f"{path}/log", params={"kind": "error", "count": 1}).json()
+    assert (page["first"], page["total"], page["kept"]) == (1, 2, 1_000_000)
+    assert [line["text"] for line in page["lines"]] == ["generated plc-setup-error (address=0), code 009B"]
+    (first,) = server.http.get(f"{path}/log", params={"kind": "error", "first": 0, "count": 1}).json()["lines"]
+    assert first["text"].startswith("generated battery-error")
+
+
 def test_what_is_no_command_is_refused_by_name(server: Server, path: str) -> None:
     for wrong, (body, message) in WRONG.items():
         reply = server.http.post(f"{path}/commands", json=body)
