@@ -128,6 +128,28 @@ class Plc:
         simulator raised and whose cause lasts stays: `recover` it."""
         return self._command("errors/clear", {"what": what})
 
+    @property
+    def device(self) -> Mapping[str, Json]:
+        """What a tool reads from the PLC's memory at the scan that is shown: `errors` that are present, its own `log`,
+        `messages`, the `code` in its code word. Whoever caused it: a program, a protocol client, the simulator."""
+        answer = self._server.ask("GET", f"{self._base}/errors/device")
+        assert isinstance(answer, dict)
+        return answer
+
+    @property
+    def present(self) -> Sequence[Mapping[str, Json]]:
+        """The errors that the memory shows, the most serious first: `id`, `code`, `severity`, `name`, `text`, `details`."""
+        return _objects(self.device["errors"])
+
+    @property
+    def error_log(self) -> Sequence[Mapping[str, Json]]:
+        """The device's own error log, the newest record first: `time`, `code`, `id`, `name`, `details`, `contents`."""
+        return _objects(self.device["log"])
+
+    def clear_log(self) -> str:
+        """Empties the device's own error log, as a tool does it on the device."""
+        return self._command("errors/log/clear", {})
+
     def arm(
         self, error: str, *, start: Mapping[str, Json] | None = None, shape: Mapping[str, Json] | None = None,
         **details: Value,
@@ -144,9 +166,7 @@ class Plc:
     @property
     def armed(self) -> Sequence[Mapping[str, Json]]:
         """The faults that are armed and not over: `id`, `errors`, `text`, `state`, `next_scan` and more."""
-        answer = self._server.ask("GET", f"{self._base}/errors/armed")
-        assert isinstance(answer, list)
-        return [each for each in answer if isinstance(each, dict)]
+        return _objects(self._server.ask("GET", f"{self._base}/errors/armed"))
 
     def disarm(self, *ids: int) -> str:
         """Takes these armed faults back, or all; what they raised is recovered."""
@@ -185,6 +205,36 @@ class Plc:
         """Runs one scan."""
         return self._command("run", {"action": "scan"})
 
+    def keep_state(self, name: str, scan: int | None = None) -> int:
+        """Keeps the PLC as it is now, or was before a scan, for sweeps; its number."""
+        answer = self._server.ask("POST", f"{self._base}/states", {"name": name, "scan": scan})
+        assert isinstance(answer, dict)
+        return int(str(answer["id"]))
+
+    def begin_sweep(self, errors: Sequence[str] | None = None, states: Sequence[int] = (), window: int = 200) -> int:
+        """Begins to raise these errors, or all, each alone, from these states, or from now; the sweep's number."""
+        body: dict[str, Json] = {
+            "errors": None if errors is None else list(errors), "states": list(states), "window": window,
+        }  # fmt: skip
+        answer = self._server.ask("POST", f"{self._base}/sweeps", body)
+        assert isinstance(answer, dict)
+        return int(str(answer["id"]))
+
+    def sweep(self, number: int) -> Mapping[str, Json]:
+        """A sweep as it is now: `status` (`running`, `done`, ...) and more, `cells` with a verdict each."""
+        answer = self._server.ask("GET", f"/api/sweeps/{number}")
+        assert isinstance(answer, dict)
+        return answer
+
+    def wait_for_sweep(self, number: int, timeout_s: float = 600.0) -> Mapping[str, Json]:
+        """The sweep when it is over; `TimeoutError` when it is not by then, and goes on."""
+        end = monotonic_ns() + int(timeout_s * 1e9)
+        while (found := self.sweep(number))["status"] == "running":
+            if monotonic_ns() > end:
+                raise TimeoutError(f"sweep {number} still runs: {found.get('done')} of {found.get('total')}")
+            Event().wait(_LOOK_S)
+        return found
+
     @property
     def state(self) -> Mapping[str, Json]:
         """The state of the PLC: `state`, `mode`, `scan`, `message` and more."""
@@ -205,6 +255,11 @@ def connect(address: str, token: str = "", user: str = "script") -> Server:
     parts = urlsplit(address if "//" in address else f"http://{address}")
     given = token or parse_qs(parts.query).get("token", [""])[0]
     return Server(f"{parts.scheme}://{parts.netloc}", given, user)
+
+
+def _objects(answer: Json) -> list[dict[str, Json]]:
+    assert isinstance(answer, list)
+    return [each for each in answer if isinstance(each, dict)]
 
 
 def _error(id: str, details: Mapping[str, Value]) -> Json:

@@ -5,6 +5,7 @@ import typer
 from scanbench import __version__
 from scanbench.cli.check import check
 from scanbench.cli.dap import dap
+from scanbench.cli.device import clear, log, present
 from scanbench.cli.diff import diff
 from scanbench.cli.errors import errors
 from scanbench.cli.format import format
@@ -25,6 +26,8 @@ app = typer.Typer(
 )
 for command in (serve, check, format, run, verify, replay, diff, dap, lsp):
     app.command()(command)
+for command in (present, log, clear):
+    errors.command()(command)
 app.add_typer(model, name="model")
 app.add_typer(errors, name="errors")
 app.add_typer(vscode, name="vscode")

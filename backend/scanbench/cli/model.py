@@ -12,7 +12,14 @@ from scanbench.cli.inputs import usage
 from scanbench.plcmodel.document import SCHEMA
 from scanbench.plcmodel.facts import Fact, share
 from scanbench.plcmodel.load import NoModels, NoSuchModel, load_all, load_file, model_directory, model_named
-from scanbench.plcmodel.model import Instruction, Model, ResetInstruction, WordRange
+from scanbench.plcmodel.model import (
+    Instruction,
+    MessageInstruction,
+    Model,
+    QueryInstruction,
+    ResetInstruction,
+    WordRange,
+)
 
 _WIDEST = 40
 """Characters of a value in the table of facts."""
@@ -120,7 +127,10 @@ def summary(model: Model) -> list[str]:
     roles = Counter(special.role or "no role" for special in model.specials)
     severities = Counter(error.severity for error in errors)
     details = sum(len(error.details) for error in errors)
-    made: list[Instruction | ResetInstruction] = [*model.instructions, *model.resets]
+    raising = [each for each in model.instructions if not each.part]
+    made: list[Instruction | ResetInstruction | QueryInstruction | MessageInstruction] = [
+        *raising, *model.resets, *model.queries, *model.messages,
+    ]  # fmt: skip
     verified, count = share(model.facts)
     return [
         f"{model.name} ({model.vendor}): {model.description}",

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from scanbench.faults.details import Bits, Chosen, field_bits
+from scanbench.plcmodel.model import Location
 from scanbench.runtime.command import Patch, View
 
 
@@ -20,6 +21,9 @@ def switch(view: View, off: Sequence[Chosen], on: Sequence[Chosen], others: Sequ
     word = view.model.code_word
     if word is not None:
         _merge(bits, field_bits(word, 0, word.bits, shown_code([*others, *on]), view.program.layout))
+    for query in view.model.queries:
+        code = shown_code([one for one in (*others, *on) if _in_word(one.error.flag, query.flags)])
+        _merge(bits, field_bits(query.code, 0, query.code.bits, code, view.program.layout))
     for offset, (mask, value) in sorted(bits.items()):
         yield Patch(offset, bytes((mask,)), bytes((value,)))
 
@@ -34,6 +38,10 @@ def rank(one: Chosen) -> tuple[int, int, int]:
     """The most serious first: the device's own fatal errors, then fatal errors of a project, then everything by priority."""
     place = 2 if one.error.severity == "nonfatal" else 1 if one.error.user else 0
     return place, one.error.priority, one.code
+
+
+def _in_word(flag: Location, word: Location) -> bool:
+    return (flag.area.name, flag.word) == (word.area.name, word.word)
 
 
 def _merge(bits: dict[int, tuple[int, int]], more: Iterable[Bits]) -> None:

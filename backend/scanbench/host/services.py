@@ -5,6 +5,8 @@ from dataclasses import replace
 
 from scanbench.debug.debugger import Debugger
 from scanbench.faults.arm import ARMED, armed_faults
+from scanbench.faults.device import Watched, read_device
+from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DISTURBED, disturbances
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.preview import preview
@@ -58,6 +60,8 @@ class Services:
         self._forces: tuple[ForcedValue, ...] | None = None if timeline.live_scan else ()
         """As they were told; a run that is gone on with may have lost one that nobody was told of."""
         self._info: RecordingInfo | None = None
+        self._device = Watched(self._resource.program.layout)
+        self._device_in_past: bool | None = None
         timeline.new_entries()  # those of earlier lives were told by their hosts
         link.post(protocol.RunMarks(timeline.recording.info, marks_of(timeline.live_journal), fresh=True))
 
@@ -109,6 +113,8 @@ class Services:
             case protocol.WantForces():
                 self._tell_in_effect()  # what holds is known by then, too
                 self._link.post(protocol.ForcesAre(forced_values(self._resource.view), message.ref))
+            case protocol.WantDevice():
+                self._link.post(protocol.DeviceIs(self._read_device(), message.ref))
             case protocol.PreviewErrors():
                 self._preview(message)
             case protocol.Attend():
@@ -135,6 +141,7 @@ class Services:
 
     def moved(self) -> None:
         """Plans the watch again, as a new program is shown, in which every variable may have a new place."""
+        self._device = Watched(self._resource.program.layout)
         self._link.post(protocol.Watching(None, self._plan_watch(self._watched)))
 
     # ---- at each tick ---------------------------------------------------------------------------------------------
@@ -163,6 +170,7 @@ class Services:
         if now >= self._counted_at:
             self._counted_at = now + COUNTING_NS
             self._diagnose()
+            self._tell_device()
             self._timeline.note()
         if now >= self._info_at:
             self._info_at = now + _INFO_NS
@@ -202,6 +210,15 @@ class Services:
             self._forces = forces
             self._link.post(protocol.ForcesAre(forces))
         self._held = held
+
+    def _tell_device(self) -> None:
+        past = self._timeline.past
+        if self._device.changed(self._resource.memory) or past != self._device_in_past:
+            self._device_in_past = past
+            self._link.post(protocol.DeviceIs(self._read_device()))
+
+    def _read_device(self) -> DeviceErrors:
+        return read_device(self._resource.view, self._timeline.past)
 
     def _preview(self, asked: protocol.PreviewErrors) -> None:
         view = self._resource.view

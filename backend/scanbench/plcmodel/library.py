@@ -13,7 +13,7 @@ from scanbench.plcmodel.document import Document, read, schema_of
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.read_catalogue import read_catalogue
 from scanbench.plcmodel.read_facts import read_facts
-from scanbench.plcmodel.read_instructions import instructions, resets
+from scanbench.plcmodel.read_instructions import instructions, message_instructions, queries, resets
 from scanbench.plcmodel.read_memory import read_memory
 from scanbench.plcmodel.read_system import (
     code_word,
@@ -149,6 +149,8 @@ def _model(layers: list[Reader]) -> Model:
         error_time=error_time(layers),
         resets=resets(layers),
         facts=read_facts(layers, [(elements[id], error) for id, error in errors.items()]),
+        queries=queries(layers),
+        messages=message_instructions(layers),
     )
 
 

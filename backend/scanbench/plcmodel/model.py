@@ -41,11 +41,14 @@ __all__ = [
     "Instruction",
     "Kind",
     "Location",
+    "MessageInstruction",
     "Model",
+    "QueryInstruction",
     "ResetInstruction",
     "Role",
     "Severity",
     "Special",
+    "TextPlace",
     "Who",
     "WordRange",
     "Wording",
@@ -134,6 +137,15 @@ class Special:
 
 
 @dataclass(frozen=True, slots=True)
+class TextPlace:
+    """Where texts of the program are kept: number n in the `words` words that begin n times as many after `first`. Two
+    characters in a word, the first in the high byte, zeros after the last."""
+
+    first: Location
+    words: int
+
+
+@dataclass(frozen=True, slots=True)
 class Instruction:
     """An instruction of the vendor that raises an error of the catalogue; a program calls it as a function.
 
@@ -158,14 +170,58 @@ class Instruction:
     selector: str = ""
     information: str = ""
     system_errors: Location | None = None
+    text: str = ""
+    """A parameter that is a text, which is kept at `texts` when the error is raised."""
+    texts: TextPlace | None = None
+    part: int = 0
+    """An instruction with several ranges of numbers, each with an error of its own, is several of one name: which of them."""
 
 
 @dataclass(frozen=True, slots=True)
 class ResetInstruction:
-    """An instruction of the vendor that clears the nonfatal errors whose flags are in the word `flags`."""
+    """An instruction of the vendor that clears the nonfatal errors whose flags are in the word `flags`.
+
+    With a parameter `code` it clears only the error of that code, unless that is 0.
+    """
 
     name: str
     flags: Location
+    description: str = ""
+    source: str = ""
+    verified: bool = False
+    code: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class QueryInstruction:
+    """An instruction of the vendor that tells the most serious error of a part of the device: those with flags in `flags`.
+
+    The output Level is the number in `levels` of the first bit in `bits` that is on, else 0; Code is what is in `code`, which
+    the system keeps: the code of the most serious of these errors. The result is whether there is one of these levels.
+    """
+
+    name: str
+    flags: Location
+    bits: tuple[int, ...]
+    levels: tuple[int, ...]
+    code: Location
+    level_type: str
+    code_type: str
+    description: str = ""
+    source: str = ""
+    verified: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class MessageInstruction:
+    """An instruction of the vendor that shows a text on tools, under a number; an empty text takes it back."""
+
+    name: str
+    parameter: str
+    text: str
+    minimum: int
+    maximum: int
+    texts: TextPlace
     description: str = ""
     source: str = ""
     verified: bool = False
@@ -197,6 +253,8 @@ class Model:
     resets: tuple[ResetInstruction, ...] = ()
     facts: tuple[Fact, ...] = ()
     """Everything that the model file says about the device, and where it comes from."""
+    queries: tuple[QueryInstruction, ...] = ()
+    messages: tuple[MessageInstruction, ...] = ()
 
     def area(self, name: str) -> Area | None:
         """The area of this name (not of an alias)."""
@@ -248,6 +306,14 @@ class Model:
     def special(self, name: str) -> Location | None:
         """The special address of this name."""
         return next((entry.location for entry in self.specials if entry.name == name), None)
+
+    def texts(self) -> Iterator[tuple[str, TextPlace, int]]:
+        """Where instructions keep texts: the name of each, the place, and its words."""
+        for made in self.instructions:
+            if made.texts is not None:
+                yield made.name, made.texts, made.texts.words * (made.maximum + 1)
+        for message in self.messages:
+            yield message.name, message.texts, message.texts.words * (message.maximum + 1)
 
     @cached_property
     def _symbols(self) -> dict[str, Location]:

@@ -49,6 +49,10 @@ def _of_the_system(device: Model) -> Iterator[Taken]:
     for special in device.specials:
         if special.role or special.name in _NAMED:
             yield Taken(stretch(special.location), f"{special.name} of the system")
+    for query in device.queries:
+        yield Taken(stretch(query.code), f"the code that {query.name} tells")
+    for name, place, words in device.texts():
+        yield Taken(stretch(place.first, words), f"in the texts of {name}")
     for instruction in device.instructions:
         if instruction.system_errors is not None:
             purpose = f"the number that makes {instruction.name} raise errors of the device"

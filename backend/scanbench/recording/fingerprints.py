@@ -7,15 +7,18 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 
-from scanbench.plcmodel.model import Area, ErrorAddress, Model
+from scanbench.plcmodel.model import Area, ErrorAddress, Instruction, Model, ResetInstruction
 from scanbench.plcmodel.user_errors import device_of
 from scanbench.program.program import Program
 from scanbench.program.types import Record
 
 _SAMPLES = 500
 _WORDS = frozenset({"description", "source", "verified", "wordings", "user", "facts"})
-_LATER = frozenset({(ErrorAddress, "lasting")})
-"""Fields that models did not have at first: with their default they say nothing, so that runs from before fit."""
+_LATER = frozenset({
+    (ErrorAddress, "lasting"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"), (ResetInstruction, "code"),
+    (Model, "queries"), (Model, "messages"),
+})  # fmt: skip
+"""Fields that came after run files were kept: with their defaults they say nothing, so that runs from before fit."""
 _F64 = struct.Struct("<d")
 
 

@@ -15,6 +15,7 @@ from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
 from scanbench.session.debugging import Debugging
+from scanbench.session.device import Device
 from scanbench.session.errors import Errors
 from scanbench.session.forces import Forces
 from scanbench.session.instance import Instance, Remembered
@@ -63,6 +64,7 @@ class Session:
             lines, self.tell, lambda line: keeper.keep_line(row.id, line, self.errors.version), lambda: self.state
         )
         self.forces = Forces(self.instance, self.tell)
+        self.device = Device(self.instance, self.tell)
         self.watching = Watching(self.instance.tell, self.tell, self._subscribers)
         self.debugging = Debugging(self.debug, self.tell, partial(keeper.keep_breakpoints, row.id), breakpoints)
         self.tracing = Tracing(self.instance.ask, self.tell, partial(keeper.keep_traces, row.id), traces or {})
@@ -228,7 +230,7 @@ class Session:
             case protocol.NowRuns():
                 self.errors.on_model(self.model)
             case _:
-                rooms = (self.watching, self.errors, self.forces, self.log, self.tracing, self.debugging)
+                rooms = (self.watching, self.errors, self.forces, self.device, self.log, self.tracing, self.debugging)
                 any(room.on_message(message) for room in rooms)
 
     def _on_entries(self, entries: Sequence[Entry]) -> None:

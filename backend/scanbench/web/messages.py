@@ -10,15 +10,13 @@ from pydantic import Field
 
 from scanbench.check.build import PouInfo
 from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.migrate_image import Lost
 from scanbench.web.messages_base import Id, Scan, Version, Wire
 from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Dap, HaltInfo
-from scanbench.web.messages_errors import (
-    ErrorHistoryRow,
-    SweepProgress,
-)
+from scanbench.web.messages_errors import ErrorHistoryRow, SweepProgress
 from scanbench.web.messages_together import Draft
 from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
@@ -337,6 +335,7 @@ class Hello(Wire):
     errors: list[ErrorHistoryRow]
     log: list[LogEntry]
     forces: tuple[ForcedValue, ...]
+    device: DeviceErrors | None = Field(description="null until the PLC was there once")
     armed: tuple[ArmedInfo, ...]
     diagnostics: Diagnostics
     timeline: events.TimelineChanged
@@ -428,6 +427,7 @@ ServerMessage = Annotated[
     | events.FileDeleted
     | DraftEdited
     | Draft
+    | events.DeviceChanged
     | events.ForcesChanged
     | Diagnostics
     | events.TimelineChanged

@@ -8,6 +8,7 @@ from typing import ClassVar, Literal, Protocol
 from scanbench.check.build import PouInfo
 from scanbench.debug.breakpoint import Verdict
 from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.history.contract import Divergence
@@ -178,6 +179,16 @@ class ValueWritten(Public):
     scan: int
     forced: bool
     type: Literal["written"] = "written"
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceChanged(Public):
+    """The device's own view of its errors, read from its memory."""
+
+    PUBLIC: ClassVar = "Device"
+
+    found: DeviceErrors
+    type: Literal["device"] = "device"
 
 
 @dataclass(frozen=True, slots=True)
@@ -410,6 +421,7 @@ Told = (
     | FileDeleted
     | DraftEdited
     | ValueWritten
+    | DeviceChanged
     | ForcesChanged
     | DiagnosticsChanged
     | TimelineChanged

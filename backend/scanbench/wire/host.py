@@ -10,6 +10,7 @@ from typing import ClassVar, Literal
 
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.inject import Active
 from scanbench.faults.preview import PreviewedWrite
@@ -134,6 +135,13 @@ class PreviewErrors:
 @dataclass(frozen=True, slots=True)
 class WantForces:
     """The forces as they are now; answered with `ForcesAre`."""
+
+    ref: int
+
+
+@dataclass(frozen=True, slots=True)
+class WantDevice:
+    """The device's own view of its errors, as it is now; answered with `DeviceIs`."""
 
     ref: int
 
@@ -305,6 +313,14 @@ class ForcesAre:
     """The forces that hold at the scan that is shown, and what they did in the scan before. `ref`: of who asked."""
 
     forces: tuple[ForcedValue, ...]
+    ref: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceIs:
+    """The device's own view of its errors at the scan that is shown. `ref`: of who asked; told by itself when it changed."""
+
+    found: DeviceErrors
     ref: int | None = None
 
 

@@ -30,6 +30,7 @@ T0 T4095 rw rw rw
 C0 C4095 rw rw rw
 D0 D32767 rw rw rw
 CF0 CF1 r r rw
+MSGTEXT0 MSGTEXT8319 r r rw
 """
 
 
@@ -72,7 +73,7 @@ CIO0 CIO6143 rw rw rw
 W0 W511 rw rw rw
 H0 H1535 rw rw rw
 D0 D32767 rw rw rw
-SV0 SV31 r r rw
+SV0 SV33 r r rw
 """
 GENERIC = """
 %IW0 %IW511 r rw rw

@@ -445,6 +445,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/errors/device": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What a tool reads from the PLC's memory at the scan that is shown: errors that are present, its own error log, messages
+         * @description What a tool reads from the PLC's memory at the scan that is shown: errors that are present, its own error log, messages.
+         */
+        get: operations["get_instance_errors_device"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/errors/disarm": {
         parameters: {
             query?: never;
@@ -3372,6 +3392,177 @@ export interface components {
             message?: string | null;
         };
         /**
+         * Device
+         * @description The device's own view of its errors, read from its memory.
+         */
+        Device: {
+            found: components["schemas"]["DeviceErrors"];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "device";
+        };
+        /**
+         * DeviceDetail
+         * @description One detail of an error as the memory shows it.
+         */
+        DeviceDetail: {
+            /**
+             * Name
+             * @description As in the catalogue: `rack`.
+             */
+            name: string;
+            /**
+             * Text
+             * @description For people, in English: `Rack number: 1`.
+             */
+            text: string;
+            /**
+             * Value
+             * @description A number, a text or the id of a choice; several choices that are on together are joined by `+`.
+             */
+            value: string;
+        };
+        /**
+         * DeviceError
+         * @description An error that the memory shows as present.
+         */
+        DeviceError: {
+            /**
+             * Cause
+             * @description What the catalogue says about it.
+             */
+            cause: string;
+            /**
+             * Code
+             * @description With what details add; empty where the memory does not say it.
+             */
+            code: string;
+            /** Details */
+            details: components["schemas"]["DeviceDetail"][];
+            /** Flag */
+            flag: string;
+            /**
+             * Id
+             * @description Of the catalogue; empty where a flag is on and nothing says which of its errors it is.
+             */
+            id: string;
+            /**
+             * Lasting
+             * @description While its cause lasts it shows again as soon as it is cleared.
+             */
+            lasting: boolean;
+            /** Name */
+            name: string;
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "fatal" | "nonfatal";
+            /**
+             * Text
+             * @description What the program said with it: the text of FAL or FALS.
+             */
+            text: string;
+            /**
+             * Top
+             * @description Its code is the one in the code word.
+             */
+            top: boolean;
+        };
+        /**
+         * DeviceErrors
+         * @description The device's own view of its errors, read from its memory at one scan.
+         */
+        DeviceErrors: {
+            /**
+             * Code
+             * @description What the code word shows; all digits 0 where no error is present, empty where the model has no code word.
+             */
+            code: string;
+            /**
+             * Errors
+             * @description The most serious first.
+             */
+            errors: components["schemas"]["DeviceError"][];
+            /**
+             * Has Log
+             * @description The model keeps an error log in its memory.
+             */
+            has_log: boolean;
+            /**
+             * Keeps Latest
+             * @description The model keeps the latest error with its time instead of a log.
+             */
+            keeps_latest: boolean;
+            /**
+             * Log
+             * @description The newest first.
+             */
+            log: components["schemas"]["DeviceRecord"][];
+            /** Messages */
+            messages: components["schemas"]["DeviceMessage"][];
+            /**
+             * Past
+             * @description It is the past that is shown.
+             */
+            past: boolean;
+            /** Scan */
+            scan: number;
+        };
+        /**
+         * DeviceMessage
+         * @description A message that the program shows on tools (MSG).
+         */
+        DeviceMessage: {
+            /** Instruction */
+            instruction: string;
+            /** Number */
+            number: number;
+            /** Text */
+            text: string;
+        };
+        /**
+         * DeviceRecord
+         * @description A record of the device's own error log.
+         */
+        DeviceRecord: {
+            /** Code */
+            code: string;
+            /**
+             * Contents
+             * @description The word with details, in hexadecimal; empty where the log has none.
+             */
+            contents: string;
+            /** Details */
+            details: components["schemas"]["DeviceDetail"][];
+            /**
+             * Id
+             * @description Of the catalogue; empty where no error has this code.
+             */
+            id: string;
+            /** Name */
+            name: string;
+            /**
+             * Number
+             * @description Its place in the log: 1 is the oldest that is there.
+             */
+            number: number;
+            /** Severity */
+            severity: ("fatal" | "nonfatal") | null;
+            /**
+             * Text
+             * @description What the program says now with this number; the log itself keeps no text.
+             */
+            text: string;
+            /**
+             * Time
+             * @description The PLC's clock at that moment, `2026-11-24 10:15:02`; empty where the record has no time.
+             */
+            time: string;
+        };
+        /**
          * Diagnostics
          * @description The runtime diagnostics, whenever they change: the list is bounded, and says what did not fit.
          */
@@ -4351,6 +4542,8 @@ export interface components {
             /** Breakpoints */
             breakpoints: components["schemas"]["BreakpointInfo"][];
             coverage: components["schemas"]["Coverage"] | null;
+            /** @description as a tool reads it from the PLC's memory; null until the PLC was there once */
+            device: components["schemas"]["DeviceErrors"] | null;
             diagnostics: components["schemas"]["Diagnostics"];
             /** Disturbances */
             disturbances: components["schemas"]["DisturbanceInfo"][];
@@ -6188,7 +6381,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /** SetCell */
         SetCell: {
             /** Call */
@@ -8903,6 +9096,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    get_instance_errors_device: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceErrors"];
                 };
             };
         };

@@ -167,7 +167,8 @@ def _bind(body: Body, member: Member, argument: tree.Argument | None, bound: Bin
     if member.section is Section.IN_OUT:
         bound.places[key] = in_out(body, member, value, span, bound.before)
     elif member.section is Section.INPUT:
-        needed = is_system(member.span) and not any(member.initial)  # what may be left out has a default
+        # what may be left out has a default, or is a text
+        needed = is_system(member.span) and not any(member.initial) and not isinstance(member.type, StringType)
         if value is None and needed:
             raise body.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
         given = _input(body, member, value, span)

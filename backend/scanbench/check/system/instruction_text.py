@@ -5,8 +5,30 @@ device is new can only be decided in the seam, because the code word may show a 
 A number outside of the range that an instruction accepts gives FALSE, and does nothing.
 """
 
-from scanbench.check.system.system_text import CODE, STOP, Form, ask, flag, number_name, reset_flags, stand_in
-from scanbench.plcmodel.model import ErrorAddress, ErrorEntry, Instruction, Model, ResetInstruction, Severity
+from scanbench.check.system.system_text import (
+    CODE,
+    STOP,
+    Form,
+    ask,
+    flag,
+    number_name,
+    query_code,
+    query_flags,
+    reset_flags,
+    stand_in,
+    texts,
+)
+from scanbench.plcmodel.model import (
+    ErrorAddress,
+    ErrorEntry,
+    Instruction,
+    MessageInstruction,
+    Model,
+    QueryInstruction,
+    ResetInstruction,
+    Severity,
+    TextPlace,
+)
 from scanbench.program.layout import Layout
 
 _LAST = Layout.ASKED_LIMIT - 1
@@ -14,8 +36,9 @@ _LAST = Layout.ASKED_LIMIT - 1
 
 def instructions(model: Model) -> list[str]:
     """A function for each."""
-    made = [_instruction(model, number) for number in range(len(model.instructions))]
-    return made + [_reset(number, reset) for number, reset in enumerate(model.resets)]
+    made = [_instruction(model, number) for number, each in enumerate(model.instructions) if not each.part]
+    made += [_reset(number, reset) for number, reset in enumerate(model.resets)]
+    return [*made, *map(_query, model.queries), *map(_message, model.messages)]
 
 
 def number_place(model: Model, instruction: Instruction) -> ErrorAddress | None:
@@ -36,19 +59,17 @@ def _instruction(model: Model, index: int) -> str:
     entry = model.error(made.error)
     fatal = entry is not None and entry.severity == "fatal"
     number = made.parameter
-    raises = f"{flag(made)} := TRUE; " if entry is not None else ""
-    news = "TRUE" if fatal or entry is None else f"NOT {flag(made)} OR NOT ({_shown(model, made, number)})"
-    stops = f"{STOP} := TRUE; " if fatal else ""
-    branches = [
-        f"""\
-IF {number} >= {made.minimum} AND {number} <= {made.maximum} THEN
-  asks := {news}; {raises}{stops}{made.name} := TRUE;"""
-    ]
+    parts = [each for each in model.instructions if each.name == made.name]
+    branches = [_raise(model, each) for each in parts]
     if made.system_errors is not None and entry is not None:
         branches.insert(0, _system_error(model, made, entry))
     if made.clears is not None and entry is not None:
         branches.append(_clear(model, made))
     inputs = "".join(f" {name} : LINT := -1;" for name in (made.selector, made.information) if name)
+    keeps = ""
+    if made.texts is not None:
+        inputs += f" {made.text} : STRING[{2 * made.texts.words}];"
+        keeps = f"IF asks AND form = 0 AND {number} >= {made.minimum} THEN\n{_keep_text(made, made.texts)}\nEND_IF;\n"
     between = "\nELS"
     # What stops the PLC must get in, so it takes the place of the last one.
     room = f"__ASKED_COUNT := MIN(__ASKED_COUNT, {_LAST});" if fatal else f"asks := asks AND __ASKED_COUNT <= {_LAST};"
@@ -56,14 +77,67 @@ IF {number} >= {made.minimum} AND {number} <= {made.maximum} THEN
 FUNCTION {made.name} : BOOL
 VAR_INPUT {number} : LINT;{inputs} END_VAR
 VAR_OUTPUT {STOP} : BOOL; END_VAR
-VAR asks : BOOL; form : ULINT; asked : LINT; END_VAR
+VAR asks : BOOL; form : ULINT; asked : LINT; k, place : LINT; END_VAR
 asked := {number};
 {between.join(branches)}
 END_IF;
-IF asks THEN {room} END_IF;
+{keeps}IF asks THEN {room} END_IF;
 IF asks THEN
 {ask(Form.RAISE, index, "LINT_TO_ULINT(asked)", "form")}
 END_IF;
+END_FUNCTION
+"""
+
+
+def _raise(model: Model, made: Instruction) -> str:
+    """The branch for the numbers that raise an error."""
+    entry = model.error(made.error)
+    fatal = entry is not None and entry.severity == "fatal"
+    number = made.parameter
+    raises = f"{flag(made)} := TRUE; " if entry is not None else ""
+    news = "TRUE" if fatal or entry is None else f"NOT {flag(made)} OR NOT ({_shown(model, made, number)})"
+    stops = f"{STOP} := TRUE; " if fatal else ""
+    part = f"form := {made.part}; " if made.part else ""
+    return f"""\
+IF {number} >= {made.minimum} AND {number} <= {made.maximum} THEN
+  asks := {news}; {part}{raises}{stops}{made.name} := TRUE;"""
+
+
+def _keep_text(made: Instruction | MessageInstruction, place: TextPlace) -> str:
+    """Writes the text of its parameter: the first of two characters is in the high byte of a word."""
+    size = 2 * place.words
+    return f"""\
+  FOR k := 0 TO {size - 1} DO
+    place := {made.parameter} * {size} + k + 1 - k MOD 2 * 2;
+    IF k < LEN({made.text}) THEN {texts(made)}[place] := CHAR_TO_BYTE({made.text}[k + 1]); ELSE {texts(made)}[place] := 0; END_IF;
+  END_FOR;"""
+
+
+def _message(made: MessageInstruction) -> str:
+    return f"""\
+FUNCTION {made.name} : BOOL
+VAR_INPUT {made.parameter} : LINT; {made.text} : STRING[{2 * made.texts.words}]; END_VAR
+VAR k, place : LINT; END_VAR
+IF {made.parameter} >= {made.minimum} AND {made.parameter} <= {made.maximum} THEN
+{_keep_text(made, made.texts)}
+  {made.name} := TRUE;
+END_IF;
+END_FUNCTION
+"""
+
+
+def _query(query: QueryInstruction) -> str:
+    levels = "\nELS".join(
+        f"IF ({query_flags(query)} / {1 << bit}) MOD 2 = 1 THEN Level := {level};"
+        for bit, level in zip(query.bits, query.levels, strict=True)
+    )
+    return f"""\
+FUNCTION {query.name} : BOOL
+VAR_OUTPUT Level : {query.level_type}; Code : {query.code_type}; END_VAR
+{levels}
+END_IF;
+{query.name} := Level <> 0;
+IF {query.name} THEN Code := UDINT_TO_{query.code_type}({query_code(query)}); END_IF;
 END_FUNCTION
 """
 
@@ -113,11 +187,15 @@ IF {made.parameter} = {made.clears} THEN
 
 
 def _reset(index: int, reset: ResetInstruction) -> str:
+    inputs, one = "", ""
+    if reset.code:
+        inputs = f"VAR_INPUT {reset.code} : LINT := -1; END_VAR\n"
+        one = f"IF {reset.code} > 0 THEN\n{ask(Form.CLEAR_CODE, index, f'LINT_TO_ULINT({reset.code})')}\nRETURN;\nEND_IF;\n"
     return f"""\
 FUNCTION {reset.name} : BOOL
-{reset.name} := TRUE;
+{inputs}{reset.name} := TRUE;
 IF {reset_flags(reset)} <> 0 AND __ASKED_COUNT <= {_LAST} THEN
-{ask(Form.CLEAR_FLAGS, index, "0")}
+{one}{ask(Form.CLEAR_FLAGS, index, "0")}
 END_IF;
 END_FUNCTION
 """

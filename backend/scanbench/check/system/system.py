@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from scanbench.check.system import instruction_text, system_text
-from scanbench.plcmodel.model import Location, Model, Special
+from scanbench.plcmodel.model import Instruction, Location, MessageInstruction, Model, Special, TextPlace
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
 from scanbench.program.origin import SYSTEM_FILE
@@ -82,20 +82,7 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
         words.place_at(Member(name, type, Section.GLOBAL, _NOWHERE), offset)
     for number, special in enumerate(model.specials):
         _add(words, system_text.word(number), _type_of(special), special.location, offsets, special.text)
-    for instruction in model.instructions:
-        entry = model.error(instruction.error)
-        if entry is not None:
-            _add(words, system_text.flag(instruction), ELEMENTARY["BOOL"], entry.flag, offsets, entry.flag_text)
-        place = instruction_text.number_place(model, instruction)
-        if place is not None and place.location is not None:
-            numbers = (
-                ELEMENTARY["UINT"]
-                if place.kind == "Word"
-                else ArrayType(((0, instruction.maximum // 16),), ELEMENTARY["UINT"])
-            )
-            _add(words, system_text.number_name(instruction), numbers, place.location, offsets, place.text)
-        if instruction.system_errors is not None:
-            _add(words, system_text.stand_in(instruction), ELEMENTARY["UINT"], instruction.system_errors, offsets, "")
+    _add_instructions(words, model, offsets)
     if model.code_word is not None:
         numbers = ELEMENTARY[_NUMBERS[model.code_word.bits]]
         _add(words, system_text.CODE, numbers, model.code_word, offsets, "")
@@ -103,8 +90,6 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
         bit = model.error_reset.bit
         _add(words, system_text.RESET_BIT, ELEMENTARY["BOOL"], bit, offsets, model.format(*bit))
         _add(words, system_text.RESET_CODE, ELEMENTARY["UINT"], model.error_reset.code, offsets, "")
-    for reset in model.resets:
-        _add(words, system_text.reset_flags(reset), ELEMENTARY["UINT"], reset.flags, offsets, "")
     if model.log is not None:
         _add(words, system_text.LOG_COUNT, ELEMENTARY["UINT"], model.log.counter, offsets, "")
     symbols = Record("", Kind.STRUCT)
@@ -117,6 +102,33 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
     return System(words, symbols, file)
 
 
+def _add_instructions(words: Record, model: Model, offsets: dict[str, int]) -> None:
+    """What the vendor's instructions read and write."""
+    for instruction in model.instructions:
+        entry = model.error(instruction.error)
+        if entry is not None:
+            _add(words, system_text.flag(instruction), ELEMENTARY["BOOL"], entry.flag, offsets, entry.flag_text)
+        place = instruction_text.number_place(model, instruction)
+        if place is not None and place.location is not None:
+            numbers = (
+                ELEMENTARY["UINT"]
+                if place.kind == "Word"
+                else ArrayType(((0, instruction.maximum // 16),), ELEMENTARY["UINT"])
+            )
+            _add(words, system_text.number_name(instruction), numbers, place.location, offsets, place.text)
+        if instruction.texts is not None:
+            _add_texts(words, instruction, instruction.texts, offsets)
+        if instruction.system_errors is not None:
+            _add(words, system_text.stand_in(instruction), ELEMENTARY["UINT"], instruction.system_errors, offsets, "")
+    for reset in model.resets:
+        _add(words, system_text.reset_flags(reset), ELEMENTARY["UINT"], reset.flags, offsets, "")
+    for query in model.queries:
+        _add(words, system_text.query_flags(query), ELEMENTARY["UINT"], query.flags, offsets, "")
+        _add(words, system_text.query_code(query), ELEMENTARY["UDINT"], query.code, offsets, "")
+    for message in model.messages:
+        _add_texts(words, message, message.texts, offsets)
+
+
 def _text(model: Model) -> str:
     return "\n".join(filter(None, (system_text.common(model), *instruction_text.instructions(model))))
 
@@ -126,6 +138,13 @@ def _type_of(special: Special) -> Type:
     if special.role == "clock":
         return ArrayType(((0, len(special.fields) - 1),), ELEMENTARY["BYTE"])
     return ELEMENTARY["BOOL"] if special.location.bits == 1 else ELEMENTARY[_NUMBERS[special.location.bits]]
+
+
+def _add_texts(
+    words: Record, made: Instruction | MessageInstruction, texts: TextPlace, offsets: dict[str, int]
+) -> None:
+    last = 2 * texts.words * (made.maximum + 1) - 1
+    _add(words, system_text.texts(made), ArrayType(((0, last),), ELEMENTARY["BYTE"]), texts.first, offsets, "")
 
 
 def _add(record: Record, name: str, type: Type, location: Location, areas: dict[str, int], address: str) -> None:

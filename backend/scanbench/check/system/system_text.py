@@ -7,7 +7,15 @@ the clock is taken apart only when its second changes.
 from collections.abc import Iterator
 from enum import IntEnum
 
-from scanbench.plcmodel.model import ClockField, Instruction, Model, ResetInstruction, Special
+from scanbench.plcmodel.model import (
+    ClockField,
+    Instruction,
+    MessageInstruction,
+    Model,
+    QueryInstruction,
+    ResetInstruction,
+    Special,
+)
 
 COMMON = "__System"
 STOP = "__STOP"
@@ -72,12 +80,17 @@ def word(number: int) -> str:
 
 def flag(instruction: Instruction) -> str:
     """The name of the flag of the error that an instruction raises."""
-    return f"__F_{instruction.name}"
+    return f"__F_{_named(instruction)}"
 
 
 def number_name(instruction: Instruction) -> str:
     """The name of what shows its number."""
-    return f"__N_{instruction.name}"
+    return f"__N_{_named(instruction)}"
+
+
+def texts(instruction: Instruction | MessageInstruction) -> str:
+    """The name of the bytes that hold its texts."""
+    return f"__T_{instruction.name}"
 
 
 def stand_in(instruction: Instruction) -> str:
@@ -88,6 +101,20 @@ def stand_in(instruction: Instruction) -> str:
 def reset_flags(reset: ResetInstruction) -> str:
     """The name of the word of flags that an instruction clears."""
     return f"__R_{reset.name}"
+
+
+def query_flags(query: QueryInstruction) -> str:
+    """The name of the word of flags that an instruction tells of."""
+    return f"__Q_{query.name}"
+
+
+def query_code(query: QueryInstruction) -> str:
+    """The name of the code that it tells."""
+    return f"__C_{query.name}"
+
+
+def _named(instruction: Instruction) -> str:
+    return f"{instruction.name}_{instruction.part}" if instruction.part else instruction.name
 
 
 def ask(form: Form, index: int, number: str, more: str = "0") -> str:

@@ -3,6 +3,7 @@
 from fastapi import APIRouter, Request
 
 from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.typed import make
@@ -36,6 +37,12 @@ async def on_recover(
 ) -> messages_errors.CommandResult:
     """Recovers these errors, or all that are generated."""
     return await entered(bench, request, instance, "recover", wanted)
+
+
+@router.get("/errors/device")
+async def on_device(bench: Bench, instance: Id) -> DeviceErrors:
+    """What a tool reads from the PLC's memory at the scan that is shown: errors that are present, its own error log, messages."""
+    return await bench.session(instance).device.now()
 
 
 @router.post("/errors/clear")

@@ -137,6 +137,7 @@ class Client:
             errors=list(map(translate.error_row, self._session.errors.rows)),
             log=self._session.log.lines,
             forces=self._session.forces.all,
+            device=self._session.device.known,
             armed=self._session.errors.armed,
             diagnostics=translate.diagnostics(self._session.log.violations),
             timeline=self._session.log.timeline,
