@@ -33,6 +33,7 @@ from scanbench.check.system.plant import Plant, plant_files
 from scanbench.check.system.stimuli import Stimuli
 from scanbench.check.system.system import System, system_of
 from scanbench.check.system.system_text import COMMON
+from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model, Who
 from scanbench.plcmodel.user_errors import extended, is_user_errors
 from scanbench.problems import Problem, Severity, Span
@@ -99,13 +100,14 @@ def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model)
     """
     if len(program_files(sources)) == len(sources):
         return checked
-    complete, found = extended(model, sources)
+    found = extended(model, sources)[1]
     problems = sorted((*checked.problems, *found), key=lambda each: (each.span.file, each.span.line, each.span.column))
     if any(problem.severity is Severity.ERROR for problem in found):
         return Checked(None, tuple(problems), checked.pous)
     program = checked.program
     if program is not None:
-        program = replace(program, layout=replace(program.layout, model=complete))
+        used = extended(program.layout.model, sources)[0]
+        program = replace(program, layout=replace(program.layout, model=used))
     return replace(checked, program=program, problems=tuple(problems))
 
 
@@ -113,7 +115,8 @@ def checker_of(files: Sequence[Chunked], model: Model, looks: Looks | None = Non
     """What checks these files together."""
     enabling = frozenset(file.name for file in files if ENABLING.search(file.text))
     looked_at = (looks or Looks()).at(chunk for file in files for chunk in file.chunks)
-    return Checker(Report(), model, [file.file for file in files], enabling, looked_at)
+    used = as_used(model, (file.text for file in files))
+    return Checker(Report(), used, [file.file for file in files], enabling, looked_at)
 
 
 def concluded(files: Sequence[Chunked], report: Report, program: Program | None) -> Checked:

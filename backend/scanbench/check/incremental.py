@@ -24,6 +24,7 @@ from scanbench.check.build import (
 from scanbench.check.context import Report
 from scanbench.check.declare.names import qualified
 from scanbench.garbage import without_collection
+from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Pou
 from scanbench.syntax import tree
@@ -126,7 +127,8 @@ class Project:
             self.check_all(sources)
             return
         looked_at = self.looks.at(chunk for file in self.files.values() for chunk in file.chunks)
-        if (whole and not self.whole) or looked_at != self.checker.looked_at:
+        used = as_used(self.model, (file.text for file in self.files.values()))
+        if (whole and not self.whole) or looked_at != self.checker.looked_at or used is not self.checker.model:
             self.start()
             return
         bodies = [self._changed_body(edit) for edit in edits]

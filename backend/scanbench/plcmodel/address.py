@@ -49,7 +49,7 @@ def parse(
 def _known(areas: Sequence[Area], maps: Sequence[IecMap]) -> str:
     names = [f"%{entry.letter}" for entry in maps]
     mapped = {(entry.area.name, entry.area.words) for entry in maps if entry.letter == entry.area.name}
-    own = [area for area in areas if (area.name, area.words) not in mapped]
+    own = [area for area in areas if (area.name, area.words) not in mapped and not area.texts]
     names += [area.written for area in own]
     written = [_number(area, 0) for area in own[:1]] + [f"%{entry.letter}W0" for entry in maps[:1]]
     return f"its areas are {', '.join(dict.fromkeys(names))}; write it like {' or '.join(written)}"

@@ -46,6 +46,8 @@ class Area:
     """A bit may be written without a prefix: `0.00`."""
     source: str = ""
     verified: bool = False
+    texts: bool = False
+    """Only programs that give an instruction a text have it: see `as_used`."""
 
     @property
     def size(self) -> int:

@@ -43,6 +43,7 @@ def _area(reader: Reader, node: etree._Element) -> Area:
         bare_bits=node.get("BareBits") == "yes",
         source=node.get("Source", ""),
         verified=node.get("Verified") == "yes",
+        texts=node.get("Texts") == "yes",
     )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 
+from scanbench.plcmodel.as_used import plain
 from scanbench.plcmodel.model import Area, ErrorAddress, Instruction, Model, ResetInstruction
 from scanbench.plcmodel.user_errors import device_of
 from scanbench.program.program import Program
@@ -25,9 +26,10 @@ _F64 = struct.Struct("<d")
 def model_fingerprint(model: Model) -> str:
     """Of everything that the device does; what is only told to people may be worded otherwise.
 
-    The errors of a project are none of the device's: they belong to the sources, which a run file keeps whole.
+    The errors of a project are none of the device's: they belong to the sources, which a run file keeps whole. What only a
+    program asks for that uses it (`as_used`) is none of its deeds either: the layout of such a program says so.
     """
-    return _hash("\n".join(_deeds(device_of(model), set())).encode())
+    return _hash("\n".join(_deeds(plain(device_of(model)), set())).encode())
 
 
 def _deeds(value: object, areas: set[str]) -> Iterator[str]:

@@ -223,7 +223,7 @@ def model_info(model: plc.Model) -> messages_models.ModelInfo:
     word = model.code_word
     return messages_models.ModelInfo(
         **model_summary(model).model_dump(),
-        areas=[_area(model, area, part) for area in model.areas for part in area.ranges],
+        areas=[_area(model, area, part) for area in model.areas if not area.texts for part in area.ranges],
         code_word=None if word is None else model.format(word.area, word.byte, word.bit, word.bits),
         code_words=[]
         if word is None

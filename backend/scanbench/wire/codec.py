@@ -81,7 +81,7 @@ _CLASSES: dict[str, type] = {
         events.CheckOutcome, Problem, PouInfo, CheckSite, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord, protocol.DeviceIs, protocol.WantDevice,
-        ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
+        GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
         debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,

@@ -115,7 +115,8 @@ def test_instructions_of_every_model(model: Model, number: int) -> None:
     else:
         assert stop.reason is Reason.ASKED
         assert resolve(program, "Main.done").locate(memory) is not None
-    wrong = built(model, f"done := {made.name}({made.maximum + 1});", "done : BOOL := TRUE;")
+    most = max(each.maximum for each in model.instructions if each.name == made.name)
+    wrong = built(model, f"done := {made.name}({most + 1});", "done : BOOL := TRUE;")
     memory = bytearray(wrong.initial_image)
     assert PairEngine(wrong, memory).run(1).reason is Reason.DONE
     assert memory[resolve(wrong, "Main.done").offset] == 0

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from scanbench.check.build import check_sources
 from scanbench.check.incremental import Checks
+from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.recording.fingerprints import program_digest
 
@@ -19,7 +20,7 @@ def test_the_program_is_the_same_on_a_model_that_knows_more() -> None:
     assert plain is not None
     assert program is not None
     assert program.layout.model.error("pump-hot") is not None
-    assert plain.layout.model is MODEL
+    assert plain.layout.model is as_used(MODEL, ())
     assert program_digest(program) == program_digest(plain)
     assert (program.pous, program.initial_image) == (program.pous, plain.initial_image)
 
@@ -50,6 +51,6 @@ def test_a_new_catalogue_checks_no_body_again() -> None:
     assert [first.pous[-1], second.pous[-1]] == [without.pous[-1]] * 2
     assert first.pous[-1] is second.pous[-1] is without.pous[-1]
     assert second.layout.model.error("x") is not None
-    assert without.layout.model is MODEL
+    assert without.layout.model is as_used(MODEL, ())
     found = checks.diagnose({"main.st": MAIN, "errors.xml": GOOD.replace("4101", "41")}, MODEL, INTERVAL_NS)
     assert [each.code for each in found.problems] == ["M007"]

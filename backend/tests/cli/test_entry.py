@@ -13,7 +13,7 @@ from scanbench.cli.commands import app
     ("typed", "offered"),
     [
         ("ver", ["verify"]),
-        ("errors ", ["list", "sweep", "compare"]),
+        ("errors ", ["list", "sweep", "compare", "present", "log", "clear"]),
         ("run --sc", ["--scans"]),
         ("run --engine n", ["native"]),
     ],

@@ -48,7 +48,7 @@ def test_areas_that_count_bits_and_iec_areas_have_words_too() -> None:
 @pytest.mark.parametrize("model", sorted(MODELS))
 def test_the_address_of_each_first_and_last_word_of_a_model_is_an_address(model: str) -> None:
     made = program(model)
-    for area in MODELS[model].areas:
+    for area in made.layout.model.areas:
         for word in (0, area.words - 1):
             (found,) = words(made, area.name, word, 5)[:1]
             place = MODELS[model].locate(found.address)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.client import Plc, Refused, connect
+from tests.cli.calling import scanbench
 from tests.web.server import Server
 
 SOURCE = """\
@@ -121,3 +122,84 @@ def test_the_example_of_the_docs_runs(tmp_path: Path) -> None:
         sample = connect(server.address).plc("line-1")
         sample.run(scans=3)
         exec(found[1].replace("http://127.0.0.1:8700/?token=...", server.address), {})
+
+
+SAYS = """\
+PROGRAM Main
+VAR n : DINT; hot : BOOL; END_VAR
+  n := n + 1;
+  IF hot THEN FAL(N := 42, S := 'PUMP HOT'); MSG(1, 'CALL SERVICE'); END_IF;
+END_PROGRAM
+"""
+
+
+def test_a_script_reads_what_the_device_says_of_its_errors(server: Server) -> None:
+    server.instance("device for scripts", "CJ1M-CPU63", main=SAYS)
+    plc = connect(server.address, user="Ann").plc("device for scripts")
+    plc.run(scans=2)
+    assert (plc.present, plc.error_log) == ([], [])
+    plc.write("Main.hot", True)
+    plc.run(scans=2)
+    plc.write("Main.hot", False)
+    plc.raise_error("battery-error")
+    assert [(each["code"], each["text"]) for each in plc.present] == [("412A", "PUMP HOT"), ("00F7", "")]
+    assert [each["id"] for each in plc.error_log] == ["battery-error", "fal"]
+    assert plc.device["messages"] == [{"number": 1, "text": "CALL SERVICE", "instruction": "MSG"}]
+    plc.clear(0x412A)
+    with pytest.raises(Refused, match="will not clear"):
+        plc.clear()
+    plc.clear_log()
+    plc.recover()
+    assert (plc.present, plc.error_log, plc.device["code"]) == ([], [], "0000")
+
+
+def test_a_script_goes_through_a_fatal_error_a_restart_and_a_sweep(server: Server) -> None:
+    server.instance("long way for scripts", "CJ1M-CPU63", main=SAYS)
+    plc = connect(server.address, user="Ann").plc("long way for scripts")
+    plc.run(scans=3)
+    plc.raise_error("io-bus-error", rack=1, slot=2)
+    assert plc.state["state"] == "fatal"
+    assert [each["code"] for each in plc.present] == ["80C1"]
+    with pytest.raises(Refused, match="will not clear"):
+        plc.clear("all")
+    plc.recover()
+    assert plc.state["mode"] == "PROGRAM"
+    plc.mode("RUN")
+    plc.run(scans=2)
+    assert plc.state["mode"] == "RUN"
+    plc.restart("power")
+    plc.run(until="Main.n >= 3", speed=0)
+    plc.arm("battery-error", shape={"kind": "for", "scans": 2})
+    plc.run(scans=1)
+    assert [each["id"] for each in plc.present] == ["battery-error"]
+    plc.run(scans=3)
+    assert plc.present == []
+    state = plc.keep_state("after the way")
+    found = plc.wait_for_sweep(plc.begin_sweep(["battery-error"], [state], window=5))
+    assert found["status"] == "done"
+    (cell,) = found["cells"]  # type: ignore[misc]
+    assert isinstance(cell, dict)
+    assert cell["verdict"] == "never_read"
+
+
+def test_the_command_line_reads_and_clears_as_a_tool_does(server: Server) -> None:
+    server.instance("device for the shell", "CJ1M-CPU63", main=SAYS)
+    plc = connect(server.address, user="Ann").plc("device for the shell")
+    plc.run(scans=2)
+
+    def said(command: str, *options: str) -> tuple[int, str]:
+        done = scanbench("errors", command, "device for the shell", "--server", server.address, *options)
+        return done.returncode, " ".join((done.stdout + done.stderr).split())
+
+    assert said("present") == (0, "no error is present")
+    plc.raise_error("fal", number=7)
+    plc.raise_error("battery-error")
+    assert said("present")[0] == 1
+    assert "4107 nonfatal fal FAL error FAL number: 7" in said("present")[1]
+    assert "00F7 battery-error Battery error" in said("log")[1]
+    assert said("clear", "--code", "4107") == (0, "recovered fal")
+    assert said("clear", "--all")[0] == 2
+    assert "will not clear" in said("clear")[1]
+    assert said("clear", "--log") == (0, "error log cleared")
+    assert said("log") == (0, "the error log is empty")
+    assert said("clear", "--all", "--log")[0] == 2

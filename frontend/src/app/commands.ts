@@ -64,6 +64,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "command.problem.before", keys: "Alt+Shift+F8", run: () => goToProblem(-1) },
     { label: "operator.new", run: () => askNewPanel(true) },
     { label: "cross.unused", run: () => void showUnused() },
+    { label: "device.open", run: () => openPage("plcerrors") },
     { label: "rack.open", run: openRack },
     { label: "memory.open", run: () => openPage("memory") },
     { label: "versions.open", run: () => void openVersions() },

@@ -3,6 +3,7 @@
 import { onCoverage } from "../store/debug/coverage";
 import { joinDebugger, onBreakpoints } from "../store/debug/debug";
 import { forgetRefusals } from "../store/debug/run";
+import { onDevice } from "../store/errors/device";
 import { onSweep, onSweepHello } from "../store/errors/sweeps";
 import { onFileSaved } from "../store/errors/userErrors";
 import { catchUpPanels, onPanelSaved } from "../store/operator/panels";
@@ -66,6 +67,7 @@ function dispatch(message: ServerMessage): void {
     case "hello":
       onHello(message);
       onForces(message.forces);
+      onDevice(message.device);
       onTimeline(message.timeline);
       onDisturbances(message.disturbances);
       onProject(message.instance.project);
@@ -127,6 +129,9 @@ function dispatch(message: ServerMessage): void {
       return;
     case "forces":
       onForces(message.forces);
+      return;
+    case "device":
+      onDevice(message.found);
       return;
     case "diagnostics":
       usePlc.setState({ diagnostics: message });

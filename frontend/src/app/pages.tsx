@@ -1,5 +1,6 @@
 /** Pages: panels in the centre, among the files, that show no file. */
 import type { ReactNode } from "react";
+import { DevicePage } from "../panels/errors/device/DevicePage";
 import { RecordPage } from "../panels/errors/history/RecordPage";
 import { SweepPage } from "../panels/errors/sweep/SweepPage";
 import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
@@ -26,6 +27,7 @@ interface Page {
 
 export const PAGES: Record<PageName, Page> = {
   sweep: { component: SweepPage, icon: "generated", useTitle: useSweepTitle },
+  plcerrors: { component: DevicePage, icon: "warning", useTitle: () => t("device.title") },
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },

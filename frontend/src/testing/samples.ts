@@ -99,6 +99,7 @@ export const someHello = (instance: Instance): Hello => ({
   breakpoints: [],
   coverage: null,
   diagnostics: { type: "diagnostics", violations: [], dropped: 0, count: 0 },
+  device: null,
   disturbances: [],
   timeline: RUN,
   verifications: [],

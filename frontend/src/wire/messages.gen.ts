@@ -3482,6 +3482,12 @@ export interface components {
              */
             code: string;
             /**
+             * Codes
+             * @description How the model writes its codes: four or eight hexadecimal digits, or decimal.
+             * @enum {string}
+             */
+            codes: "hex4" | "hex8" | "decimal";
+            /**
              * Errors
              * @description The most serious first.
              */
@@ -4542,7 +4548,7 @@ export interface components {
             /** Breakpoints */
             breakpoints: components["schemas"]["BreakpointInfo"][];
             coverage: components["schemas"]["Coverage"] | null;
-            /** @description as a tool reads it from the PLC's memory; null until the PLC was there once */
+            /** @description null until the PLC was there once */
             device: components["schemas"]["DeviceErrors"] | null;
             diagnostics: components["schemas"]["Diagnostics"];
             /** Disturbances */

@@ -66,8 +66,9 @@ def _instruction(model: Model, index: int) -> str:
     if made.clears is not None and entry is not None:
         branches.append(_clear(model, made))
     inputs = "".join(f" {name} : LINT := -1;" for name in (made.selector, made.information) if name)
-    keeps = ""
+    keeps = own = ""
     if made.texts is not None:
+        own = " k, place : LINT;"
         inputs += f" {made.text} : STRING[{2 * made.texts.words}];"
         keeps = f"IF asks AND form = 0 AND {number} >= {made.minimum} THEN\n{_keep_text(made, made.texts)}\nEND_IF;\n"
     between = "\nELS"
@@ -77,7 +78,7 @@ def _instruction(model: Model, index: int) -> str:
 FUNCTION {made.name} : BOOL
 VAR_INPUT {number} : LINT;{inputs} END_VAR
 VAR_OUTPUT {STOP} : BOOL; END_VAR
-VAR asks : BOOL; form : ULINT; asked : LINT; k, place : LINT; END_VAR
+VAR asks : BOOL; form : ULINT; asked : LINT;{own} END_VAR
 asked := {number};
 {between.join(branches)}
 END_IF;

@@ -33,6 +33,7 @@ const TOPICS: Readonly<Record<string, string>> = {
   log: "window.md#events",
   memory: "memory.md",
   operator: "operator-panels.md",
+  plcerrors: "error-simulator.md#the-plcs-own-view",
   problems: "problems/README.md",
   rack: "operator-panels.md#all-inputs-and-outputs",
   record: "error-simulator.md#history-and-test-record",

@@ -22,6 +22,7 @@ export const isPanel = (name: string): name is PanelName => PANELS.some((known) 
 const PAGES = [
   "sweep",
   "usererrors",
+  "plcerrors",
   "record",
   "compare",
   "versions",

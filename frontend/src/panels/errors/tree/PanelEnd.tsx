@@ -4,7 +4,7 @@ import { recordAddress } from "../../../store/errors/records";
 import { askDetails, targets, useSimulator } from "../../../store/errors/simulator";
 import { keepState, openSweep, showSweeps } from "../../../store/errors/sweeps";
 import { openUserErrors } from "../../../store/errors/userErrors";
-import { showPanel } from "../../../store/page/navigate";
+import { openPage, showPanel } from "../../../store/page/navigate";
 import { useBench } from "../../../store/plc/bench";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
@@ -38,7 +38,8 @@ export function PanelEnd() {
       { label: t("errors.menu.keep"), icon: "record", onSelect: () => keepState() },
       { label: t("sweep.tab.list"), icon: "handled", onSelect: showSweeps },
       { label: t("errors.menu.user"), icon: "plus", onSelect: () => openUserErrors() },
-      { label: t("errors.menu.history"), icon: "list", separated: true, onSelect: () => showPanel("history") },
+      { label: t("device.open"), icon: "warning", separated: true, onSelect: () => openPage("plcerrors") },
+      { label: t("errors.menu.history"), icon: "list", onSelect: () => showPanel("history") },
       { label: t("errors.menu.record"), icon: "export", hint: t("record.newtab"), onSelect: openRecord },
     ];
   }

@@ -1,0 +1,35 @@
+/** The device's own view of its errors, as a tool reads it from the PLC's memory, and what a tool does about them. */
+
+import { create } from "zustand";
+import { send } from "../../wire/send";
+import type { DeviceErrors } from "../../wire/types";
+import { onInstanceChange } from "../plc/reset";
+
+interface Device {
+  /** Null until the PLC was there once. */
+  found: DeviceErrors | null;
+  outcome: { ok: boolean; message: string } | null;
+}
+
+const nothing: Device = { found: null, outcome: null };
+
+export const useDevice = create<Device>(() => nothing);
+const set = useDevice.setState;
+
+onInstanceChange(() => set(nothing));
+
+export const onDevice = (found: DeviceErrors | null) => set({ found });
+
+/** Clears errors as a tool does it on the device: the most serious one, or all that it lets go. */
+export const clearErrors = (what: "current" | "all") => report(send({ type: "clear_errors", what }));
+
+export const clearErrorLog = () => report(send({ type: "clear_error_log" }));
+
+/** Takes an error back at the simulator: its cause is gone, too. */
+export const recoverPresent = (id: string) => report(send({ type: "recover", ids: [id] }));
+
+async function report(answer: ReturnType<typeof send>): Promise<void> {
+  set({ outcome: null });
+  const { ok, message } = await answer;
+  set({ outcome: { ok, message } });
+}
