@@ -94,8 +94,9 @@ test('PLC errors: a FAL with its text, cleared as a tool does it, and what only 
       [1024, 700],
     ] as const) {
       await page.setViewportSize({ width, height });
-      for (const theme of ['dark','light']) { await page.evaluate((th) => { document.documentElement.dataset.theme = th }, theme); await page.waitForTimeout(300); await page.screenshot({ path: `/tmp/shots-device/${width}-${theme}.png` }); }
-      await expect.poll(async () => Math.min(...(await readable(page, '[data-pane=plcerrors] .dname')))).toBeGreaterThan(23);
+      await expect
+        .poll(async () => Math.min(...(await readable(page, '[data-pane=plcerrors] .dname'))))
+        .toBeGreaterThan(23);
       await expect.poll(async () => Math.min(...(await readable(page, '.errs .name > .cut')))).toBeGreaterThan(23);
     }
     const { violations } = await new AxeBuilder({ page }).include('[data-pane=plcerrors]').analyze();

@@ -1,7 +1,7 @@
 """Which errors the memory shows as present.
 
 Several errors may share a flag. Then the details, and what else an error writes, tell them apart; where nothing does, the codes
-that the memory shows. So a device that has one code word for many errors behind one flag shows the most serious of those, as on
+that the memory shows. So a device that has one code word for many errors with one flag shows the most serious of those, as on
 its tools.
 """
 
@@ -24,7 +24,7 @@ def present(memory: Memory, log: Sequence[DeviceRecord]) -> Iterator[DeviceError
     for flag, errors in _by_flag(memory):
         if not memory.number(flag):
             continue
-        here = list(_behind(memory, errors, log))
+        here = list(_with_flag(memory, errors, log))
         found += here
         if not here:
             unknown.append(errors[0])
@@ -43,7 +43,7 @@ def _by_flag(memory: Memory) -> Iterator[tuple[Location, list[ErrorEntry]]]:
     return ((errors[0].flag, errors) for errors in found.values())
 
 
-def _behind(memory: Memory, errors: Sequence[ErrorEntry], log: Sequence[DeviceRecord]) -> Iterator[_Found]:
+def _with_flag(memory: Memory, errors: Sequence[ErrorEntry], log: Sequence[DeviceRecord]) -> Iterator[_Found]:
     """The errors with this flag that the rest of the memory agrees with."""
     readings = {error.id: list(_readings(memory, error)) for error in errors if _agrees(memory, error)}
     fitting = [error for error in errors if readings.get(error.id)]
@@ -117,7 +117,7 @@ def _mark(address: ErrorAddress, value: int | None) -> _Mark:
 
 
 def _has_own_marks(memory: Memory, error: ErrorEntry, fitting: Sequence[ErrorEntry]) -> bool:
-    """Whether something is there that none of the others behind the same flag would have written; a 0 is nothing."""
+    """Whether something is there that none of the others with the same flag would have written; a 0 is nothing."""
     marks = _marks(error)
     own = marks.keys() - {mark for other in fitting if other is not error for mark in _marks(other)}
     return any(_is_there(memory, marks[mark]) for mark in own)

@@ -69,7 +69,7 @@ def _calls(text: str, name: str, parameter: str | None) -> bool:
 
 
 def _inside(text: str, start: int) -> str:
-    """What stands between the parentheses of a call, without that between others."""
+    """What is between the parentheses of a call, without that between others."""
     depth, at, quoted, kept = 1, start, "", []
     while at < len(text) and depth:
         character = text[at]

@@ -42,7 +42,7 @@ END_PROGRAM
 
 
 def write_word(resource: Resource, address: str, word: int) -> None:
-    """Behind the back of everything, as if the device itself had."""
+    """Without any command, as if the device itself had."""
     place = resource.view.model.locate(address)
     assert place is not None
     start = resource.program.layout.areas[place.area.name] + place.byte

@@ -82,12 +82,12 @@ def expected(name: str, present: Mapping[str, Details]) -> dict[Bit, int]:
         memory |= {(area, start + bit): min(shown)[1] >> bit & 1 for bit in range(word.bits)}
     for query in model(name).queries:
         area, start = first_bit(query.code)
-        behind = [
-            (error.priority, told(error, details)[1])
+        there = [
+            (error.priority, told(error, present[error.id])[1])
             for error in model(name).errors()
-            if (details := present.get(error.id)) is not None and error.flag.word == query.flags.word
+            if error.id in present and error.flag.word == query.flags.word
         ]
-        memory |= {(area, start + bit): min(behind, default=(0, 0))[1] >> bit & 1 for bit in range(32)}
+        memory |= {(area, start + bit): min(there, default=(0, 0))[1] >> bit & 1 for bit in range(32)}
     return {bit: value for bit, value in memory.items() if value}
 
 
