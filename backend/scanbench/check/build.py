@@ -44,6 +44,7 @@ from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
 from scanbench.public import Public
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
+from scanbench.syntax.requirements import is_requirements
 
 RECURSION_LIMIT = 20_000
 """Python frames for a deep expression: the parser bounds depth, the checks walk it with a few frames a level."""
@@ -89,8 +90,8 @@ def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 1
 
 
 def program_files(sources: Mapping[str, str]) -> dict[str, str]:
-    """The sources without the errors that the project defines: these are no part of the program."""
-    return {name: text for name, text in sources.items() if not is_user_errors(name)}
+    """The sources without the errors that the project defines, and what it requires: these are no part of the program."""
+    return {name: text for name, text in sources.items() if not is_user_errors(name) and not is_requirements(name)}
 
 
 def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model) -> Checked:

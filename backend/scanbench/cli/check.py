@@ -9,6 +9,7 @@ import typer
 from scanbench.check.build import check_sources, program_files
 from scanbench.cli.check_report import report_files, report_json, report_lines
 from scanbench.cli.inputs import find_model, problem_json, read_sources
+from scanbench.faults.reaction.required_rules import problems_of
 from scanbench.problems import Severity
 
 
@@ -30,21 +31,22 @@ def check(
     """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
     sources = read_sources(paths)
     checked = check_sources(sources.texts, find_model(model, sources))
-    errors = sum(problem.severity is Severity.ERROR for problem in checked.problems)
+    problems = (*checked.problems, *problems_of(checked.program, sources.texts))
+    errors = sum(problem.severity is Severity.ERROR for problem in problems)
     if report:
-        files = report_files(program_files(sources.texts), checked.problems)
+        files = report_files(program_files(sources.texts), problems)
         if format is Format.JSON:
             typer.echo(json.dumps({"files": report_json(files), "errors": errors}, ensure_ascii=False))
         else:
             typer.echo("\n".join(report_lines(files)))
     elif format is Format.JSON:
-        shown = {"problems": [problem_json(problem) for problem in checked.problems], "errors": errors}
+        shown = {"problems": [problem_json(problem) for problem in problems], "errors": errors}
         typer.echo(json.dumps(shown, ensure_ascii=False))
     else:
-        for problem in checked.problems:
+        for problem in problems:
             severity = "" if problem.severity is Severity.ERROR else f"{problem.severity.value}: "
             typer.echo(f"{problem.span}: {problem.code} {severity}{problem.message}")
-        others = len(checked.problems) - errors
+        others = len(problems) - errors
         note = f" ({others} warning{'s' * (others != 1)})" if others else ""
         typer.echo(f"{errors} error{'s' * (errors != 1)}{note} in {len(sources.texts)} file(s)", err=True)
     raise typer.Exit(1 if errors else 0)

@@ -31,6 +31,7 @@ from scanbench.faults.reaction.choices import Choices
 from scanbench.faults.reaction.compare import Outcome, compare
 from scanbench.faults.reaction.reaction import WINDOW
 from scanbench.faults.reaction.required import Required
+from scanbench.faults.reaction.required_rules import Rules, rules_of
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.reference import ErrorRef, error_of, find_error
@@ -60,6 +61,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram, Programs
 from scanbench.server.from_disk import DEFAULT_MODEL
+from scanbench.syntax.requirements import REQUIREMENTS, RequirementsText
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
 
@@ -160,7 +162,7 @@ def sweep_errors(
     junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: a test case for each error and state."),
     html: Path | None = typer.Option(None, metavar="FILE", help="Write a page to print too."),
     require: Require = typer.Option(Require.DECIDED, help="What an error has to do at least; less is a finding."),
-    requirements: Path | None = typer.Option(None, metavar="FILE", help="What single errors have to do instead (JSON, docs/error-sweep.md)."),
+    requirements: Path | None = typer.Option(None, metavar="FILE", help="What must happen, instead of the project's required.reactions (docs/error-sweep.md); or grades as JSON."),
 ) -> None:  # fmt: skip
     """Raise every error alone, from each state, and find out what the program does about it.
 
@@ -174,12 +176,12 @@ def sweep_errors(
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
     program = _program(given, plc, as_json)
     chosen = _chosen(program.layout.model, only)
-    required = _required(require, requirements, program.layout.model)
+    required, rules = _required(require, requirements, program, given)
     make = _engine(engine)
     points = _points(states, present, program, given, make)
     programs = cached({_VERSION: program}, observed(make))
-    raised = Choices(program).expand(ErrorRef(each.id) for each in chosen)
-    cells, whole = _swept(points, raised, window, programs)
+    raised = rules.raised(Choices(program).expand(ErrorRef(each.id) for each in chosen))
+    cells, whole = _swept(points, raised, window, programs, rules)
     tried = {error_of(cell.error) for cell in cells}
     begun = tuple((name, Header(point.state).scan) for name, point in points.items())
     result = SweepResult(
@@ -194,18 +196,18 @@ def sweep_errors(
         write_text(html, sweep_page(result, iso(wall_time()), required))
     if not whole:
         typer.echo(f"scanbench: interrupted after {len(tried)} of {count(len(chosen), 'error')}", err=True)
-    raise typer.Exit(1 if unhandled else 0 if whole else INTERRUPTED)
+    raise typer.Exit(1 if unhandled or rules.problems else 0 if whole else INTERRUPTED)
 
 
 def _swept(
-    points: dict[str, Point], raised: Sequence[ErrorRef], window: int, programs: Programs
+    points: dict[str, Point], raised: Sequence[ErrorRef], window: int, programs: Programs, rules: Rules
 ) -> tuple[tuple[Cell, ...], bool]:
     """The cells, and whether they are all; after Ctrl-C those of the errors that were raised in every state."""
     cells: list[Cell] = []
     try:
         of = len(points) * len(raised)
         with progress(of, lambda: len(cells), lambda: f"{len(cells):,} of {of:,} cases"):
-            cells.extend(sweep(points, raised, window, programs))
+            cells.extend(sweep(points, raised, window, programs, rules=rules))
     except KeyboardInterrupt:
         return tuple(cells[: len(cells) - len(cells) % len(points)]), False
     return tuple(cells), True
@@ -223,7 +225,8 @@ def _tell(result: SweepResult, unhandled: Sequence[Cell], as_json: bool) -> None
         typer.echo(f"scanbench: {some}: the error could not be raised, so nothing is known of it there", err=True)
     if unhandled and not as_json:
         typer.echo(
-            f"scanbench: {count(len(unhandled), 'finding')}: the error did less than is required (see --require)",
+            f"scanbench: {count(len(unhandled), 'finding')}: the error did less than is required (see --require), or not "
+            f"what {REQUIREMENTS} says",
             err=True,
         )
 
@@ -295,15 +298,18 @@ def _program_of(sources: Sources, program: Program) -> Callable[[Sources], Progr
     return get
 
 
-def _required(all: Require, path: Path | None, model: Model) -> Required:
+def _required(all: Require, path: Path | None, program: Program, sources: Sources) -> tuple[Required, Rules]:
+    """The grades, and what else must happen. What a file says replaces what the project says; the grades of JSON come on top."""
     wanted = wanted_of(all.value)
     assert wanted is not None
-    if path is None:
-        return Required(wanted)
     try:
-        return Required(wanted, read_requirements(path, model))
+        told = None if path is None else read_requirements(path, program.layout.model)
     except BadRequirements as why:
         usage(f"--requirements {path}: {why}")
+    rules = Rules(program, told) if isinstance(told, RequirementsText) else rules_of(program, sources.files)
+    for problem in rules.problems:
+        typer.echo(str(problem), err=True)
+    return Required(wanted, told if isinstance(told, dict) else {}, rules.grade), rules
 
 
 def _severities(asked: list[Severities]) -> tuple[Severity, ...]:

@@ -13,11 +13,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO, TypeVar
 
+from scanbench.check import build as check
 from scanbench.check.incremental import Checks
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.faults.reaction.choices import Choices
+from scanbench.faults.reaction.required_rules import problems_of, rules_of
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import sweep
 from scanbench.faults.reference import ErrorRef, parse_reference
@@ -27,6 +29,7 @@ from scanbench.jobs import history as history_job
 from scanbench.jobs import verification as verify_job
 from scanbench.jobs.retrospective import record
 from scanbench.jobs.starting import checked_program, model_of, point_in, reaction_in
+from scanbench.problems import Problem, Severity
 from scanbench.program.program import Program
 from scanbench.recording.format import RunFileError
 from scanbench.recording.programs import cached, observed, on
@@ -35,6 +38,7 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
+from scanbench.syntax.requirements import is_requirements
 from scanbench.wire.codec import BadMessage, Splitter, pack
 from scanbench.wire.events import CheckOutcome
 from scanbench.wire.host import Sources
@@ -125,7 +129,17 @@ class Job:
     def _checked(self, ask: Check) -> Checked:
         sources = ask.sources
         found = self._checks.diagnose(sources.files, model_of(sources), sources.interval_ns)
-        return Checked(ask.ref, CheckOutcome(found.problems, found.pous, found.checks))
+        required = self._required(sources, found)
+        return Checked(ask.ref, CheckOutcome((*found.problems, *required), found.pous, found.checks))
+
+    def _required(self, sources: Sources, found: check.Checked) -> list[Problem]:
+        """What is wrong with the requirements of a project; their names need the whole program."""
+        if not any(map(is_requirements, sources.files)):
+            return []
+        program = found.program
+        if program is None and all(each.severity is not Severity.ERROR for each in found.problems):
+            program = self._checks.check(sources.files, model_of(sources), sources.interval_ns).program
+        return problems_of(program, sources.files)
 
     def _keep(self, sources: Sources) -> None:
         """Writes the program from a copy of this process, so that the next check need not wait."""
@@ -161,13 +175,14 @@ class Job:
         for each in asked:
             if isinstance(each, Refusal):
                 raise Refused(each.message, each.near)
-        errors = Choices(program).expand(each for each in asked if isinstance(each, ErrorRef))
+        rules = rules_of(program, ask.sources.files)
+        errors = rules.raised(Choices(program).expand(each for each in asked if isinstance(each, ErrorRef)))
         points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
         scans = {name: Header(point.state).scan for name, point in points.items()}
         programs = cached({ask.sources.version: program}, observed(self._flavours.observed))
         self._say(SweepPlanned(ask.ref, tuple(map(str, errors))))
         on_try = self._telling(Trying, ask.ref)
-        for cell in sweep(points, errors, ask.window, programs, set(ask.done), on_try):
+        for cell in sweep(points, errors, ask.window, programs, set(ask.done), on_try, rules):
             yield CellFound(ask.ref, cell.error, cell.point, scans[cell.point], cell.reaction, cell.note)
 
     def _point(self, name: str, run: Path, sources: Sources) -> Point:

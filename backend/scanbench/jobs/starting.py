@@ -10,6 +10,7 @@ from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.reaction.react import react
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.required_rules import rules_of
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import AUTHOR
 from scanbench.host.build import BuildFailed, find_model
@@ -82,7 +83,8 @@ def _reaction_in(path: Path, error: str, scan: int, window: int, program_of: Pro
         resource = reader.at(scan, index)
         point = Point(resource.version, resource.state, resource.journal)
         with reader.reading():
-            found = react(point, entries[index], entries[index + 1 :], window, reader.programs, error)
+            rules = rules_of(resource.program, sources_in(reader.kept[resource.version]).files)
+            found = react(point, entries[index], entries[index + 1 :], window, reader.programs, error, rules)
         if isinstance(found, Refusal):
             raise Unreadable(found.message)
         return found

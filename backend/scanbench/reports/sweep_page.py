@@ -4,14 +4,16 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from urllib.parse import quote
 
-from scanbench.faults.reaction.reaction import Difference, Verdict
+from scanbench.faults.reaction.reaction import Difference, Outcome, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.plcmodel.catalogue import ErrorEntry
 from scanbench.reports.page import Page, Words, table, td, th, tr
 from scanbench.reports.reason import reason_of
+from scanbench.reports.required_words import OUTCOMES, evidence, restarted
 from scanbench.reports.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
+_ORDER: tuple[Outcome, ...] = ("failed", "not_checked", "passed")
 _WORDS: Words = {"en": {"title": "Error sweep"}, "ja": {"title": "異常スイープ"}}
 
 
@@ -25,6 +27,7 @@ def sweep_page(result: SweepResult, at: str, required: Required = REQUIRED) -> s
         *_summary(result),
         *_matrix(result),
         *_findings(result, required),
+        *_required(result),
         *_reactions(result, required),
     )
     return page.document(about, parts, "screen")
@@ -83,7 +86,8 @@ def _findings(result: SweepResult, required: Required) -> Iterator[str]:
 
 
 def _is_met(cell: Cell, required: Required) -> bool:
-    return cell.reaction is not None and required.met(cell.error, cell.reaction.verdict)
+    reaction = cell.reaction
+    return reaction is not None and not reaction.unmet and required.met(cell.error, reaction.verdict, cell.point)
 
 
 def _finding(entry: ErrorEntry, cell: Cell) -> str:
@@ -92,6 +96,27 @@ def _finding(entry: ErrorEntry, cell: Cell) -> str:
         f'<tr id="{_anchor(cell)}"><th scope="row">{escape(entry.name)}<br>{about}</th>{td(cell.point)}'
         f"<td>{_verdict(verdict_of(cell))}</td>{td(reason(cell))}</tr>\n"
     )
+
+
+def _required(result: SweepResult) -> Iterator[str]:
+    """Each requirement with what it came to, what is wrong first."""
+    judged = [(cell, each) for cell in result.cells if cell.reaction is not None for each in cell.reaction.required]
+    restarts = [(cell, each) for cell in result.cells if cell.reaction is not None for each in cell.reaction.restarts]
+    if not judged and not restarts:
+        return
+    yield "<h2>Required reactions</h2>\n"
+    rows = [_row(result, cell, "no unexpected restart", "passed" if each.allowed_by else "failed", restarted(each)) for cell, each in restarts]
+    rows += [
+        _row(result, cell, each.text, each.outcome, evidence(each))
+        for cell, each in sorted(judged, key=lambda one: _ORDER.index(one[1].outcome))
+    ]
+    yield _table(("Error", "State", "Required", "Outcome", "Why"), rows)
+
+
+def _row(result: SweepResult, cell: Cell, text: str, outcome: Outcome, why: str) -> str:
+    sign = f'<span class="verdict {outcome}">{escape(OUTCOMES[outcome])}</span>'
+    about = f'<th scope="row">{escape(result.entry(cell).name)} <code class="faint">{escape(cell.error)}</code></th>'
+    return tr(about, td(cell.point), f"<td><code>{escape(text)}</code></td>", f"<td>{sign}</td>", td(why))
 
 
 def _reactions(result: SweepResult, required: Required) -> Iterator[str]:

@@ -8,7 +8,7 @@ from typing import cast, get_args
 from lxml import etree
 
 from scanbench.faults.reaction.compare import Outcome, SweepChange
-from scanbench.faults.reaction.reaction import Verdict
+from scanbench.faults.reaction.reaction import Reaction, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.faults.reference import error_of
@@ -16,6 +16,14 @@ from scanbench.plcmodel.catalogue import ErrorEntry, Severity
 from scanbench.plcmodel.document import xml_text
 from scanbench.reports import record_words
 from scanbench.reports.reason import reason_of, some
+from scanbench.reports.required_words import (
+    OUTCOMES,
+    evidence,
+    is_grade,
+    required_lines,
+    restarted,
+    unexpected,
+)
 
 WORDS: Mapping[Verdict | None, str] = {
     verdict: record_words.WORDS["en"][verdict or "not_raised"] for verdict in (*get_args(Verdict), None)
@@ -49,13 +57,19 @@ class SweepResult:
         return {word: counted[word] for word in WORDS.values() if counted[word]}
 
     def unhandled(self, severities: Sequence[Severity], required: Required = REQUIRED) -> tuple[Cell, ...]:
-        """Errors of these severities that did less than is required."""
+        """Errors of these severities that did less than is required, or not what is required."""
         return tuple(
             cell
             for cell in self.cells
             if cell.reaction is not None
             and self.entry(cell).severity in severities
-            and not required.met(cell.error, cell.reaction.verdict)
+            and (cell.reaction.unmet or not required.met(cell.error, cell.reaction.verdict, cell.point))
+        )
+
+    def outcomes(self) -> Counter[str]:
+        """How many requirements came to what."""
+        return Counter(
+            each.outcome for cell in self.cells if cell.reaction is not None for each in cell.reaction.required
         )
 
 
@@ -83,7 +97,26 @@ def sweep_text(result: SweepResult) -> list[str]:
         rows.append((cell.error, entry.code_text, entry.severity, cell.point, verdict, scans, reason(cell)))
     head = f"{result.project} on {result.model}: {count(len(result.errors), 'error')}, {count(len(result.states), 'state')}"
     counts = ", ".join(f"{number} {word}" for word, number in result.counts().items())
-    return [f"{head}, {result.window} scans each", "", *table(rows), "", counts]
+    return [f"{head}, {result.window} scans each", "", *table(rows), "", counts, *_required_text(result)]
+
+
+def _required_text(result: SweepResult) -> list[str]:
+    """What is not as it is required, and how many are."""
+    judged = [(cell, cell.reaction) for cell in result.cells if cell.reaction is not None]
+    rows = [("ERROR", "STATE", "REQUIRED", "OUTCOME", "WHY")]
+    for cell, reaction in judged:
+        rows += [
+            (cell.error, cell.point, each.text, OUTCOMES[each.outcome], evidence(each))
+            for each in reaction.required
+            if each.outcome != "passed"
+        ]
+        rows += [(cell.error, cell.point, "no unexpected restart", "failed", restarted(each)) for each in unexpected(reaction)]
+    told = result.outcomes()
+    counts = ", ".join(f"{told[outcome]} {word}" for outcome, word in OUTCOMES.items() if told[outcome])
+    restarts = sum(len(unexpected(reaction)) for _, reaction in judged)
+    ends = [f"requirements: {counts}"] if counts else []
+    ends += [count(restarts, "unexpected restart")] if restarts else []
+    return ["", *(table(rows) if len(rows) > 1 else []), *ends] if ends else []
 
 
 def compare_text(changes: Sequence[SweepChange]) -> list[str]:
@@ -139,7 +172,7 @@ def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
         "id": cell.error, "error": entry.id, "name": entry.name, "code": entry.code_text, "severity": entry.severity, "state": cell.point,
         "verdict": verdict_of(cell), "scans": None, "first_read": None, "window": 0, "readers": [], "reads": [],
         "differences": [], "difference_count": 0, "handler_lines": [], "note": cell.note, "basis": "", "carried": [],
-        "decided_by": [], "displayed": [], "unreached": [], "reason": reason(cell),
+        "decided_by": [], "displayed": [], "unreached": [], "required": [], "restarts": [], "recovery": 0, "reason": reason(cell),
     }  # fmt: skip
     if reaction is not None:
         about |= {
@@ -151,6 +184,8 @@ def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
             "basis": reaction.basis, "carried": [asdict(each) for each in reaction.carried],
             "decided_by": list(reaction.decided_by), "displayed": list(reaction.displayed),
             "unreached": [asdict(each) for each in reaction.unreached],
+            "required": [asdict(each) for each in reaction.required],
+            "restarts": [asdict(each) for each in reaction.restarts], "recovery": reaction.recovery,
         }  # fmt: skip
     return about
 
@@ -216,10 +251,21 @@ def sweep_junit(result: SweepResult, severities: Sequence[Severity], required: R
         if cell.reaction is None:
             etree.SubElement(case, "skipped", {"message": xml_text(cell.note)})
         elif cell in failed:
-            wanted = WORDS[required.of(cell.error)]
-            said = f"{entry.severity} error: {WORDS[verdict_of(cell)]}; required: {wanted}"
-            about = {"message": said, "type": cell.reaction.verdict}
-            etree.SubElement(case, "failure", about).text = xml_text(reason(cell))
+            about = {"message": xml_text(_failure(entry, cell, cell.reaction, required)), "type": cell.reaction.verdict}
+            told = "\n".join((reason(cell), *required_lines(cell.reaction)))
+            etree.SubElement(case, "failure", about).text = xml_text(told)
         else:
-            etree.SubElement(case, "system-out").text = xml_text(f"{WORDS[verdict_of(cell)]}: {reason(cell)}")
+            told = "\n".join((f"{WORDS[verdict_of(cell)]}: {reason(cell)}", *required_lines(cell.reaction)))
+            etree.SubElement(case, "system-out").text = xml_text(told)
     return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
+
+
+def _failure(entry: ErrorEntry, cell: Cell, reaction: Reaction, required: Required) -> str:
+    """What a build server shows first."""
+    said = [f"{entry.severity} error: {WORDS[verdict_of(cell)]}"]
+    wanted = required.of(cell.error, cell.point)
+    if wanted is not None and not required.met(cell.error, reaction.verdict, cell.point):
+        said.append(f"required: {WORDS[wanted]}")
+    said += [f"{OUTCOMES[each.outcome]}: {each.text}" for each in reaction.required if each.is_finding and not is_grade(each)]
+    said += [restarted(each) for each in unexpected(reaction)]
+    return "; ".join(said)

@@ -20,6 +20,7 @@ from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
+from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -131,7 +132,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
     compiled, missing = (None, list[str]()) if PROJECT_FILE in inside else _compiled(archive, inside)
     files, panels = {}, {}
     for path, each in sorted(inside.items()):
-        if path == USER_ERRORS or (is_program_file(path) and (compiled is None or path in compiled)):
+        if path in (USER_ERRORS, REQUIREMENTS) or (is_program_file(path) and (compiled is None or path in compiled)):
             files[path] = decode(_read(archive, each))
         elif is_panel_file(path):
             panels[path] = decode(_read(archive, each))

@@ -24,6 +24,7 @@ from scanbench.store.connected import check
 from scanbench.store.records import NotFound
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import is_program_file
+from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -257,7 +258,7 @@ def _is_text(path: str) -> bool:
 
 
 def _is_ours(path: str) -> bool:
-    return path in (PROJECT_FILE, USER_ERRORS) or is_program_file(path) or is_panel_file(path)
+    return path in (PROJECT_FILE, USER_ERRORS, REQUIREMENTS) or is_program_file(path) or is_panel_file(path)
 
 
 def _changes(before: Mapping[str, str], now: Mapping[str, str]) -> list[FileChange]:

@@ -9,6 +9,9 @@ from importlib.resources.abc import Traversable
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.syntax.parse_file import is_program_file
+from scanbench.syntax.requirements import REQUIREMENTS
+
+_OTHERS = (USER_ERRORS, REQUIREMENTS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,5 +51,5 @@ def _texts(folder: Traversable, path: str) -> Iterator[tuple[str, str]]:
     for each in sorted(folder.iterdir(), key=lambda each: each.name):
         if each.is_dir():
             yield from _texts(each, f"{path}{each.name}/")
-        elif is_program_file(f"{path}{each.name}") or is_panel_file(each.name) or f"{path}{each.name}" == USER_ERRORS:
+        elif is_program_file(f"{path}{each.name}") or is_panel_file(each.name) or f"{path}{each.name}" in _OTHERS:
             yield f"{path}{each.name}", each.read_text("utf-8")

@@ -395,3 +395,73 @@ def test_the_projects_own_errors_are_swept_too(project: Path) -> None:
         broken = scanbench("errors", command, str(project))
         assert broken.returncode == 1
         assert broken.stderr.startswith("errors.xml:4:5: M002 ")
+
+
+REQUIRED = """battery-error:
+  lamp within 2 scans
+  after recovery: lamp = FALSE within 2 scans
+  Main.n > 0
+inner-board-error: at least no_effect
+basic-io-error: at least none
+basic-io-error in Running: Main.on
+memory-error: lamp
+"""
+
+
+def required(project: Path, text: str = REQUIRED) -> tuple[str, ...]:
+    """A project whose globals have names everywhere, and what it requires."""
+    source = SOURCE.replace("PROGRAM Main\nVAR", "VAR_GLOBAL\n  lamp AT CIO 100.00 : BOOL;\nEND_VAR\nPROGRAM Main\nVAR")
+    (project / "main.st").write_text(source.replace("lamp AT CIO 100.00 : BOOL; on", "on"), "utf-8")
+    (project / "required.reactions").write_text(text, "utf-8")
+    return ("errors", "sweep", str(project), *FEW, "--window", "20")
+
+
+def test_required_reactions_are_red_until_the_program_is_mended(project: Path) -> None:
+    junit, page = project.parent / "junit.xml", project.parent / "page.html"
+    call = (*required(project), "--junit", str(junit), "--html", str(page))
+    red = scanbench(*call)
+    assert red.returncode == 1
+    assert "lamp within 2 scans" in red.stdout and "scan 2: lamp = FALSE" in red.stdout
+    assert "requirements: 4 passed, 1 failed, 2 not checked" in red.stdout
+    (message,) = (each.get("message") for each in ElementTree.parse(junit).iter("failure"))
+    assert message == "nonfatal error: not reached; required: decided; failed: lamp within 2 scans"
+    assert "Required reactions" in page.read_text("utf-8")
+    mended = (project / "main.st").read_text("utf-8").replace("IF on THEN lamp := battery; END_IF;", "lamp := battery;")
+    (project / "main.st").write_text(mended, "utf-8")
+    green = scanbench(*call)
+    assert green.returncode == 0, green.stdout
+    assert "requirements: 5 passed, 2 not checked" in green.stdout
+    assert not list(ElementTree.parse(junit).iter("failure"))
+
+
+def test_json_has_what_is_required_and_both_engines_agree(project: Path) -> None:
+    call = (*required(project), "--json")
+    native = scanbench(*call)
+    assert native.stdout == scanbench(*call, "--engine", "reference").stdout
+    told = {each["id"]: each for each in json.loads(native.stdout)["results"]}
+    (lamp, *_) = told["battery-error"]["required"]
+    assert (lamp["text"], lamp["line"], lamp["outcome"], lamp["scan"]) == ("lamp within 2 scans", 2, "failed", 2)
+    assert lamp["values"] == [{"path": "lamp", "value": "FALSE"}]
+    assert [each["reason"] for each in told["memory-error"]["required"]] == ["stopped"]
+    assert [(each["outcome"], each["reason"]) for each in told["basic-io-error"]["required"]] == [
+        ("passed", ""), ("not_checked", "other_state"),
+    ]  # fmt: skip
+
+
+def test_a_requirement_with_a_wrong_name_is_not_checked_and_never_passed(project: Path) -> None:
+    call = required(project, "basic-io-error: at least none\nbattery-error:\n  at least none\n  lmp within 2 scans\n")
+    result = scanbench(*call, "--only", "battery-error")
+    assert result.returncode == 1
+    assert "required.reactions:4:3: R001" in result.stderr and "Did you mean `lamp`?" in result.stderr
+    assert "1 not checked" in result.stdout
+    check = scanbench("check", str(project))
+    assert check.returncode == 0
+    assert "required.reactions:4:3: R001 warning: " in check.stdout
+
+
+def test_a_file_of_the_command_line_replaces_that_of_the_project(project: Path) -> None:
+    call = required(project)
+    path = project.parent / "night.reactions"
+    path.write_text("all: at least none\nbattery-error: NOT lamp\n", "utf-8")
+    result = scanbench(*call, "--requirements", str(path))
+    assert (result.returncode, "requirements: 5 passed" in result.stdout) == (0, True), result.stdout

@@ -59,6 +59,13 @@ class Evaluator:
         """What it is worth now. Raises NoValue."""
         return self._guarded(local.traps, self._on(local.calls)._closure(local.pou, local.expr), instance)
 
+    def valued(self, local: Local) -> Callable[[int], Value]:
+        """The same for any instance, again and again; raises NoValue. Good for as long as this evaluator is."""
+        if local.calls:
+            return lambda instance: self.value(local, instance)
+        closure = self._closure(local.pou, local.expr)
+        return lambda instance: self._guarded(local.traps, closure, instance)
+
     def text(self, local: Local, instance: int) -> str:
         """The same as people read it. Raises NoValue."""
         return shown(local.type, self.value(local, instance))

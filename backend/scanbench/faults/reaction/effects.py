@@ -29,8 +29,8 @@ class Variables:
         self._layout = layout
         self.names = KeptNames(program)
         self.deciding = Deciding(program)
-        self._outputs = [(layout.areas[each.area.name], each.first, each.last + 1) for each in model.fatal.outputs]
-        self._outputs += [
+        self.outputs = [(layout.areas[each.area.name], each.first, each.last + 1) for each in model.fatal.outputs]
+        self.outputs += [
             (layout.areas[each.area.name], each.first, each.first + each.words)
             for each in model.iec_maps
             if each.letter == "Q"
@@ -44,7 +44,7 @@ class Variables:
     def is_output(self, leaf: Leaf) -> bool:
         """Whether the variable is in an output area."""
         end = leaf.offset + leaf.type.size
-        return any(base + 2 * first < end and leaf.offset < base + 2 * last for base, first, last in self._outputs)
+        return any(base + 2 * first < end and leaf.offset < base + 2 * last for base, first, last in self.outputs)
 
 
 class Effects:

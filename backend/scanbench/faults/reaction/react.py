@@ -26,6 +26,9 @@ from scanbench.faults.reaction.reaction import (
     What,
 )
 from scanbench.faults.reaction.readings import Readings
+from scanbench.faults.reaction.required_rules import Made, Rules
+from scanbench.faults.reaction.required_run import RequiredRun, stopped
+from scanbench.faults.reaction.required_watch import not_checked
 from scanbench.faults.reaction.state_readers import StateReaders
 from scanbench.faults.reaction.states import Trace
 from scanbench.faults.reaction.steps import (
@@ -55,8 +58,9 @@ TRACE_LIMIT = 128 << 20
 
 
 def react(
-    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs, error: str
-) -> Reaction | Refusal:
+    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs, error: str,
+    rules: Rules | None = None,
+) -> Reaction | Refusal:  # fmt: skip
     """The reaction to `error`, one of those that the recorded `generate` raised at this point.
 
     `following` is what the journal has after it. The window ends early before a change of the program or a restart.
@@ -72,14 +76,19 @@ def react(
     twin = run_twin(point, commands_without(generate, rest.given, {error, *others}), rest.window, programs, TRACE_LIMIT)
     comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
     notes = [rest.note]
+    every = () if rules is None else rules.of(ref, None)
     if others:
         given = tuple(each for each in rest.given if spared(each.entry.command, others) is not None)
-        found = comparison.raised(twin, ref, command.author, given)
+        found = comparison.raised(twin, ref, command.author, given, every)
         notes.append(f"it was raised together with {', '.join(others)}, and is compared as if it had been alone")
     else:
-        found = comparison.of(twin, generate, ref, rest.given)
+        found = comparison.of(twin, generate, ref, rest.given, every)
     if isinstance(found, Refusal):
         return Refusal(f"{found.message} ({rest.note})" if rest.note else found.message)
+    if rules is not None:
+        note = "a PLC that somebody works with is in none of the states of a sweep"
+        elsewhere = not_checked(rules.elsewhere(ref, ()), "other_state", note)
+        found = replace(found, required=(*found.required, *elsewhere))
     return replace(found, note="; ".join(filter(None, (found.note, *notes))))
 
 
@@ -130,16 +139,18 @@ class Comparison:
         self._point, self._programs, self._prepared = point, programs, prepared
 
     def raised(
-        self, twin: Twin, ref: ErrorRef, author: str, given: Sequence[Given] = ()
+        self, twin: Twin, ref: ErrorRef, author: str, given: Sequence[Given] = (), required: Sequence[Made] = ()
     ) -> Reaction | Refusal:  # fmt: skip
         """The reaction to an error that is raised alone, now, with the commands that follow."""
         resource = resource_at(self._point, self._programs)
         entry = resource.submit(Generate(author, (ref,)))
         if isinstance(entry, Refusal):
             return entry
-        return self.of(twin, entry, ref, given)
+        return self.of(twin, entry, ref, given, required)
 
-    def of(self, twin: Twin, generate: Entry, ref: ErrorRef, given: Sequence[Given]) -> Reaction | Refusal:
+    def of(
+        self, twin: Twin, generate: Entry, ref: ErrorRef, given: Sequence[Given], required: Sequence[Made] = ()
+    ) -> Reaction | Refusal:  # fmt: skip
         """The reaction to an error of an entry that is made at the point, with the commands that follow."""
         program = self._prepared.program
         known = find_error(program.layout.model, ref.id)
@@ -152,11 +163,16 @@ class Comparison:
         reenter(resource, generate)
         if resource.header.halt & Halt.FATAL_ERROR and chosen.error.severity == "fatal":
             note = "" if could_run else "the program did not run before either"
-            return Reaction("stopped", 0, note=note, basis="exact")
+            return Reaction("stopped", 0, note=note, basis="exact", required=stopped(required))
         own = [generate, *(each.entry for each in given if is_about(each.entry.command, ref.id))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
-        run = _Run(resource, twin, Effects(self._prepared.variables, kept), chosen, ref, self._prepared)
-        found = run.through(observer_of(self._programs, self._point), given)
+        variables = self._prepared.variables
+        alone = all(is_about(each.entry.command, ref.id) for each in given)
+        watched = RequiredRun(required, resource, ref.id, len(twin.trace), variables, alone=alone)
+        run = _Run(resource, twin, Effects(variables, kept), chosen, ref, self._prepared)
+        found = run.through(observer_of(self._programs, self._point), given, watched)
+        if isinstance(found, Reaction):
+            found = watched.judged(found, generate.command.author)
         if isinstance(found, Refusal) or found.verdict not in FINDINGS or not present:
             return found
         hidden = f"{', '.join(present)} was present before: what follows from both is no difference"
@@ -184,7 +200,7 @@ class _Run:
         """The scan after which the program itself took the error back."""
         self._ran = False
 
-    def through(self, observer: Observer, given: Sequence[Given]) -> Reaction | Refusal:
+    def through(self, observer: Observer, given: Sequence[Given], watched: RequiredRun) -> Reaction | Refusal:
         """Runs to the end of the window, or of what can be compared."""
         resource, waiting, scan = self._resource, list(given), 0
         observer.watch(self._watched.bits)
@@ -192,6 +208,7 @@ class _Run:
         looking = tuple(triggers(resource.program, self._watched))
         for without in self._twin.trace.states():
             enter(resource, waiting)
+            watched.before()
             shown = self._kinds_shown()
             scan += 1
             if resource.runnable:
@@ -206,6 +223,7 @@ class _Run:
             self._reached |= seen.reached
             self._read(seen.reads, scan, shown)
             self._effects.compare(scan, without, state_words(resource))
+            watched.after(scan, without)
             if resource.trap is not None:
                 break
         if not self._ran:

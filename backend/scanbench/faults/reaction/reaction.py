@@ -110,6 +110,55 @@ class Unreached(Public):
     """The statement around it as `file:line`, or the name of the task."""
 
 
+Outcome = Literal["passed", "failed", "not_checked"]
+Unchecked = Literal["", "stopped", "window", "invalid", "ended", "not_recovered", "other_state"]
+"""Why a requirement was not checked. stopped: the PLC stops with this error, as the model says. window: the window is too short for it.
+invalid: it does not fit the program. ended: the comparison ended before. not_recovered: the error could not be recovered.
+other_state: it counts in states only that the sweep does not begin from."""
+
+
+@dataclass(frozen=True, slots=True)
+class ValueThen(Public):
+    """A part of a condition, and its value when that was decided."""
+
+    path: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class RequiredResult(Public):
+    """What became of one requirement of `required.reactions`."""
+
+    text: str
+    line: int
+    """In the file."""
+    outcome: Outcome
+    recovery: bool = False
+    """It counts from the recovery on."""
+    scan: int | None = None
+    """In which it was decided, from 1: since the error was raised, or since it was recovered."""
+    values: tuple[ValueThen, ...] = ()
+    """What decided it."""
+    reason: Unchecked = ""
+    note: str = ""
+
+    @property
+    def is_finding(self) -> bool:
+        """Failed; or nobody knows, though the program could have been asked."""
+        return self.outcome == "failed" or self.reason in ("window", "invalid", "ended", "not_recovered")
+
+
+@dataclass(frozen=True, slots=True)
+class Restart(Public):
+    """An output that the error had switched off, and that went on again by itself when the error was recovered."""
+
+    path: str
+    scan: int
+    """Since the recovery, from 1."""
+    allowed_by: str = ""
+    """The requirement that allows it; empty: none does, it is a finding."""
+
+
 @dataclass(frozen=True, slots=True)
 class Reaction(Public):
     """What became of one error, raised alone or in a run as it was."""
@@ -138,6 +187,19 @@ class Reaction(Public):
     """The variables and words that it reached and only tools read."""
     unreached: tuple[Unreached, ...] = ()
     """Statements that would read it and were not executed."""
+    required: tuple[RequiredResult, ...] = ()
+    """What the project requires, in the order of its file."""
+    restarts: tuple[Restart, ...] = ()
+    recovery: int = 0
+    """Scans that were run after the recovery; 0: it was not tried, as nothing depends on it."""
+
+    @property
+    def unmet(self) -> tuple[str, ...]:
+        """What is not as the project requires it, each in a line."""
+        return (
+            *(each.text for each in self.required if each.is_finding),
+            *(f"{each.path} went on again by itself" for each in self.restarts if not each.allowed_by),
+        )
 
     @property
     def reader_places(self) -> tuple[str, ...]:

@@ -1,0 +1,247 @@
+"""What a project requires of its errors (`required.reactions`), on one program: names looked up, conditions checked."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import get_args
+
+from scanbench.check.typed.condition import BadCondition, joined, parsed
+from scanbench.check.typed.local import Local, Locals
+from scanbench.faults.details import choose
+from scanbench.faults.reaction.reaction import Grade
+from scanbench.faults.reaction.required import Required, Wanted
+from scanbench.faults.reference import ErrorRef, find_error, parse_reference
+from scanbench.plcmodel.model import ErrorEntry
+from scanbench.problems import Problem, Severity, Span, perhaps
+from scanbench.program.program import Program
+from scanbench.runtime.command import Refusal
+from scanbench.syntax import tree
+from scanbench.syntax.requirements import (
+    CODE,
+    Piece,
+    Requirement,
+    RequirementsText,
+    Rule,
+    is_requirements,
+    read_requirements,
+)
+
+GROUPS = ("all", "fatal", "nonfatal")
+GRADES: Mapping[str, Wanted] = {each: each for each in (*get_args(Grade), "none")}
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """An expression of a requirement, checked, with the variables in it."""
+
+    local: Local
+    parts: tuple[Local, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """A requirement on one program. `invalid` says why it cannot be checked there."""
+
+    source: Requirement
+    condition: Condition | None = None
+    until: Condition | None = None
+    scans: int = 0
+    """of `within`"""
+    grade: Wanted | None = None
+    invalid: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class _About:
+    """A rule whose error was found."""
+
+    ref: ErrorRef | None
+    group: str
+    states: tuple[str, ...]
+    made: tuple[Made, ...]
+
+    @property
+    def rank(self) -> tuple[int, int]:
+        """The larger, the more it is about one error."""
+        place = GROUPS.index(self.group) + 1 if self.group in GROUPS[1:] else 0
+        return (len(self.ref.details) + 4 if self.ref is not None else min(place, 2)), len(self.states)
+
+
+class Rules:
+    """The requirements of a project on one program."""
+
+    def __init__(self, program: Program, text: RequirementsText) -> None:
+        self.program = program
+        self.problems = list(text.problems)
+        self._locals = Locals(program)
+        self._rules = [made for rule in text.rules if (made := self._rule(rule)) is not None]
+
+    def __bool__(self) -> bool:
+        return bool(self._rules)
+
+    @property
+    def states(self) -> frozenset[str]:
+        """The states that rules name."""
+        return frozenset(state for rule in self._rules for state in rule.states)
+
+    def raised(self, errors: Sequence[ErrorRef]) -> list[ErrorRef]:
+        """What a sweep raises: these, and of the same errors those with details that rules name."""
+        found: list[ErrorRef] = []
+        for number, ref in enumerate(errors):
+            found.append(ref)
+            if all(later.id != ref.id for later in errors[number + 1 :]):
+                found += (rule.ref for rule in self._rules if rule.ref is not None and rule.ref.details and rule.ref.id == ref.id)
+        return list(dict.fromkeys(found))
+
+    def of(self, ref: ErrorRef, state: str | None) -> tuple[Made, ...]:
+        """What must happen when this error comes in this state (None: whichever it is); of grades the one that is most about it."""
+        rules = [each for each in self._rules if self._is_about(each, ref) and _in(each, state)]
+        grades = [(rule.rank, number) for number, rule in enumerate(rules) if any(made.grade for made in rule.made)]
+        best = max(grades)[1] if grades else -1
+        return tuple(
+            made for number, rule in enumerate(rules) for made in rule.made if made.grade is None or number == best
+        )
+
+    def elsewhere(self, ref: ErrorRef, states: Iterable[str]) -> tuple[Made, ...]:
+        """What is required of it in states that are none of these."""
+        known = set(states)
+        return tuple(
+            made for rule in self._rules
+            if rule.states and not known & set(rule.states) and self._is_about(rule, ref)
+            for made in rule.made
+        )  # fmt: skip
+
+    def grade(self, ref: ErrorRef, state: str | None) -> Wanted | None:
+        """The grade that it has to have at least; None: the file does not say."""
+        return next((made.grade for made in reversed(self.of(ref, state)) if made.grade is not None), None)
+
+    def _is_about(self, rule: _About, ref: ErrorRef) -> bool:
+        entry = self.program.layout.model.error(ref.id)
+        if entry is None:
+            return False
+        if rule.ref is None:
+            return rule.group in ("all", entry.severity)
+        return rule.ref.id == ref.id and (not rule.ref.details or self._has(entry, ref, rule.ref))
+
+    def _has(self, entry: ErrorEntry, ref: ErrorRef, wanted: ErrorRef) -> bool:
+        chosen = choose(entry, dict(ref.details), self.program.layout)
+        return not isinstance(chosen, Refusal) and set(wanted.details) <= set(chosen.details)
+
+    # ---- making them ----------------------------------------------------------------------------------------------
+
+    def _rule(self, rule: Rule) -> _About | None:
+        word, states = rule.error.text, rule.states
+        if word.lower() in GROUPS:
+            return _About(None, word.lower(), states, tuple(map(self._made, rule.requirements)))
+        model = self.program.layout.model
+        ref = parse_reference(model, word)
+        entry = None if isinstance(ref, Refusal) else find_error(model, ref.id)
+        chosen = entry
+        if isinstance(ref, ErrorRef) and isinstance(entry, ErrorEntry) and ref.details:
+            chosen = choose(entry, dict(ref.details), self.program.layout)  # type: ignore[assignment]
+        if isinstance(ref, Refusal) or isinstance(chosen, Refusal):
+            why = ref if isinstance(ref, Refusal) else chosen
+            assert isinstance(why, Refusal)
+            self._problem(rule.error.span, f"{why.message}; or write one of {', '.join(GROUPS)}")
+            return None
+        return _About(ref, "", states, tuple(map(self._made, rule.requirements)))
+
+    def _made(self, source: Requirement) -> Made:
+        if source.form == "grade":
+            return self._graded(source)
+        scans = self._scans(source)
+        condition = self._restarting(source.about) if source.form == "may_restart" else self._condition(source.about)
+        until = None if source.until is None else self._condition(source.until)
+        bad = [each for each in (condition, until, scans) if isinstance(each, str)]
+        if bad:
+            return Made(source, invalid=bad[0])
+        assert isinstance(condition, Condition) and isinstance(scans, int) and not isinstance(until, str)
+        return Made(source, condition, until, scans)
+
+    def _graded(self, source: Requirement) -> Made:
+        grade = GRADES.get(source.about.text.lower())
+        if grade is not None:
+            return Made(source, grade=grade)
+        message = f"`{source.about.text}` is no grade; there are {', '.join(GRADES)}"
+        return Made(source, invalid=self._problem(source.about.span, message))
+
+    def _scans(self, source: Requirement) -> int | str:
+        if source.time is None:
+            return source.scans or 0
+        found = self._locals.value(None, source.time.text)
+        if isinstance(found, BadCondition):
+            return self._problem(source.time.span, found.message)
+        value = getattr(found.expr, "value", None)
+        scans = value // self.program.interval_ns if isinstance(value, int) else 0
+        if scans < 1:
+            text = f"`{source.time.text}` is shorter than one scan ({self.program.interval_ns / 1e6:g} ms): give it more time"
+            return self._problem(source.time.span, text)
+        return scans
+
+    def _condition(self, piece: Piece) -> Condition | str:
+        found = self._locals.condition(None, piece.text)
+        if isinstance(found, BadCondition):
+            begin = piece.span.column + found.column - 1
+            span = Span(piece.span.file, piece.span.line, begin, piece.span.line, max(begin + 1, piece.span.end_column))
+            near = "" if "Did you mean" in found.message else perhaps(found.near)
+            return self._problem(span, f"{found.message}{near}")
+        return Condition(found, tuple(self._parts(piece.text)))
+
+    def _restarting(self, piece: Piece) -> Condition | str:
+        found = self._locals.value(None, piece.text)
+        return self._problem(piece.span, found.message) if isinstance(found, BadCondition) else Condition(found, ())
+
+    def _parts(self, text: str) -> Iterator[Local]:
+        text = joined(self.program, text)
+        node = parsed(text)
+        if isinstance(node, BadCondition):
+            return
+        for part in dict.fromkeys(_shown(node, text)):
+            found = self._locals.value(None, part)
+            if not isinstance(found, BadCondition):
+                yield found
+
+    def _problem(self, span: Span, message: str) -> str:
+        self.problems.append(Problem(CODE, f"{message} The requirement is not checked.", span, Severity.WARNING))
+        return message
+
+
+def rules_of(program: Program, sources: Mapping[str, str]) -> Rules:
+    """The requirements of the sources of a program; none where there is no such file."""
+    name = next((each for each in sources if is_requirements(each)), None)
+    return Rules(program, RequirementsText() if name is None else read_requirements(sources[name], name))
+
+
+def problems_of(program: Program | None, sources: Mapping[str, str]) -> list[Problem]:
+    """What is wrong with the requirements; without a program only what their text says."""
+    if program is not None:
+        return rules_of(program, sources).problems
+    return [each for name, text in sources.items() if is_requirements(name) for each in read_requirements(text, name).problems]
+
+
+def required_with(required: Required, rules: Rules) -> Required:
+    """The same, with the grades of the file in between: over those for all, under those for one."""
+    return Required(required.all, required.own, rules.grade)
+
+
+def _in(rule: _About, state: str | None) -> bool:
+    return not rule.states or (state is not None and state in rule.states)
+
+
+def _shown(node: tree.Expression, text: str) -> Iterator[str]:
+    """The variables, addresses and elements in an expression, as they are written."""
+    match node:
+        case tree.Name() | tree.MemberOf() | tree.IndexOf() | tree.PartialAccess() | tree.DirectAddress() | tree.Dereference():
+            yield text[node.span.column - 1 : node.span.end_column - 1].strip()
+        case tree.UnaryOp():
+            yield from _shown(node.operand, text)
+        case tree.BinaryOp():
+            yield from _shown(node.left, text)
+            yield from _shown(node.right, text)
+        case tree.Call():
+            for each in node.arguments:
+                if each.value is not None:
+                    yield from _shown(each.value, text)
+        case _:
+            return
+
+

@@ -1,0 +1,39 @@
+"""What became of requirements, in words: for tables, JUnit and pages."""
+
+from collections.abc import Mapping
+
+from scanbench.faults.reaction.reaction import Outcome, Reaction, RequiredResult, Restart
+
+OUTCOMES: Mapping[Outcome, str] = {"passed": "passed", "failed": "failed", "not_checked": "not checked"}
+
+
+
+
+def is_grade(each: RequiredResult) -> bool:
+    """Whether it asks for a grade."""
+    return any(value.path == "verdict" for value in each.values)
+
+
+def evidence(each: RequiredResult) -> str:
+    """The scan and the values that decided it, or why nothing was checked."""
+    values = ", ".join(f"{value.path} = {value.value}" for value in each.values)
+    since = " after the recovery" if each.recovery else ""
+    scan = f"scan {each.scan}{since}" if each.scan is not None and each.outcome != "not_checked" else ""
+    return ": ".join(filter(None, (scan, "; ".join(filter(None, (values, each.note))))))
+
+
+def required_lines(reaction: Reaction) -> list[str]:
+    """A line for each requirement, and for each output that went on again."""
+    found = [f"{OUTCOMES[each.outcome]}: {each.text} ({evidence(each)})" for each in reaction.required]
+    return [*found, *map(restarted, reaction.restarts)]
+
+
+def restarted(each: Restart) -> str:
+    """A sentence about an output."""
+    went = f"{each.path} went on again by itself in scan {each.scan} after the recovery"
+    return f"{went}; `{each.allowed_by}` allows it" if each.allowed_by else f"unexpected restart: {went}"
+
+
+def unexpected(reaction: Reaction) -> list[Restart]:
+    """The restarts that no requirement allows."""
+    return [each for each in reaction.restarts if not each.allowed_by]

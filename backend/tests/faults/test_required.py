@@ -1,0 +1,229 @@
+"""Required reactions: each form of the language, what it comes to, and why, on both engines."""
+
+from typing import NamedTuple
+
+import pytest
+
+from scanbench.engines.observe import MakeObserved
+from scanbench.faults.inject import Recover
+from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.required_rules import Rules, rules_of
+from scanbench.faults.reaction.sweep import sweep
+from scanbench.faults.reaction.react import react
+from scanbench.faults.inject import Generate
+from scanbench.runtime.command import Entry
+from scanbench.runtime.write import Write
+from scanbench.syntax.requirements import REQUIREMENTS, read_requirements
+from tests.faults.reacting import MAKES, checked, point_of, programs, ref, standing
+
+WINDOW = 30
+SOURCE = """VAR_GLOBAL
+  battery AT A402.04 : BOOL; basic AT A402.12 : BOOL; unit3 AT A418.03 : BOOL;
+  motor AT CIO 100.00 : BOOL; lamp AT CIO 100.01 : BOOL; fan AT CIO 100.02 : BOOL; blink AT CIO 100.03 : BOOL;
+  speed AT CIO 101 : INT; reset AT CIO 0.02 : BOOL;
+END_VAR
+PROGRAM Main
+VAR
+  held : BOOL; wait : TON; beat : TON; after : INT; zero : INT; list : ARRAY[1..3] OF INT; index : INT;
+END_VAR
+  lamp := battery;
+  wait(IN := battery, PT := T#50ms);          // a timer: after five scans
+  motor := NOT wait.Q;                        // goes on by itself: an unexpected restart
+  IF basic THEN held := TRUE; ELSIF reset THEN held := FALSE; END_IF;
+  fan := NOT held;                            // a latch: stays off
+  speed := SEL(basic, 100, 40);
+  IF basic THEN index := 9; END_IF;
+  beat(IN := NOT beat.Q, PT := T#30ms);
+  IF beat.Q THEN blink := NOT blink; END_IF;
+END_PROGRAM
+"""
+
+
+class Case(NamedTuple):
+    """What a line says of an error, and what it has to come to."""
+
+    error: str
+    line: str
+    outcome: str
+    scan: int | None
+    values: str = ""
+    reason: str = ""
+
+
+CASES = [
+    # the program's handler by IF, and its timer
+    Case("battery-error", "lamp", "passed", 30, "lamp=TRUE"),
+    Case("battery-error", "lamp = TRUE within 1 scan", "passed", 1, "lamp=TRUE"),
+    Case("battery-error", "motor = FALSE within 3 scans", "failed", 3, "motor=TRUE"),
+    Case("battery-error", "motor = FALSE within 6 scans", "passed", 6, "motor=FALSE"),
+    Case("battery-error", "motor = FALSE within T#60ms", "passed", 6, "motor=FALSE"),
+    Case("battery-error", "motor = FALSE within T#20ms", "failed", 2, "motor=TRUE"),
+    Case("battery-error", "fan = FALSE within 40 scans", "not_checked", None, reason="window"),
+    Case("battery-error", "lamp within 40 scans", "passed", 1, "lamp=TRUE"),
+    # over the whole window
+    Case("battery-error", "always lamp AND fan", "passed", 30, "lamp=TRUE fan=TRUE"),
+    Case("battery-error", "always motor", "failed", 6, "motor=FALSE"),
+    Case("battery-error", "never motor AND NOT lamp", "passed", 30, "motor=FALSE lamp=TRUE"),
+    Case("battery-error", "never NOT motor", "failed", 6, "motor=FALSE"),
+    Case("battery-error", "CIO 100.01 AND CIO101 = 100", "passed", 30, "CIO100.01=TRUE CIO101=16#0064"),
+    Case("battery-error", "lamp stays TRUE", "passed", 30, "lamp=TRUE"),
+    # until
+    Case("battery-error", "motor until wait.Q", "not_checked", None, reason="invalid"),
+    Case("battery-error", "motor until Main.wait.Q", "passed", 6, "motor=FALSE Main.wait.Q=TRUE"),
+    Case("battery-error", "motor stays TRUE until reset", "failed", 6, "motor=FALSE reset=FALSE"),
+    Case("battery-error", "NOT motor within 6 scans until reset", "passed", 30, "motor=FALSE reset=FALSE"),
+    Case("battery-error", "blink within 30 scans until reset", "failed", None),
+    # recovery: without a latch, with one
+    Case("battery-error", "after recovery: motor stays FALSE until reset", "failed", 1, "motor=TRUE reset=FALSE"),
+    Case("battery-error", "after recovery: NOT lamp within 1 scan", "passed", 1, "lamp=FALSE"),
+    Case("basic-io-error", "after recovery: fan stays FALSE until reset", "passed", 30, "fan=FALSE reset=FALSE"),
+    Case("basic-io-error", "after recovery: fan", "failed", 30, "fan=FALSE"),
+    Case("basic-io-error", "after recovery: speed = 100 within 1 scan", "passed", 1, "speed=100"),
+    # not checked
+    Case("battery-error", "mtoor = FALSE", "not_checked", None, reason="invalid"),
+    Case("battery-error", "speed", "not_checked", None, reason="invalid"),
+    Case("battery-error", "motor =", "not_checked", None, reason="invalid"),
+    Case("battery-error", "10 / Main.zero = 3", "not_checked", 30, reason="invalid"),
+    Case("basic-io-error", "never Main.list[Main.index] = 7", "not_checked", 1, reason="invalid"),
+    Case("battery-error", "lamp within T#1ms", "not_checked", None, reason="invalid"),
+    Case("memory-error", "lamp", "not_checked", None, reason="stopped"),
+    Case("memory-error", "after recovery: lamp", "not_checked", None, reason="stopped"),
+    # grades
+    Case("battery-error", "at least acted", "passed", None, "verdict=acted"),
+    Case("inner-board-error", "at least displayed", "failed", None, "verdict=never_read"),
+    Case("inner-board-error", "at least none", "passed", None, "verdict=never_read"),
+]  # fmt: skip
+
+
+def rules(text: str, source: str = SOURCE) -> Rules:
+    return rules_of(checked({"main.st": source}), {REQUIREMENTS: text})
+
+
+def found(text: str, error: str, make: MakeObserved, states: tuple[str, ...] = ("Here",), source: str = SOURCE) -> Reaction:
+    program = checked({"main.st": source})
+    point = point_of(standing(program, make))
+    made = Rules(program, read_requirements(text))
+    (cell, *_) = sweep(dict.fromkeys(states, point), [ref(error)], WINDOW, programs(program, make), rules=made)
+    assert cell.reaction is not None, cell
+    return cell.reaction
+
+
+@pytest.mark.parametrize("make", MAKES.values(), ids=MAKES)
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.error}: {case.line}")
+def test_what_a_line_comes_to(case: Case, make: MakeObserved) -> None:
+    (result,) = found(f"{case.error}:\n  {case.line}\n", case.error, make).required
+    assert result.text == case.line
+    assert result.line == 2
+    assert result.outcome == case.outcome, result
+    assert result.reason == case.reason, result
+    if case.scan is not None or case.outcome == "passed":
+        assert result.scan == case.scan, result
+    if case.values:
+        assert " ".join(f"{each.path}={each.value}" for each in result.values) == case.values
+    assert result.is_finding == (case.outcome == "failed" or case.reason in ("invalid", "window"))
+
+
+@pytest.mark.parametrize("make", MAKES.values(), ids=MAKES)
+def test_an_output_that_goes_on_again_by_itself_is_a_finding(make: MakeObserved) -> None:
+    """The motor; the fan is held by a latch, and a beacon that blinks is off now and then anyway."""
+    reaction = found("", "battery-error", make)
+    assert [(each.path, each.scan, each.allowed_by) for each in reaction.restarts] == [("motor", 1, "")]
+    assert reaction.recovery == WINDOW
+    assert reaction.unmet == ("motor went on again by itself",)
+    assert found("", "basic-io-error", make).restarts == ()
+    assert found("", "inner-board-error", make).recovery == 0  # nothing was switched off: nothing to try
+
+
+@pytest.mark.parametrize("line", ["motor may restart", "after recovery: motor within 2 scans", "after recovery: motor"])
+def test_a_requirement_that_allows_a_restart(line: str) -> None:
+    reaction = found(f"all: {line}", "battery-error", MAKES["native"])
+    (restart,) = reaction.restarts
+    assert restart.allowed_by == line
+    assert reaction.unmet == ()
+
+
+def test_a_requirement_that_has_nothing_to_do_with_it_allows_none() -> None:
+    (restart,) = found("all: after recovery: NOT lamp", "battery-error", MAKES["native"]).restarts
+    assert not restart.allowed_by
+
+
+def test_a_requirement_of_a_state_counts_there() -> None:
+    text = 'battery-error in There: lamp\nbattery-error in "Not at all": motor\n'
+    there = found(text, "battery-error", MAKES["native"], ("There",))
+    assert [(each.text, each.outcome, each.reason) for each in there.required] == [
+        ("lamp", "passed", ""), ("motor", "not_checked", "other_state"),
+    ]  # fmt: skip
+    assert [each.text for each in there.required if each.is_finding] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "error", "wanted"),
+    [
+        ("all: at least stored\nbattery-error: at least acted", "battery-error", "acted"),
+        ("battery-error: at least acted\nall: at least stored", "battery-error", "acted"),
+        ("all: at least stored\nfatal: at least none", "battery-error", "stored"),
+        ("all: at least stored\nnonfatal: at least displayed", "battery-error", "displayed"),
+        ("special-io-unit-error: at least acted\nspecial-io-unit-error:unit=3: at least none", "special-io-unit-error:unit=3", "none"),
+        ("special-io-unit-error:unit=3: at least none", "special-io-unit-error:unit=4", None),
+        ("battery-error in Here: at least none\nbattery-error: at least acted", "battery-error", "none"),
+    ],
+)
+def test_the_grade_that_is_most_about_an_error_counts(text: str, error: str, wanted: str | None) -> None:
+    assert rules(text).grade(ref(error), "Here") == wanted
+
+
+def test_without_details_every_instance_is_meant() -> None:
+    made = rules("special-io-unit-error: lamp\nspecial-io-unit-error:unit=3: motor\nnonfatal: fan")
+    assert [each.source.text for each in made.of(ref("special-io-unit-error:unit=3"), "")] == ["lamp", "motor", "fan"]
+    assert [each.source.text for each in made.of(ref("special-io-unit-error:unit=4"), "")] == ["lamp", "fan"]
+    both = [ref("special-io-unit-error"), ref("battery-error")]
+    assert made.raised(both) == [both[0], ref("special-io-unit-error:unit=3"), both[1]]
+    assert made.raised(both[1:]) == both[1:]
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "says"),
+    [
+        ("battery-eror: lamp", (1, 1), "Did you mean `battery-error`"),
+        ("battery-error:\n  mtoor = FALSE", (2, 3), "Did you mean `motor`"),
+        ("battery-error:\n  lamp AND mtoor", (2, 12), "Did you mean `motor`"),
+        ("battery-error:\n  after recovery: NOT lmp until reset", (2, 23), "Did you mean `lamp`"),
+        ("battery-error: lamp until rset", (1, 27), "Did you mean `reset`"),
+        ("battery-error: speed", (1, 16), "it must be BOOL"),
+        ("battery-error: motor := FALSE", (1, 22), "Compare with `=`"),
+        ("battery-error: at least fine", (1, 25), "there are acted, decided"),
+        ("  lamp", (1, 3), "say first which error"),
+        ("battery-error lamp", (1, 1), "needs `:` after it"),
+        ("special-io-unit-error:unit=999: lamp", (1, 1), "unit"),
+        ("battery-error: lamp within T#1ms", (1, 28), "shorter than one scan"),
+    ],
+)  # fmt: skip
+def test_a_mistake_is_told_with_its_place(text: str, where: tuple[int, int], says: str) -> None:
+    (problem,) = rules(text).problems
+    assert (problem.code, problem.span.line, problem.span.column) == ("R001", *where), problem
+    assert says in problem.message
+
+
+@pytest.mark.parametrize("make", MAKES.values(), ids=MAKES)
+def test_a_single_raise_is_judged_by_the_same_requirements(make: MakeObserved) -> None:
+    """Somebody recovers it in scan 11: from then on the recovery counts. The reset that somebody gave ends the latch."""
+    program = checked({"main.st": SOURCE})
+    live = standing(program, make)
+    point = point_of(live)
+    entry = live.submit(Generate("Ada", (ref("basic-io-error"),)))
+    assert isinstance(entry, Entry)
+    entered = len(live.journal)
+    live.run(10)
+    assert isinstance(live.submit(Recover("Ada", ("basic-io-error",))), Entry)
+    live.run(5)
+    assert isinstance(live.submit(Write("Ada", "reset", "TRUE")), Entry)
+    live.run(15)
+    text = "basic-io-error:\n  NOT fan within 1 scan\n  after recovery: fan stays FALSE until reset\n"
+    made = Rules(program, read_requirements(text + "basic-io-error in There: lamp\n"))
+    reaction = react(point, entry, live.journal[entered:], WINDOW, programs(program, make), "basic-io-error", made)
+    assert isinstance(reaction, Reaction), reaction
+    assert [(each.outcome, each.scan, each.note) for each in reaction.required] == [
+        ("passed", 1, ""), ("passed", 6, "until came"),
+        ("not_checked", None, "a PLC that somebody works with is in none of the states of a sweep"),
+    ]  # fmt: skip
+    assert reaction.restarts == ()  # somebody did it
