@@ -59,6 +59,7 @@ def cell_of(found: CellFound) -> CellRow:
     return CellRow(
         found.error, found.point, found.scan, reaction.verdict, reaction.first_read, reaction.first_effect,
         reaction.difference_count, reaction.note or found.note, to_json(reaction),
+        required=len(reaction.required), unmet=len(reaction.unmet),
     )  # fmt: skip
 
 

@@ -215,6 +215,10 @@ class CellRow:
     note: str = ""
     reaction: Json | None = None
     """To be written; lists of cells come without, `Sweeps.reaction` gives it."""
+    required: int = 0
+    """So many requirements were checked,"""
+    unmet: int = 0
+    """and so much is not as it is required. Both are counted in the reaction, and not kept."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import cast
 
+from scanbench.faults.reaction.reaction import UNMET
 from scanbench.store.records import (
     AcceptedRow,
     BuildRow,
@@ -11,6 +12,7 @@ from scanbench.store.records import (
     FileRow,
     HistoryRow,
     InstanceRow,
+    Json,
     Limits,
     LogRow,
     Origin,
@@ -123,11 +125,22 @@ def sweep(row: Sweep, counts: Mapping[str | None, int]) -> SweepRow:
 
 
 def cell(row: SweepCell) -> CellRow:
-    """A cell without its reaction."""
+    """A cell without its reaction, but with what of the requirements is in there."""
+    required, unmet = judged(row.reaction or {})
     return CellRow(
         row.error, row.state, row.raised_scan, row.verdict, row.first_read, row.first_effect, row.difference_count,
-        row.note,
+        row.note, required=required, unmet=unmet,
     )  # fmt: skip
+
+
+def judged(reaction: Json) -> tuple[int, int]:
+    """How many requirements a reaction has, and how much is not as it is required: as `Reaction.unmet`, of a reaction that may be
+    of any version."""
+    required, restarts = reaction.get("required"), reaction.get("restarts")
+    rows = [each for each in required if isinstance(each, dict)] if isinstance(required, list) else []
+    went = [each for each in restarts if isinstance(each, dict)] if isinstance(restarts, list) else []
+    unmet = sum(each.get("outcome") == "failed" or each.get("reason") in UNMET for each in rows)
+    return len(rows), unmet + sum(not each.get("allowed_by") for each in went)
 
 
 def accepted(row: AcceptedFinding) -> AcceptedRow:

@@ -25,6 +25,7 @@ from scanbench.store.records import (
 from scanbench.store.tables import AUTHOR, NAME, AcceptedFinding, ProgramState, Sweep, SweepCell
 
 log = logging.getLogger("scanbench")
+_COUNTED = ("reaction", "required", "unmet")
 
 
 class States(Repository):
@@ -137,7 +138,7 @@ class Sweeps(Repository):
         with self._database.writing() as session:
             _sweep(session, sweep)
             for cell in cells:
-                told = {name: value for name, value in asdict(cell).items() if name != "reaction"}
+                told = {name: value for name, value in asdict(cell).items() if name not in _COUNTED}
                 reaction = None if cell.reaction is None else dict(cell.reaction)
                 session.merge(SweepCell(sweep_id=sweep, **told, reaction=reaction))
 

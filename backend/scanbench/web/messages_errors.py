@@ -254,6 +254,8 @@ class SweepCell(Wire):
     first_effect: int | None
     raised_scan: int
     difference_count: int
+    required: int = Field(default=0, description="so many required reactions of the project were checked")
+    unmet: int = Field(default=0, description="and so much is not as it is required, unexpected restarts counted")
     note: str
     accepted: Accepted | None = None
 

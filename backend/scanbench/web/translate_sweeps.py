@@ -72,5 +72,5 @@ def _cell(cell: CellRow, by_pair: Mapping[tuple[str, str], AcceptedRow]) -> dict
     return {
         "error": cell.error, "state": cell.state, "verdict": cell.verdict, "first_read": cell.first_read,
         "first_effect": cell.first_effect, "raised_scan": cell.raised_scan, "difference_count": cell.difference_count,
-        "note": cell.note, "accepted": None if row is None else accepted(row).model_dump(),
+        "required": cell.required, "unmet": cell.unmet, "note": cell.note, "accepted": None if row is None else accepted(row).model_dump(),
     }  # fmt: skip

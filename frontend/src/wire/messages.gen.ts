@@ -445,26 +445,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/instances/{instance}/errors/device": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * What a tool reads from the PLC's memory at the scan that is shown: errors that are present, its own error log, messages
-         * @description What a tool reads from the PLC's memory at the scan that is shown: errors that are present, its own error log, messages.
-         */
-        get: operations["get_instance_errors_device"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/instances/{instance}/errors/disarm": {
         parameters: {
             query?: never;
@@ -697,27 +677,6 @@ export interface paths {
          * @description Who last wrote a variable before `scan` began, or before what is shown now.
          */
         get: operations["get_instance_last_write"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/instances/{instance}/log": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this `kind`), or the last ones
-         * @description Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this
-         *     `kind`), or the last ones.
-         */
-        get: operations["get_instance_log"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2601,7 +2560,6 @@ export interface components {
              * @default {
              *       "acknowledge": "",
              *       "kind": "stay",
-             *       "per_million": 1000,
              *       "period": 2,
              *       "scans": 1,
              *       "seed": null,
@@ -2686,7 +2644,6 @@ export interface components {
              * @default {
              *       "acknowledge": "",
              *       "kind": "stay",
-             *       "per_million": 1000,
              *       "period": 2,
              *       "scans": 1
              *     }
@@ -3164,7 +3121,7 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
         /** CloseDraft */
         CloseDraft: {
             /** Path */
@@ -3390,183 +3347,6 @@ export interface components {
             label?: string | null;
             /** Message */
             message?: string | null;
-        };
-        /**
-         * Device
-         * @description The device's own view of its errors, read from its memory.
-         */
-        Device: {
-            found: components["schemas"]["DeviceErrors"];
-            /**
-             * @description discriminator enum property added by openapi-typescript
-             * @enum {string}
-             */
-            type: "device";
-        };
-        /**
-         * DeviceDetail
-         * @description One detail of an error as the memory shows it.
-         */
-        DeviceDetail: {
-            /**
-             * Name
-             * @description As in the catalogue: `rack`.
-             */
-            name: string;
-            /**
-             * Text
-             * @description For people, in English: `Rack number: 1`.
-             */
-            text: string;
-            /**
-             * Value
-             * @description A number, a text or the id of a choice; several choices that are on together are joined by `+`.
-             */
-            value: string;
-        };
-        /**
-         * DeviceError
-         * @description An error that the memory shows as present.
-         */
-        DeviceError: {
-            /**
-             * Cause
-             * @description What the catalogue says about it.
-             */
-            cause: string;
-            /**
-             * Code
-             * @description With what details add; empty where the memory does not say it.
-             */
-            code: string;
-            /** Details */
-            details: components["schemas"]["DeviceDetail"][];
-            /** Flag */
-            flag: string;
-            /**
-             * Id
-             * @description Of the catalogue; empty where a flag is on and nothing says which of its errors it is.
-             */
-            id: string;
-            /**
-             * Lasting
-             * @description While its cause lasts it shows again as soon as it is cleared.
-             */
-            lasting: boolean;
-            /** Name */
-            name: string;
-            /**
-             * Severity
-             * @enum {string}
-             */
-            severity: "fatal" | "nonfatal";
-            /**
-             * Text
-             * @description What the program said with it: the text of FAL or FALS.
-             */
-            text: string;
-            /**
-             * Top
-             * @description Its code is the one in the code word.
-             */
-            top: boolean;
-        };
-        /**
-         * DeviceErrors
-         * @description The device's own view of its errors, read from its memory at one scan.
-         */
-        DeviceErrors: {
-            /**
-             * Code
-             * @description What the code word shows; all digits 0 where no error is present, empty where the model has no code word.
-             */
-            code: string;
-            /**
-             * Codes
-             * @description How the model writes its codes: four or eight hexadecimal digits, or decimal.
-             * @enum {string}
-             */
-            codes: "hex4" | "hex8" | "decimal";
-            /**
-             * Errors
-             * @description The most serious first.
-             */
-            errors: components["schemas"]["DeviceError"][];
-            /**
-             * Has Log
-             * @description The model keeps an error log in its memory.
-             */
-            has_log: boolean;
-            /**
-             * Keeps Latest
-             * @description The model keeps the latest error with its time instead of a log.
-             */
-            keeps_latest: boolean;
-            /**
-             * Log
-             * @description The newest first.
-             */
-            log: components["schemas"]["DeviceRecord"][];
-            /** Messages */
-            messages: components["schemas"]["DeviceMessage"][];
-            /**
-             * Past
-             * @description It is the past that is shown.
-             */
-            past: boolean;
-            /** Scan */
-            scan: number;
-        };
-        /**
-         * DeviceMessage
-         * @description A message that the program shows on tools (MSG).
-         */
-        DeviceMessage: {
-            /** Instruction */
-            instruction: string;
-            /** Number */
-            number: number;
-            /** Text */
-            text: string;
-        };
-        /**
-         * DeviceRecord
-         * @description A record of the device's own error log.
-         */
-        DeviceRecord: {
-            /** Code */
-            code: string;
-            /**
-             * Contents
-             * @description The word with details, in hexadecimal; empty where the log has none.
-             */
-            contents: string;
-            /** Details */
-            details: components["schemas"]["DeviceDetail"][];
-            /**
-             * Id
-             * @description Of the catalogue; empty where no error has this code.
-             */
-            id: string;
-            /** Name */
-            name: string;
-            /**
-             * Number
-             * @description Its place in the log: 1 is the oldest that is there.
-             */
-            number: number;
-            /** Severity */
-            severity: ("fatal" | "nonfatal") | null;
-            /**
-             * Text
-             * @description What the program says now with this number; the log itself keeps no text.
-             */
-            text: string;
-            /**
-             * Time
-             * @description The PLC's clock at that moment, `2026-11-24 10:15:02`; empty where the record has no time.
-             */
-            time: string;
         };
         /**
          * Diagnostics
@@ -4080,11 +3860,6 @@ export interface components {
             description: string;
             /** Details */
             details: components["schemas"]["ErrorDetail"][];
-            /**
-             * Facts
-             * @description none of a project's own error
-             */
-            facts: components["schemas"]["Fact"][];
             /** Flag */
             flag: string;
             /** Id */
@@ -4128,39 +3903,10 @@ export interface components {
             type: "errors";
         };
         /**
-         * Fact
-         * @description One statement of the model about the device, and where it comes from.
-         */
-        Fact: {
-            /**
-             * Inherited
-             * @description it has no source of its own, but that of the whole error
-             */
-            inherited: boolean;
-            /**
-             * Of
-             * @description flag, code, severity, priority, cause, memory, log, details, text
-             */
-            of: string;
-            /**
-             * Source
-             * @description keys are in models/FORMAT.md
-             */
-            source: string;
-            /** Value */
-            value: string;
-            /**
-             * Verified
-             * @description somebody found it on the page that `source` names
-             */
-            verified: boolean;
-        };
-        /**
          * FaultShape
          * @description How a fault goes on. stay: until it is recovered. for: `scans`. intermittent: present for `scans` of each `period`,
          *     `times` times (null: until it is taken back), varied by chance when there is a `seed`. chatter: on and off in turn, scan by scan,
-         *     `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds. chance: while it is gone, it comes in each scan with a
-         *     probability of `per_million` millionths, and is present for `scans`; `seed` decides in which.
+         *     `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds.
          */
         FaultShape: {
             /**
@@ -4173,12 +3919,7 @@ export interface components {
              * @default stay
              * @enum {string}
              */
-            kind: "stay" | "for" | "intermittent" | "chatter" | "unacknowledged" | "chance";
-            /**
-             * Per Million
-             * @default 1000
-             */
-            per_million: number;
+            kind: "stay" | "for" | "intermittent" | "chatter" | "unacknowledged";
             /**
              * Period
              * @default 2
@@ -4373,25 +4114,6 @@ export interface components {
             type: "generate";
         };
         /**
-         * GenerateAbsent
-         * @description Raises those of the errors that are not present, all between the same two scans; the others stay as they are.
-         */
-        GenerateAbsent: {
-            /** Errors */
-            errors: components["schemas"]["GenerateOne"][];
-            /**
-             * Ref
-             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
-             * @default 0
-             */
-            ref: number;
-            /**
-             * @description discriminator enum property added by openapi-typescript
-             * @enum {string}
-             */
-            type: "generate_absent";
-        };
-        /**
          * GenerateErrors
          * @description All of them between the same two scans, or none. `again`: errors that are present change to these details.
          */
@@ -4548,8 +4270,6 @@ export interface components {
             /** Breakpoints */
             breakpoints: components["schemas"]["BreakpointInfo"][];
             coverage: components["schemas"]["Coverage"] | null;
-            /** @description null until the PLC was there once */
-            device: components["schemas"]["DeviceErrors"] | null;
             diagnostics: components["schemas"]["Diagnostics"];
             /** Disturbances */
             disturbances: components["schemas"]["DisturbanceInfo"][];
@@ -4889,29 +4609,6 @@ export interface components {
             text: string;
         };
         /**
-         * LogPage
-         * @description A stretch of the log as it is kept.
-         */
-        LogPage: {
-            /**
-             * First
-             * @description The number of the first of these lines, counted from 0.
-             */
-            first: number;
-            /**
-             * Kept
-             * @description Lines that are kept at most; older ones go.
-             */
-            kept: number;
-            /** Lines */
-            lines: components["schemas"]["LogLine"][];
-            /**
-             * Total
-             * @description Lines that are kept (of the kind that was asked for).
-             */
-            total: number;
-        };
-        /**
          * LostVariable
          * @description A variable whose value does not go over.
          */
@@ -4990,11 +4687,6 @@ export interface components {
             description: string;
             /** Error Count */
             error_count: number;
-            /**
-             * Fact Count
-             * @description statements about the device, each with a source: `scanbench model facts`
-             */
-            fact_count: number;
             /** Name */
             name: string;
             /**
@@ -5006,14 +4698,9 @@ export interface components {
             vendor: string;
             /**
              * Verified Count
-             * @description errors all of whose facts were looked up, not only known
+             * @description errors whose facts were looked up, not only known
              */
             verified_count: number;
-            /**
-             * Verified Facts
-             * @description how many of them were looked up on a page
-             */
-            verified_facts: number;
         };
         /** ModelSummary */
         ModelSummary: {
@@ -5021,25 +4708,15 @@ export interface components {
             description: string;
             /** Error Count */
             error_count: number;
-            /**
-             * Fact Count
-             * @description statements about the device, each with a source: `scanbench model facts`
-             */
-            fact_count: number;
             /** Name */
             name: string;
             /** Vendor */
             vendor: string;
             /**
              * Verified Count
-             * @description errors all of whose facts were looked up, not only known
+             * @description errors whose facts were looked up, not only known
              */
             verified_count: number;
-            /**
-             * Verified Facts
-             * @description how many of them were looked up on a page
-             */
-            verified_facts: number;
         };
         /**
          * NewCommit
@@ -5455,7 +5132,7 @@ export interface components {
          * PlcCommand
          * @description A command by its `type`.
          */
-        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
+        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart-Input"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
         /**
          * Pou
          * @description What a file declares, for the explorer.
@@ -5754,6 +5431,18 @@ export interface components {
             note: string;
             /** Readers */
             readers: components["schemas"]["Reader"][];
+            /**
+             * Recovery
+             * @description Scans that were run after the recovery; 0: it was not tried, as nothing depends on it.
+             */
+            recovery: number;
+            /**
+             * Required
+             * @description What the project requires, in the order of its file.
+             */
+            required: components["schemas"]["RequiredResult"][];
+            /** Restarts */
+            restarts: components["schemas"]["Restart-Output"][];
             /**
              * Unreached
              * @description Statements that would read it and were not executed.
@@ -6078,6 +5767,46 @@ export interface components {
             path?: string | null;
         };
         /**
+         * RequiredResult
+         * @description What became of one requirement of `required.reactions`.
+         */
+        RequiredResult: {
+            /**
+             * Line
+             * @description In the file.
+             */
+            line: number;
+            /** Note */
+            note: string;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "passed" | "failed" | "not_checked";
+            /**
+             * Reason
+             * @enum {string}
+             */
+            reason: "" | "stopped" | "window" | "invalid" | "ended" | "not_recovered" | "other_state";
+            /**
+             * Recovery
+             * @description It counts from the recovery on.
+             */
+            recovery: boolean;
+            /**
+             * Scan
+             * @description In which it was decided, from 1: since the error was raised, or since it was recovered.
+             */
+            scan: number | null;
+            /** Text */
+            text: string;
+            /**
+             * Values
+             * @description What decided it.
+             */
+            values: components["schemas"]["ValueThen"][];
+        };
+        /**
          * Rerun
          * @description How far a replay with a change is, and the instance that came of it.
          */
@@ -6131,6 +5860,46 @@ export interface components {
              * @enum {string}
              */
             type: "restart";
+        };
+        /**
+         * Restart
+         * @description Restarts the program, in every mode; afterwards it runs.
+         */
+        "Restart-Input": {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "cold" | "warm" | "power";
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "restart";
+        };
+        /**
+         * Restart
+         * @description An output that the error had switched off, and that went on again by itself when the error was recovered.
+         */
+        "Restart-Output": {
+            /**
+             * Allowed By
+             * @description The requirement that allows it; empty: none does, it is a finding.
+             */
+            allowed_by: string;
+            /** Path */
+            path: string;
+            /**
+             * Scan
+             * @description Since the recovery, from 1.
+             */
+            scan: number;
         };
         /**
          * RestartRequest
@@ -6387,7 +6156,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /** SetCell */
         SetCell: {
             /** Call */
@@ -6521,8 +6290,20 @@ export interface components {
             note: string;
             /** Raised Scan */
             raised_scan: number;
+            /**
+             * Required
+             * @description so many required reactions of the project were checked
+             * @default 0
+             */
+            required: number;
             /** State */
             state: string;
+            /**
+             * Unmet
+             * @description and so much is not as it is required, unexpected restarts counted
+             * @default 0
+             */
+            unmet: number;
             /**
              * Verdict
              * @description null: it could not be raised, `note` says why
@@ -7485,6 +7266,16 @@ export interface components {
              * Value
              * @description as it would be typed: TRUE, 42, T#5s, 'text'; of a structure how many members it has
              */
+            value: string;
+        };
+        /**
+         * ValueThen
+         * @description A part of a condition, and its value when that was decided.
+         */
+        ValueThen: {
+            /** Path */
+            path: string;
+            /** Value */
             value: string;
         };
         /**
@@ -9106,37 +8897,6 @@ export interface operations {
             };
         };
     };
-    get_instance_errors_device: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                instance: number;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Client Error */
-            "4XX": {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Refusal"];
-                };
-            };
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["DeviceErrors"];
-                };
-            };
-        };
-    };
     disarm_instance_errors: {
         parameters: {
             query?: never;
@@ -9532,41 +9292,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["LastWriter"];
-                };
-            };
-        };
-    };
-    get_instance_log: {
-        parameters: {
-            query?: {
-                count?: number;
-                first?: number | null;
-                kind?: ("write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt" | "disturbance") | null;
-            };
-            header?: never;
-            path: {
-                instance: number;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Client Error */
-            "4XX": {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Refusal"];
-                };
-            };
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["LogPage"];
                 };
             };
         };

@@ -116,6 +116,9 @@ Unchecked = Literal["", "stopped", "window", "invalid", "ended", "not_recovered"
 invalid: it does not fit the program. ended: the comparison ended before. not_recovered: the error could not be recovered.
 other_state: it counts in states only that the sweep does not begin from."""
 
+UNMET: tuple[Unchecked, ...] = ("window", "invalid", "ended", "not_recovered")
+"""Nobody knows, though the program could have been asked: a finding like one that failed."""
+
 
 @dataclass(frozen=True, slots=True)
 class ValueThen(Public):
@@ -144,8 +147,8 @@ class RequiredResult(Public):
 
     @property
     def is_finding(self) -> bool:
-        """Failed; or nobody knows, though the program could have been asked."""
-        return self.outcome == "failed" or self.reason in ("window", "invalid", "ended", "not_recovered")
+        """Failed, or nobody knows."""
+        return self.outcome == "failed" or self.reason in UNMET
 
 
 @dataclass(frozen=True, slots=True)

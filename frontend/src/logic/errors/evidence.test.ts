@@ -17,6 +17,9 @@ const reaction = (more: Partial<Reaction>): Reaction => ({
   decided_by: [],
   displayed: [],
   unreached: [],
+  required: [],
+  restarts: [],
+  recovery: 0,
   ...more,
 });
 

@@ -3,6 +3,7 @@ import type { Sweep, SweepCell, SweepChange, SweepSummary, Verdict } from "../..
 import {
   countCells,
   firstFinding,
+  isOpen,
   type MatrixRow,
   matrixRows,
   merged,
@@ -24,6 +25,8 @@ function cell(error: string, state: string, verdict: Verdict | null, more: Parti
     first_effect: null,
     raised_scan: 7,
     difference_count: 0,
+    required: 0,
+    unmet: 0,
     note: "",
     accepted: null,
     ...more,
@@ -272,4 +275,11 @@ describe("comparing", () => {
     expect(sortedChanges(all, true).map(({ error }) => error)).toEqual(["c", "b", "d"]);
     expect(sortedChanges(all, false).map(({ error }) => error)).toEqual(["c", "b", "d", "a"]);
   });
+});
+
+it("what is not as the project requires it is open, whatever the verdict, and nobody can accept it", () => {
+  const accepted = { reason: "later", by: "Ada", at: "2026-11-20T10:00:00Z" };
+  expect(isOpen(cell("e", "s", "acted", { required: 2, unmet: 1 }))).toBe(true);
+  expect(isOpen(cell("e", "s", "acted", { required: 2 }))).toBe(false);
+  expect(isOpen(cell("e", "s", "never_read", { unmet: 1, accepted }))).toBe(true);
 });

@@ -76,12 +76,17 @@ const NAME = /^[\p{L}\d_][\p{L}\d_\- .]*$/u;
 const XML_FILE = /\.tc(pou|dut|gvl|io)$/i;
 const TEXT_FILE = /\.(st|iecst|exp)$/i;
 const TABLE = /\.csv$/i;
+/** Files whose name says what they are: what the program has to do when errors come. */
+const NAMED = /^required\.reactions$/;
 
 /** What the file picker offers: files that the compiler reads, and operator panels. */
-export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.csv,.panel.json";
+export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.csv,.panel.json,.reactions";
 
 /** A table of inputs, not a program. */
 export const isTable = (path: string) => TABLE.test(path);
+
+/** Not a program either: what it has to do when errors come. */
+export const isRequirements = (path: string) => NAMED.test(path);
 
 /** The path for a file of this name: tables drive the inputs, so they go to the plant. */
 export const placeFor = (name: string) => (isTable(name) && !inPlant(name) ? `plant/${name}` : name);
@@ -90,7 +95,7 @@ export const placeFor = (name: string) => (isTable(name) && !inPlant(name) ? `pl
 export function newFilePath(typed: string, existing: readonly FileInfo[]): string | null {
   const name = typed.trim();
   if (!name.split("/").every((part) => NAME.test(part))) return null;
-  const known = TEXT_FILE.test(name) || XML_FILE.test(name) || isTable(name);
+  const known = TEXT_FILE.test(name) || XML_FILE.test(name) || isTable(name) || NAMED.test(name);
   const path = placeFor(known ? name : `${name}.st`);
   return existing.some((file) => file.path.toLowerCase() === path.toLowerCase()) ? null : path;
 }
@@ -99,6 +104,8 @@ export function newFilePath(typed: string, existing: readonly FileInfo[]): strin
 export function skeleton(path: string, input = "%IX0.0"): string {
   if (isTable(path))
     return `# What the inputs are, and when. A row holds until the next one.\ntime; ${input}\n0; 0\n500; 1\n`;
+  if (NAMED.test(path))
+    return "// What must happen when errors come and go, e.g.\n// battery-error:\n//   lamp within 3 scans\n";
   if (XML_FILE.test(path)) return ""; // it is pasted as a whole: nobody types XML
   const name = path
     .replace(/^.*\//, "")

@@ -204,6 +204,8 @@ export const sweep = {
   "sweep.tab.list": "Error sweeps",
   "sweep.underway": "Sweep {share}",
   "sweep.underway.hint": "Error sweep by {by}: {done} of {total} runs",
+  "sweep.unmet": "{count} not as required",
+  "sweep.unmet.one": "1 not as required",
   "sweep.waiting": "Waiting",
   "sweep.while": "{error}, while {state}",
   "sweep.widen": "Maximise this page",

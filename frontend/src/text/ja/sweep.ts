@@ -200,6 +200,8 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.tab.list": "異常スイープ",
   "sweep.underway": "スイープ {share}",
   "sweep.underway.hint": "{by} の異常スイープ: {total} 回中 {done} 回",
+  "sweep.unmet": "要求違反 {count} 件",
+  "sweep.unmet.one": "要求違反 1 件",
   "sweep.waiting": "待機中",
   "sweep.while": "{error}（{state}）",
   "sweep.widen": "このページを最大化",

@@ -13,6 +13,7 @@ import { StateWord } from "../../../ui/StateWord";
 import { VERDICT_ICONS } from "../../../ui/statuses";
 import type { CellRef, Reaction, Sweep, SweepCell, SweepError, Verdict } from "../../../wire/types";
 import { Evidence } from "../Evidence";
+import { Required } from "../Required";
 import { Accept } from "./Accept";
 import { Facts, Found } from "./Found";
 
@@ -58,6 +59,7 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
     <>
       <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>
       {cell.note && <p className="muted">{inNames(errors, cell.note)}</p>}
+      {reaction && <Required reaction={reaction} />}
       {reaction && <Evidence reaction={reaction} onOpen={openFile} />}
       {reaction ? (
         <Facts reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />

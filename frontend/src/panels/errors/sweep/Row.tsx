@@ -130,6 +130,10 @@ function lookOf(slot: Slot): Look {
     };
   const { verdict, note } = slot;
   if (verdict === null) return { icon: "never", tone: "dim", word: notRaised(note), title: note };
+  if (slot.unmet > 0) {
+    const unmet = slot.unmet === 1 ? t("sweep.unmet.one") : t("sweep.unmet", { count: slot.unmet });
+    return { icon: "error", tone: "unmet", word: unmet, title: `${wordOf(slot)}: ${unmet}` };
+  }
   if (isFinding(verdict) && slot.accepted)
     return { icon: "check", tone: "acc", word: t(`verdict.${verdict}`), title: t("sweep.acceptedby", slot.accepted) };
   return { icon: VERDICT_ICONS[verdict], tone: verdict, word: wordOf(slot), ...(note ? { title: note } : {}) };

@@ -13,6 +13,7 @@ import { Control } from "./controls";
 import { Facts } from "./Facts";
 import { Preview } from "./Preview";
 import { ReactionView } from "./ReactionView";
+import { RequiredLines } from "./RequiredLines";
 import { ShapeFields } from "./ShapeFields";
 
 /** The selected error: what it means, which flags and words show it, what can be chosen before it is raised, and how the program reacted. */
@@ -58,6 +59,7 @@ export function Details({ error }: { error: ErrorInfo }) {
       <Facts facts={error.facts} />
       {row?.reaction && <ReactionView error={error} state={row.reaction} />}
       {!row?.reaction && row?.swept && <Swept reaction={row.swept} />}
+      <RequiredLines key={error.id} error={error.id} />
       {present ? (
         <details className="again" open={!plain}>
           <summary>{t("shape.again")}</summary>

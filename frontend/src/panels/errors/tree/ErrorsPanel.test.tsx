@@ -187,6 +187,9 @@ const REACTED: Reaction = {
   decided_by: [],
   displayed: [],
   unreached: [],
+  required: [],
+  restarts: [],
+  recovery: 0,
   window: 100,
   first_read: 1234,
   first_effect: 1,
@@ -239,4 +242,49 @@ test("the reaction is shown in the tree and in words; its readers are links; a f
   await choose(user, t("errors.filters", { filter: t("errors.status.all") }), t("errors.reaction.findings"));
   expect(within(tree()).queryByRole("checkbox", { name: BASIC.name })).toBeNull();
   expect(textOf(line(BATTERY.name))).toContain(t("verdict.never_read"));
+});
+
+test("what the project requires is beside the reaction: passed, failed and why, and an output that restarts", async () => {
+  const required = (text: string, more: Partial<Reaction["required"][number]>): Reaction["required"][number] => ({
+    text,
+    line: 2,
+    outcome: "passed",
+    recovery: false,
+    scan: 3,
+    values: [{ path: "motor", value: "FALSE" }],
+    reason: "",
+    note: "",
+    ...more,
+  });
+  const found: Reaction = {
+    ...REACTED,
+    required: [
+      required("motor = FALSE within 3 scans", {}),
+      required("lamp", { outcome: "failed", recovery: true, values: [{ path: "lamp", value: "TRUE" }] }),
+      required("lmp", {
+        outcome: "not_checked",
+        reason: "invalid",
+        note: "There is no `lmp`.",
+        scan: null,
+        values: [],
+      }),
+    ],
+    restarts: [{ path: "fan", scan: 1, allowed_by: "" }],
+  };
+  const { server, user, places } = await openSimulator((server) =>
+    server.on("GET", "/instances/*/errors/*/reaction", () => found),
+  );
+  server.say({ type: "errors", rows: [row(BASIC, { ...RAISED, reaction: verdict("acted", 1) })] });
+  await user.click(line(BASIC.name));
+  const list = await within(details()).findByRole("region", { name: t("required.label") });
+  const lines = within(list).getAllByRole("listitem").map(textOf);
+  expect(lines[0]).toContain(t("required.restart.about", { scan: 1 }));
+  expect(lines[1]).toContain(t("required.passed"));
+  expect(lines[1]).toContain("scan 3: motor = FALSE");
+  expect(lines[2]).toContain(t("required.failed"));
+  expect(lines[2]).toContain("scan 3 after the recovery: lamp = TRUE");
+  expect(lines[3]).toContain(t("required.not_checked"));
+  expect(lines[3]).toContain("There is no `lmp`.");
+  await user.click(within(list).getByRole("button", { name: "lamp" }));
+  expect(places).toEqual(["file required.reactions"]);
 });

@@ -10,6 +10,7 @@ import { ReactionWord } from "../../../ui/ReactionWord";
 import { useColumns } from "../../../ui/useColumns";
 import type { ErrorInfo, Reaction, ReactionState } from "../../../wire/types";
 import { Evidence } from "../Evidence";
+import { Required } from "../Required";
 
 const FIRST = 20;
 
@@ -41,6 +42,7 @@ function Facts({ error, reaction }: { error: ErrorInfo; reaction: Reaction }) {
   const { errors } = useCatalogue();
   return (
     <>
+      <Required reaction={reaction} />
       {reaction.note && <p className="muted">{inNames(errors, reaction.note)}</p>}
       <Evidence reaction={reaction} onOpen={openFile} />
       {next && (

@@ -1,6 +1,6 @@
 /** One Monaco model for each open file, synchronised with the document store in both directions; diagnostics become markers. */
 
-import { isTable } from "../../../logic/project/explorer";
+import { isRequirements, isTable } from "../../../logic/project/explorer";
 import { usePlc } from "../../../store/plc/plc";
 import { useDocuments } from "../../../store/project/documents";
 import { savedText } from "../../../store/project/sourceText";
@@ -26,7 +26,11 @@ export const PAST = "scanbench-past";
 
 /** A text as it ran in the past: it is read-only, and its editor disposes of it. */
 export const pastModel = (path: string, text: string): editor.ITextModel =>
-  editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, Uri.from({ scheme: PAST, path: `/${path}` }));
+  editor.createModel(
+    text,
+    isTable(path) || isRequirements(path) ? TEXT : LANGUAGE,
+    Uri.from({ scheme: PAST, path: `/${path}` }),
+  );
 
 export const uriOfPath = (path: string) => Uri.from({ scheme: "scanbench", path: `/${path}` });
 
@@ -40,7 +44,8 @@ export async function presentModel(path: string): Promise<void> {
   if (models.has(path)) return;
   const known = shown.get(path);
   if (known) known.setValue(text);
-  else shown.set(path, editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, uriOfPath(path)));
+  else
+    shown.set(path, editor.createModel(text, isTable(path) || isRequirements(path) ? TEXT : LANGUAGE, uriOfPath(path)));
 }
 
 export function modelOf(path: string, text: string): editor.ITextModel {
@@ -48,7 +53,7 @@ export function modelOf(path: string, text: string): editor.ITextModel {
   if (known && !known.isDisposed()) return known;
   shown.get(path)?.dispose();
   shown.delete(path);
-  const model = editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, uriOfPath(path));
+  const model = editor.createModel(text, isTable(path) || isRequirements(path) ? TEXT : LANGUAGE, uriOfPath(path));
   model.setEOL(editor.EndOfLineSequence.LF);
   bind(path, model);
   models.set(path, model);
