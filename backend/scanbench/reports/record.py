@@ -86,6 +86,10 @@ class RecordCell(Public):
     scans: int | None = None
     """Until the first effect."""
     note: str = ""
+    required: int = 0
+    """Requirements that were checked,"""
+    unmet: int = 0
+    """and how much is not as it is required, unexpected restarts counted."""
 
 
 @dataclass(frozen=True, slots=True)

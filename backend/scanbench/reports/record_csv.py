@@ -12,7 +12,7 @@ from scanbench.reports.record import RecordError, TestRecord
 COLUMNS = (
     "group", "id", "error", "code", "flag", "severity", "status", "generated", "generated scan", "recovered",
     "recovered scan", "details", "by", "origin", "count", "verdict", "verdict from", "scans until the first effect",
-    "readers", "outputs that differ", "variables that differ", "accepted", "open in", "note",
+    "readers", "outputs that differ", "variables that differ", "accepted", "open in", "note", "required", "not as required",
 )  # fmt: skip
 _BOM = "\ufeff"  # a spreadsheet takes the file for Latin-1 without it
 
@@ -44,6 +44,8 @@ def _row(record: TestRecord, error: RecordError, open_in: Iterable[str]) -> list
         "; ".join(f"{one.state}: {one.reason} ({one.by})" for one in error.accepted),
         ", ".join(open_in),
         error.reaction_note or ("" if reaction is None else reaction.note),
+        str(len(reaction.required)) if reaction is not None and reaction.required else "",
+        "" if reaction is None else "; ".join(reaction.unmet),
     ]  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """A test record as one HTML file that needs nothing else: to be read, printed and signed."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
 from itertools import groupby
 
@@ -16,6 +16,7 @@ from scanbench.reports.record import (
 )
 from scanbench.reports.record_text import FoldedLine, Language, folded
 from scanbench.reports.record_words import WORDS
+from scanbench.reports.required_words import evidence
 
 SHOWN = 8
 """Readers, and outputs, of one error; the XML has them all."""
@@ -34,7 +35,7 @@ class _Document:
     def text(self) -> str:
         parts = [
             self._head(), self._summary(), self._findings(), self._untested(), self._table(), *self._sweeps(),
-            self._log(), self._sign(),
+            self._required(), self._log(), self._sign(),
         ]  # fmt: skip
         return self._page.document(self._record.title, parts)
 
@@ -189,7 +190,29 @@ class _Document:
         scans = "" if cell.scans is None else f' <span class="faint">{cell.scans}</span>'
         missed = error is not None and cell.verdict in FINDINGS and error.accepted_in(cell.state) is not None
         accepted = f'<br><span class="faint">{self._word("finding_accepted")}</span>' if missed else ""
-        return f"<td>{self._verdict(cell.verdict)}{scans}{accepted}</td>"
+        unmet = f'<br><span class="verdict failed">{self._word("unmet", count=cell.unmet)}</span>' if cell.unmet else ""
+        return f"<td>{self._verdict(cell.verdict)}{scans}{accepted}{unmet}</td>"
+
+    def _required(self) -> str:
+        """What the project requires, of the errors that were raised on the PLC itself."""
+        rows = [
+            self._required_row(error, *each)
+            for error in self._record.errors if error.reaction is not None for each in self._judged(error.reaction)
+        ]  # fmt: skip
+        heads = ("error", "required", "outcome", "why")
+        return f"<h2>{self._word('requirements')}</h2>\n{self._page.table(heads, rows)}" if rows else ""
+
+    def _judged(self, reaction: Reaction) -> Iterator[tuple[str, str, str]]:
+        for one in reaction.restarts:
+            rule = self._word("no_restart")
+            text = self._page.plain("restarted").format(path=one.path, scan=one.scan)
+            yield rule, "passed" if one.allowed_by else "failed", f"{text} {one.allowed_by}".strip()
+        for each in reaction.required:
+            yield f"<code>{escape(each.text)}</code>", each.outcome, evidence(each)
+
+    def _required_row(self, error: RecordError, rule: str, outcome: str, why: str) -> str:
+        sign = f'<span class="verdict {outcome}">{self._word(f"required_{outcome}")}</span>'
+        return tr(f'<th scope="row">{escape(error.name)}</th>', f"<td>{rule}</td>", f"<td>{sign}</td>", td(why))
 
     def _log(self) -> str:
         if not self._record.log:

@@ -18,9 +18,14 @@ from scanbench.faults.reaction.reaction import (
     Difference,
     Line,
     Obstacle,
+    Outcome,
     Reaction,
     Reader,
+    RequiredResult,
+    Restart,
+    Unchecked,
     Unreached,
+    ValueThen,
     Verdict,
     What,
 )
@@ -79,7 +84,7 @@ def _of_another_version(text: str, file: str) -> list[Problem]:
         return []
     line, column = text.count("\n", 0, match.start(1)) + 1, match.start(1) - text.rfind("\n", 0, match.start(1))
     message = (
-        f"this is a test record of Version {match[1]}, and this Scanbench reads Version {' and '.join(READ)}: "
+        f"this is a test record of Version {match[1]}, and this Scanbench reads Version {', '.join(READ[:-1])} and {READ[-1]}: "
         "bring it in with the version that wrote it"
     )
     return [Problem("M002", message, Span(file, line, column, line, column + len(match[1])))]
@@ -168,6 +173,20 @@ def _reaction(node: etree._Element) -> Reaction:
             )
             for one in node.findall("Unreached")
         ),
+        required=tuple(map(_required, node.findall("Required"))),
+        restarts=tuple(
+            Restart(_text(one, "Path"), _count(one, "Scan"), _text(one, "AllowedBy")) for one in node.findall("Restart")
+        ),
+        recovery=_count(node, "Recovery"),
+    )  # fmt: skip
+
+
+def _required(node: etree._Element) -> RequiredResult:
+    return RequiredResult(
+        _text(node, "Text"), _count(node, "Line"), cast(Outcome, _text(node, "Outcome")),
+        recovery=node.get("Recovery") in ("true", "1"), scan=_number(node, "Scan"),
+        values=tuple(ValueThen(_text(one, "Path"), _text(one, "Value")) for one in node.findall("Value")),
+        reason=cast(Unchecked, _text(node, "Reason")), note=_text(node, "Note"),
     )  # fmt: skip
 
 
@@ -179,7 +198,7 @@ def _sweep(node: etree._Element) -> RecordSweep:
         cells=tuple(
             RecordCell(
                 _text(one, "Error"), _text(one, "State"), cast(Verdict | None, one.get("Verdict")),
-                _number(one, "Scans"), _text(one, "Note"),
+                _number(one, "Scans"), _text(one, "Note"), _count(one, "Required"), _count(one, "Unmet"),
             )
             for one in node.findall("Cell")
         ),

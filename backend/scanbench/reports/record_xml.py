@@ -9,8 +9,8 @@ from scanbench.faults.reaction.reaction import FINDINGS, Reaction
 from scanbench.plcmodel.document import xml_text
 from scanbench.reports.record import RecordError, RecordSweep, TestRecord
 
-VERSION = "2"
-READ = ("1", "2")
+VERSION = "3"
+READ = ("1", "2", "3")
 """The versions that `record_read.py` reads."""
 Told = str | int | datetime | None
 
@@ -53,7 +53,7 @@ def _error(root: etree._Element, error: RecordError) -> None:
 def _reaction(error: etree._Element, reaction: Reaction) -> None:
     node = _add(
         error, "Reaction", Verdict=reaction.verdict, Basis=reaction.basis or None, Window=reaction.window, FirstRead=reaction.first_read,
-        FirstEffect=reaction.first_effect, Differences=reaction.difference_count, Note=reaction.note or None,
+        FirstEffect=reaction.first_effect, Differences=reaction.difference_count, Recovery=reaction.recovery or None, Note=reaction.note or None,
     )  # fmt: skip
     for reader in reaction.readers:
         _add(
@@ -75,6 +75,15 @@ def _reaction(error: etree._Element, reaction: Reaction) -> None:
         missed = _add(node, "Unreached", File=one.file, Line=one.line, Why=one.why, Around=one.at or None)
         for path in one.paths:
             _add(missed, "On", Path=path)
+    for rule in reaction.required:
+        required = _add(
+            node, "Required", Text=rule.text, Line=rule.line, Outcome=rule.outcome, Recovery="true" if rule.recovery else None,
+            Scan=rule.scan, Reason=rule.reason or None, Note=rule.note or None,
+        )  # fmt: skip
+        for value in rule.values:
+            _add(required, "Value", Path=value.path, Value=value.value)
+    for restart in reaction.restarts:
+        _add(node, "Restart", Path=restart.path, Scan=restart.scan, AllowedBy=restart.allowed_by or None)
 
 
 def _sweep(root: etree._Element, sweep: RecordSweep, accepted: Set[tuple[str, str]]) -> None:
@@ -87,7 +96,7 @@ def _sweep(root: etree._Element, sweep: RecordSweep, accepted: Set[tuple[str, st
         missed = cell.verdict in FINDINGS and (cell.error, cell.state) in accepted
         _add(
             node, "Cell", Error=cell.error, State=cell.state, Verdict=cell.verdict, Scans=cell.scans,
-            Note=cell.note or None, Accepted="true" if missed else None,
+            Required=cell.required or None, Unmet=cell.unmet or None, Note=cell.note or None, Accepted="true" if missed else None,
         )  # fmt: skip
 
 

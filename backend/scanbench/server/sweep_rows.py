@@ -79,7 +79,7 @@ def outcomes_of(cells: Iterable[CellRow], kept: Mapping[tuple[str, str], Json]) 
 
 
 def merged(cells: Iterable[CellRow], accepted: Collection[tuple[str, str]]) -> list[CellRow]:
-    """One cell for each error of the catalogue and state: of several with details the worst, those first that nobody accepted."""
+    """One cell for each error of the catalogue and state: of several with details the worst: what is not as it is required, then what nobody accepted."""
     found: dict[tuple[str, str], CellRow] = {}
     for cell in cells:
         key = error_of(cell.error), cell.state
@@ -88,7 +88,7 @@ def merged(cells: Iterable[CellRow], accepted: Collection[tuple[str, str]]) -> l
     return list(found.values())
 
 
-def _rank(cell: CellRow, accepted: Collection[tuple[str, str]]) -> tuple[bool, int]:
+def _rank(cell: CellRow, accepted: Collection[tuple[str, str]]) -> tuple[bool, bool, int]:
     verdict = VERDICTS.get(cell.verdict or "")
     place = len(WORST_FIRST) if verdict is None else WORST_FIRST.index(verdict)
-    return (cell.error, cell.state) in accepted and verdict in FINDINGS, place
+    return not cell.unmet, (cell.error, cell.state) in accepted and verdict in FINDINGS, place

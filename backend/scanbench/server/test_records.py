@@ -192,7 +192,9 @@ def _record_cell(cell: CellRow) -> RecordCell:
     """The details that it was raised with are named in its note."""
     error, _, details = cell.error.partition(":")
     note = "; ".join(filter(None, (details, cell.note)))
-    return RecordCell(error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note)
+    return RecordCell(
+        error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note, cell.required, cell.unmet
+    )
 
 
 def _earlier(count: int, lines: Sequence[LogRow]) -> Iterator[RecordLine]:

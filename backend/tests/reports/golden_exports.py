@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeVar
 
-from scanbench.faults.reaction.reaction import Carried, Line, Reaction, Reader, Unreached
+from scanbench.faults.reaction.reaction import Carried, Line, Reaction, Reader, RequiredResult, Restart, Unreached, ValueThen
 from scanbench.reports.record import TestRecord
 from scanbench.reports.record_read import from_xml
 from scanbench.reports.record_xml import to_xml
@@ -64,6 +64,38 @@ def graded(xml: str) -> str:
     return to_xml(replace(record, errors=(replace(first, reaction=reaction, reaction_note=""), *others)))
 
 
+def judged(xml: str) -> str:
+    """A record of version 2 with a reaction that has required reactions and all that belongs to them."""
+    record = from_xml(xml)
+    assert isinstance(record, TestRecord)
+    (first, *others) = record.errors
+    assert first.reaction is not None
+    reaction = replace(
+        first.reaction,
+        required=(
+            RequiredResult("motor = FALSE within 3 scans", 2, "passed", False, 1, (ValueThen("motor", "FALSE"),)),
+            RequiredResult("after recovery: motor until reset", 3, "failed", True, 7, (ValueThen("motor", "FALSE"),)),
+            RequiredResult("lmp", 4, "not_checked", reason="invalid", note="There is no `lmp`."),
+        ),
+        restarts=(Restart("fan", 2), Restart("motor", 1, "after recovery: motor may restart")),
+        recovery=50,
+    )
+    made = replace(record, errors=(replace(first, reaction=reaction), *others))
+    (sweep, *older) = made.sweeps
+    (cell, *cells) = sweep.cells
+    sweep = replace(sweep, cells=(replace(cell, required=3, unmet=1), *cells))
+    return to_xml(replace(made, sweeps=(sweep, *older)))
+
+
+def judged_exports() -> None:
+    """Makes the record with required reactions: version 3."""
+    xml = judged((GOLDEN / "record-2.xml").read_text("utf-8"))
+    (GOLDEN / "record-3.xml").write_text(xml, "utf-8")
+    (GOLDEN / "record-3.json").write_text(
+        json.dumps(plain(from_xml(xml)), indent=1, ensure_ascii=False) + "\n", "utf-8"
+    )
+
+
 def graded_exports() -> None:
     """Makes those that have grades: version 2 of records, format 2 of sweeps."""
     with TemporaryDirectory() as directory:
@@ -78,6 +110,9 @@ def graded_exports() -> None:
 
 def main() -> None:
     """Makes all that are not there yet."""
+    if (GOLDEN / "record-2.xml").exists():
+        judged_exports()
+        return
     if (GOLDEN / "record-1.xml").exists():
         graded_exports()
         return

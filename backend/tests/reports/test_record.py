@@ -365,10 +365,10 @@ def test_json_that_is_no_reaction(change: dict[str, object], says: str) -> None:
     ("old", "new", "line", "says"),
     [
         (
-            'Version="2"',
             'Version="3"',
+            'Version="4"',
             2,
-            "of Version 3, and this Scanbench reads Version 1 and 2: bring it in with the version",
+            "of Version 4, and this Scanbench reads Version 1, 2 and 3: bring it in with the version",
         ),
         ('ProgramVersion="3"', 'ProgramVersion="three"', 2, "three"),
         ('ProgramVersion="3"', 'ProgramVersion="-1"', 2, "-1"),
