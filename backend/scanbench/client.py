@@ -123,6 +123,13 @@ class Plc:
         """Recovers these errors, or all."""
         return self._command("errors/recover", {"ids": list(errors) or None})
 
+    def reaction(self, error: str) -> Mapping[str, Json]:
+        """How the program reacted the last time that this error was raised: `verdict`, `required` (each with `text`, `outcome`, `scan`
+        and `values`), `restarts` and more. Known when its window is over."""
+        answer = self._server.ask("GET", f"{self._base}/errors/{quote(error)}/reaction")
+        assert isinstance(answer, dict)
+        return answer
+
     def clear(self, what: str | int = "current") -> str:
         """Clears errors as a tool does it on the device: `current` (the most serious), `all`, or that of a code. What the
         simulator raised and whose cause lasts stays: `recover` it."""

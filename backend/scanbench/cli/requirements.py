@@ -8,7 +8,8 @@ from scanbench.faults.reaction.required_rules import GRADES
 from scanbench.faults.reference import parse_reference
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Refusal
-from scanbench.syntax.requirements import RequirementsText, read_requirements as read_text
+from scanbench.syntax.requirements import RequirementsText
+from scanbench.syntax.requirements import read_requirements as read_text
 
 _HOW = 'it has to be one object, as in {"battery-error": "displayed", "special-io-unit-error:unit=3": "acted"}'
 

@@ -7,8 +7,6 @@ from scanbench.faults.reaction.reaction import Outcome, Reaction, RequiredResult
 OUTCOMES: Mapping[Outcome, str] = {"passed": "passed", "failed": "failed", "not_checked": "not checked"}
 
 
-
-
 def is_grade(each: RequiredResult) -> bool:
     """Whether it asks for a grade."""
     return any(value.path == "verdict" for value in each.values)

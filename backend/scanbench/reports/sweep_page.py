@@ -105,7 +105,10 @@ def _required(result: SweepResult) -> Iterator[str]:
     if not judged and not restarts:
         return
     yield "<h2>Required reactions</h2>\n"
-    rows = [_row(result, cell, "no unexpected restart", "passed" if each.allowed_by else "failed", restarted(each)) for cell, each in restarts]
+    rows = [
+        _row(result, cell, "no unexpected restart", "passed" if each.allowed_by else "failed", restarted(each))
+        for cell, each in restarts
+    ]
     rows += [
         _row(result, cell, each.text, each.outcome, evidence(each))
         for cell, each in sorted(judged, key=lambda one: _ORDER.index(one[1].outcome))

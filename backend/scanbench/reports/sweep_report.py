@@ -110,7 +110,10 @@ def _required_text(result: SweepResult) -> list[str]:
             for each in reaction.required
             if each.outcome != "passed"
         ]
-        rows += [(cell.error, cell.point, "no unexpected restart", "failed", restarted(each)) for each in unexpected(reaction)]
+        rows += [
+            (cell.error, cell.point, "no unexpected restart", "failed", restarted(each))
+            for each in unexpected(reaction)
+        ]
     told = result.outcomes()
     counts = ", ".join(f"{told[outcome]} {word}" for outcome, word in OUTCOMES.items() if told[outcome])
     restarts = sum(len(unexpected(reaction)) for _, reaction in judged)
@@ -266,6 +269,8 @@ def _failure(entry: ErrorEntry, cell: Cell, reaction: Reaction, required: Requir
     wanted = required.of(cell.error, cell.point)
     if wanted is not None and not required.met(cell.error, reaction.verdict, cell.point):
         said.append(f"required: {WORDS[wanted]}")
-    said += [f"{OUTCOMES[each.outcome]}: {each.text}" for each in reaction.required if each.is_finding and not is_grade(each)]
+    said += [
+        f"{OUTCOMES[each.outcome]}: {each.text}" for each in reaction.required if each.is_finding and not is_grade(each)
+    ]
     said += [restarted(each) for each in unexpected(reaction)]
     return "; ".join(said)

@@ -161,7 +161,9 @@ def _requirement(reader: _Reader, line: int, begin: int, text: str) -> Requireme
     if after is not None:
         text, begin = text[after.end() :], begin + after.end()
     if grade := _GRADE.fullmatch(text):
-        return Requirement(whole.text, whole.span, "grade", reader.piece(line, begin + grade.start(1), grade[1]), recovery)
+        return Requirement(
+            whole.text, whole.span, "grade", reader.piece(line, begin + grade.start(1), grade[1]), recovery
+        )
     if restart := _RESTART.fullmatch(text):
         return Requirement(whole.text, whole.span, "may_restart", reader.piece(line, begin, restart[1]), True)
     made = _condition(reader, line, begin, text, whole, recovery)

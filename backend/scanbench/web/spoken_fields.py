@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
-from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.reaction import Reaction, RequiredResult
 from scanbench.history.contract import BetweenEntry, Changes, Divergence
 from scanbench.recording.recording import RecordingInfo
 from scanbench.reports.record import RecordCell
@@ -74,6 +74,7 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (Mismatch, "message"),
     (PreviewedErrors, "message"),
     (Reaction, "note"),
+    (RequiredResult, "note"),
     (RecordCell, "note"),
     (RecordLine, "text"),
     (RecordingInfo, "damage"),

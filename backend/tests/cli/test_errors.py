@@ -421,7 +421,8 @@ def test_required_reactions_are_red_until_the_program_is_mended(project: Path) -
     call = (*required(project), "--junit", str(junit), "--html", str(page))
     red = scanbench(*call)
     assert red.returncode == 1
-    assert "lamp within 2 scans" in red.stdout and "scan 2: lamp = FALSE" in red.stdout
+    assert "lamp within 2 scans" in red.stdout
+    assert "scan 2: lamp = FALSE" in red.stdout
     assert "requirements: 4 passed, 1 failed, 2 not checked" in red.stdout
     (message,) = (each.get("message") for each in ElementTree.parse(junit).iter("failure"))
     assert message == "nonfatal error: not reached; required: decided; failed: lamp within 2 scans"
@@ -452,7 +453,8 @@ def test_a_requirement_with_a_wrong_name_is_not_checked_and_never_passed(project
     call = required(project, "basic-io-error: at least none\nbattery-error:\n  at least none\n  lmp within 2 scans\n")
     result = scanbench(*call, "--only", "battery-error")
     assert result.returncode == 1
-    assert "required.reactions:4:3: R001" in result.stderr and "Did you mean `lamp`?" in result.stderr
+    assert "required.reactions:4:3: R001" in result.stderr
+    assert "Did you mean `lamp`?" in result.stderr
     assert "1 not checked" in result.stdout
     check = scanbench("check", str(project))
     assert check.returncode == 0

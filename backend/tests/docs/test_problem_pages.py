@@ -11,7 +11,7 @@ from tests.caseformat import MODELS
 
 PAGES = Path(__file__).parents[3] / "docs/problems"
 FENCE = re.compile(r"```(\w+)\n(.*?)\n```", re.DOTALL)
-LANGUAGE = sorted(code for code in TABLE if not code.startswith("M"))
+LANGUAGE = sorted(code for code in TABLE if code[0] not in "MR")
 
 
 def examples(code: str) -> tuple[str, str]:

@@ -5,12 +5,11 @@ from typing import NamedTuple
 import pytest
 
 from scanbench.engines.observe import MakeObserved
-from scanbench.faults.inject import Recover
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.reaction.react import react
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reaction.required_rules import Rules, rules_of
 from scanbench.faults.reaction.sweep import sweep
-from scanbench.faults.reaction.react import react
-from scanbench.faults.inject import Generate
 from scanbench.runtime.command import Entry
 from scanbench.runtime.write import Write
 from scanbench.syntax.requirements import REQUIREMENTS, read_requirements
@@ -99,7 +98,9 @@ def rules(text: str, source: str = SOURCE) -> Rules:
     return rules_of(checked({"main.st": source}), {REQUIREMENTS: text})
 
 
-def found(text: str, error: str, make: MakeObserved, states: tuple[str, ...] = ("Here",), source: str = SOURCE) -> Reaction:
+def found(
+    text: str, error: str, make: MakeObserved, states: tuple[str, ...] = ("Here",), source: str = SOURCE
+) -> Reaction:
     program = checked({"main.st": source})
     point = point_of(standing(program, make))
     made = Rules(program, read_requirements(text))
@@ -163,7 +164,11 @@ def test_a_requirement_of_a_state_counts_there() -> None:
         ("battery-error: at least acted\nall: at least stored", "battery-error", "acted"),
         ("all: at least stored\nfatal: at least none", "battery-error", "stored"),
         ("all: at least stored\nnonfatal: at least displayed", "battery-error", "displayed"),
-        ("special-io-unit-error: at least acted\nspecial-io-unit-error:unit=3: at least none", "special-io-unit-error:unit=3", "none"),
+        (
+            "special-io-unit-error: at least acted\nspecial-io-unit-error:unit=3: at least none",
+            "special-io-unit-error:unit=3",
+            "none",
+        ),
         ("special-io-unit-error:unit=3: at least none", "special-io-unit-error:unit=4", None),
         ("battery-error in Here: at least none\nbattery-error: at least acted", "battery-error", "none"),
     ],

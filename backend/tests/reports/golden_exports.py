@@ -11,7 +11,16 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeVar
 
-from scanbench.faults.reaction.reaction import Carried, Line, Reaction, Reader, RequiredResult, Restart, Unreached, ValueThen
+from scanbench.faults.reaction.reaction import (
+    Carried,
+    Line,
+    Reaction,
+    Reader,
+    RequiredResult,
+    Restart,
+    Unreached,
+    ValueThen,
+)
 from scanbench.reports.record import TestRecord
 from scanbench.reports.record_read import from_xml
 from scanbench.reports.record_xml import to_xml

@@ -46,7 +46,8 @@ def test_a_line_that_cannot_be_read_is_told_and_left_out(text: str, where: tuple
     (problem,) = found.problems
     assert (problem.span.line, problem.span.column) == where, problem
     assert says in problem.message
-    assert found.rules[-1].error.text == "all" and len(found.rules[-1].requirements) == 1
+    assert found.rules[-1].error.text == "all"
+    assert len(found.rules[-1].requirements) == 1
 
 
 def test_lines_below_an_error_that_cannot_be_read_are_not_those_of_the_one_before() -> None:

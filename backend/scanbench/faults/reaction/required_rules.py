@@ -11,7 +11,7 @@ from scanbench.faults.reaction.reaction import Grade
 from scanbench.faults.reaction.required import Required, Wanted
 from scanbench.faults.reference import ErrorRef, find_error, parse_reference
 from scanbench.plcmodel.model import ErrorEntry
-from scanbench.problems import Problem, Severity, Span, perhaps
+from scanbench.problems import Problem, Severity, Span
 from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
 from scanbench.syntax import tree
@@ -89,7 +89,11 @@ class Rules:
         for number, ref in enumerate(errors):
             found.append(ref)
             if all(later.id != ref.id for later in errors[number + 1 :]):
-                found += (rule.ref for rule in self._rules if rule.ref is not None and rule.ref.details and rule.ref.id == ref.id)
+                found += (
+                    rule.ref
+                    for rule in self._rules
+                    if rule.ref is not None and rule.ref.details and rule.ref.id == ref.id
+                )
         return list(dict.fromkeys(found))
 
     def of(self, ref: ErrorRef, state: str | None) -> tuple[Made, ...]:
@@ -154,7 +158,9 @@ class Rules:
         bad = [each for each in (condition, until, scans) if isinstance(each, str)]
         if bad:
             return Made(source, invalid=bad[0])
-        assert isinstance(condition, Condition) and isinstance(scans, int) and not isinstance(until, str)
+        assert isinstance(condition, Condition)
+        assert isinstance(scans, int)
+        assert not isinstance(until, str)
         return Made(source, condition, until, scans)
 
     def _graded(self, source: Requirement) -> Made:
@@ -182,8 +188,7 @@ class Rules:
         if isinstance(found, BadCondition):
             begin = piece.span.column + found.column - 1
             span = Span(piece.span.file, piece.span.line, begin, piece.span.line, max(begin + 1, piece.span.end_column))
-            near = "" if "Did you mean" in found.message else perhaps(found.near)
-            return self._problem(span, f"{found.message}{near}")
+            return self._problem(span, found.message)
         return Condition(found, tuple(self._parts(piece.text)))
 
     def _restarting(self, piece: Piece) -> Condition | str:
@@ -215,7 +220,12 @@ def problems_of(program: Program | None, sources: Mapping[str, str]) -> list[Pro
     """What is wrong with the requirements; without a program only what their text says."""
     if program is not None:
         return rules_of(program, sources).problems
-    return [each for name, text in sources.items() if is_requirements(name) for each in read_requirements(text, name).problems]
+    return [
+        each
+        for name, text in sources.items()
+        if is_requirements(name)
+        for each in read_requirements(text, name).problems
+    ]
 
 
 def required_with(required: Required, rules: Rules) -> Required:
@@ -230,7 +240,14 @@ def _in(rule: _About, state: str | None) -> bool:
 def _shown(node: tree.Expression, text: str) -> Iterator[str]:
     """The variables, addresses and elements in an expression, as they are written."""
     match node:
-        case tree.Name() | tree.MemberOf() | tree.IndexOf() | tree.PartialAccess() | tree.DirectAddress() | tree.Dereference():
+        case (
+            tree.Name()
+            | tree.MemberOf()
+            | tree.IndexOf()
+            | tree.PartialAccess()
+            | tree.DirectAddress()
+            | tree.Dereference()
+        ):
             yield text[node.span.column - 1 : node.span.end_column - 1].strip()
         case tree.UnaryOp():
             yield from _shown(node.operand, text)
@@ -243,5 +260,3 @@ def _shown(node: tree.Expression, text: str) -> Iterator[str]:
                     yield from _shown(each.value, text)
         case _:
             return
-
-

@@ -101,7 +101,7 @@ class RequiredRun:
         """What ended the run early; empty: nothing."""
         trap = self._resource.trap
         if trap is not None:
-            return f"the program stopped{'' if scans is None else f' in scan {scans}'}: {trap}"
+            return f"the program stopped: {trap}" if scans is None else f"the program stopped in scan {scans}: {trap}"
         if scans is not None and scans < self._window and not self._resource.runnable:
             return "the program does not run any more"
         return ""

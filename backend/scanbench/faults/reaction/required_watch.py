@@ -20,7 +20,9 @@ def result(made: Made, outcome: Outcome, reason: Unchecked = "", note: str = "")
 def not_checked(every: Iterable[Made], reason: Unchecked, note: str) -> tuple[RequiredResult, ...]:
     """The same for all that need a run. What is invalid says so first."""
     return tuple(
-        result(made, "not_checked", "invalid", made.invalid) if made.invalid else result(made, "not_checked", reason, note)
+        result(made, "not_checked", "invalid", made.invalid)
+        if made.invalid
+        else result(made, "not_checked", reason, note)
         for made in every
         if made.condition is not None or made.invalid
     )
@@ -32,7 +34,9 @@ def graded(every: Iterable[Made], verdict: Verdict) -> tuple[RequiredResult, ...
     for made in every:
         if made.grade is not None:
             passed = made.grade == "none" or fulfils(verdict, made.grade)
-            found.append(replace(result(made, "passed" if passed else "failed"), values=(ValueThen("verdict", verdict),)))
+            found.append(
+                replace(result(made, "passed" if passed else "failed"), values=(ValueThen("verdict", verdict),))
+            )
     return tuple(found)
 
 
