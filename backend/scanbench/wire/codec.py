@@ -24,7 +24,17 @@ from scanbench.faults.disturb.disturb import DISTURBED, Calm, Disturb, Disturban
 from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
 from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
 from scanbench.faults.preview import PreviewedWrite
-from scanbench.faults.reaction.reaction import Carried, Difference, Line, Reaction, Reader, Unreached
+from scanbench.faults.reaction.reaction import (
+    Carried,
+    Difference,
+    Line,
+    Reaction,
+    Reader,
+    RequiredResult,
+    Restart,
+    Unreached,
+    ValueThen,
+)
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
@@ -76,7 +86,7 @@ _CLASSES: dict[str, type] = {
         protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
         symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
-        protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, Unreached, job_protocol.SweepPlanned,
+        protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, Restart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
         events.CheckOutcome, Problem, PouInfo, CheckSite, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
