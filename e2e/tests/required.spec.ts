@@ -2,7 +2,7 @@ import { expect, test } from '../fixtures/test';
 
 const BATTERY = 'Battery error';
 
-test('a required reaction is red, the program is mended, then it is green', {
+test('a required reaction is red, the program is corrected, then it is green', {
   tag: '@nightly',
 }, async ({ openAs }) => {
   const ann = await openAs('Ann');
@@ -34,7 +34,7 @@ test('a required reaction is red, the program is mended, then it is green', {
     await simulator.recover(BATTERY);
   });
 
-  await test.step('the program is mended', async () => {
+  await test.step('the program is corrected', async () => {
     await ann.explorer.item('Globals.st').click();
     await ann.editor('Globals.st').addBelow('cpuBusError', '  batteryError AT A402.04 : BOOL;');
     await handler.open();

@@ -416,7 +416,7 @@ def required(project: Path, text: str = REQUIRED) -> tuple[str, ...]:
     return ("errors", "sweep", str(project), *FEW, "--window", "20")
 
 
-def test_required_reactions_are_red_until_the_program_is_mended(project: Path) -> None:
+def test_required_reactions_are_red_until_the_program_is_corrected(project: Path) -> None:
     junit, page = project.parent / "junit.xml", project.parent / "page.html"
     call = (*required(project), "--junit", str(junit), "--html", str(page))
     red = scanbench(*call)
@@ -427,8 +427,8 @@ def test_required_reactions_are_red_until_the_program_is_mended(project: Path) -
     (message,) = (each.get("message") for each in ElementTree.parse(junit).iter("failure"))
     assert message == "nonfatal error: not reached; required: decided; failed: lamp within 2 scans"
     assert "Required reactions" in page.read_text("utf-8")
-    mended = (project / "main.st").read_text("utf-8").replace("IF on THEN lamp := battery; END_IF;", "lamp := battery;")
-    (project / "main.st").write_text(mended, "utf-8")
+    corrected = (project / "main.st").read_text("utf-8").replace("IF on THEN lamp := battery; END_IF;", "lamp := battery;")
+    (project / "main.st").write_text(corrected, "utf-8")
     green = scanbench(*call)
     assert green.returncode == 0, green.stdout
     assert "requirements: 5 passed, 2 not checked" in green.stdout

@@ -14,7 +14,7 @@ interface Block {
   lines: string[];
 }
 
-/** What the file says of an error in any state: without the space in front of its lines. Empty: nothing. */
+/** What the file says of an error in any state: without the space at the beginning of its lines. Empty: nothing. */
 export function requiredOf(text: string, error: string): string {
   return find(text.split("\n"), error)?.lines.join("\n") ?? "";
 }
