@@ -5525,12 +5525,22 @@ export interface components {
             /** Note */
             note: string;
             /**
+             * Required
+             * @description Requirements that were checked,
+             */
+            required: number;
+            /**
              * Scans
              * @description Until the first effect.
              */
             scans: number | null;
             /** State */
             state: string;
+            /**
+             * Unmet
+             * @description and how much is not as it is required, unexpected restarts counted.
+             */
+            unmet: number;
             /**
              * Verdict
              * @description None: it could not be raised, `note` says why.
