@@ -19,10 +19,10 @@ from scanbench.faults.reaction.reaction import (
     Line,
     Obstacle,
     Outcome,
+    OutputRestart,
     Reaction,
     Reader,
     RequiredResult,
-    Restart,
     Unchecked,
     Unreached,
     ValueThen,
@@ -175,7 +175,7 @@ def _reaction(node: etree._Element) -> Reaction:
         ),
         required=tuple(map(_required, node.findall("Required"))),
         restarts=tuple(
-            Restart(_text(one, "Path"), _count(one, "Scan"), _text(one, "AllowedBy")) for one in node.findall("Restart")
+            OutputRestart(_text(one, "Path"), _count(one, "Scan"), _text(one, "AllowedBy")) for one in node.findall("Restart")
         ),
         recovery=_count(node, "Recovery"),
     )  # fmt: skip

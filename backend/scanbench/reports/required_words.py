@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from scanbench.faults.reaction.reaction import Outcome, Reaction, RequiredResult, Restart
+from scanbench.faults.reaction.reaction import Outcome, OutputRestart, Reaction, RequiredResult
 
 OUTCOMES: Mapping[Outcome, str] = {"passed": "passed", "failed": "failed", "not_checked": "not checked"}
 
@@ -26,12 +26,12 @@ def required_lines(reaction: Reaction) -> list[str]:
     return [*found, *map(restarted, reaction.restarts)]
 
 
-def restarted(each: Restart) -> str:
+def restarted(each: OutputRestart) -> str:
     """A sentence about an output."""
     went = f"{each.path} went on again by itself in scan {each.scan} after the recovery"
     return f"{went}; `{each.allowed_by}` allows it" if each.allowed_by else f"unexpected restart: {went}"
 
 
-def unexpected(reaction: Reaction) -> list[Restart]:
+def unexpected(reaction: Reaction) -> list[OutputRestart]:
     """The restarts that no requirement allows."""
     return [each for each in reaction.restarts if not each.allowed_by]

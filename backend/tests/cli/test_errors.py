@@ -427,7 +427,9 @@ def test_required_reactions_are_red_until_the_program_is_corrected(project: Path
     (message,) = (each.get("message") for each in ElementTree.parse(junit).iter("failure"))
     assert message == "nonfatal error: not reached; required: decided; failed: lamp within 2 scans"
     assert "Required reactions" in page.read_text("utf-8")
-    corrected = (project / "main.st").read_text("utf-8").replace("IF on THEN lamp := battery; END_IF;", "lamp := battery;")
+    corrected = (
+        (project / "main.st").read_text("utf-8").replace("IF on THEN lamp := battery; END_IF;", "lamp := battery;")
+    )
     (project / "main.st").write_text(corrected, "utf-8")
     green = scanbench(*call)
     assert green.returncode == 0, green.stdout

@@ -13,6 +13,7 @@ from scanbench.faults.reaction.sweep import sweep
 from scanbench.runtime.command import Entry
 from scanbench.runtime.write import Write
 from scanbench.syntax.requirements import REQUIREMENTS, read_requirements
+from scanbench.wire.codec import Splitter, pack
 from tests.faults.reacting import MAKES, checked, point_of, programs, ref, standing
 
 WINDOW = 30
@@ -130,6 +131,7 @@ def test_an_output_that_goes_on_again_by_itself_is_a_finding(make: MakeObserved)
     reaction = found("", "battery-error", make)
     assert [(each.path, each.scan, each.allowed_by) for each in reaction.restarts] == [("motor", 1, "")]
     assert reaction.recovery == WINDOW
+    assert next(Splitter().feed(pack(reaction))) == reaction  # as it crosses a process
     assert reaction.unmet == ("motor went on again by itself",)
     assert found("", "basic-io-error", make).restarts == ()
     assert found("", "inner-board-error", make).recovery == 0  # nothing was switched off: nothing to try

@@ -14,10 +14,10 @@ from typing import TypeVar
 from scanbench.faults.reaction.reaction import (
     Carried,
     Line,
+    OutputRestart,
     Reaction,
     Reader,
     RequiredResult,
-    Restart,
     Unreached,
     ValueThen,
 )
@@ -86,7 +86,7 @@ def judged(xml: str) -> str:
             RequiredResult("after recovery: motor until reset", 3, "failed", True, 7, (ValueThen("motor", "FALSE"),)),
             RequiredResult("lmp", 4, "not_checked", reason="invalid", note="There is no `lmp`."),
         ),
-        restarts=(Restart("fan", 2), Restart("motor", 1, "after recovery: motor may restart")),
+        restarts=(OutputRestart("fan", 2), OutputRestart("motor", 1, "after recovery: motor may restart")),
         recovery=50,
     )
     made = replace(record, errors=(replace(first, reaction=reaction), *others))

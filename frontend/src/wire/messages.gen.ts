@@ -5071,6 +5071,24 @@ export interface components {
             vector: string | null;
         };
         /**
+         * OutputRestart
+         * @description An output that the error had switched off, and that went on again by itself when the error was recovered.
+         */
+        OutputRestart: {
+            /**
+             * Allowed By
+             * @description The requirement that allows it; empty: none does, it is a finding.
+             */
+            allowed_by: string;
+            /** Path */
+            path: string;
+            /**
+             * Scan
+             * @description Since the recovery, from 1.
+             */
+            scan: number;
+        };
+        /**
          * PastInfo
          * @description What is shown is the past: the PLC waits at `live_scan`.
          */
@@ -5132,7 +5150,7 @@ export interface components {
          * PlcCommand
          * @description A command by its `type`.
          */
-        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart-Input"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
+        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
         /**
          * Pou
          * @description What a file declares, for the explorer.
@@ -5442,7 +5460,7 @@ export interface components {
              */
             required: components["schemas"]["RequiredResult"][];
             /** Restarts */
-            restarts: components["schemas"]["Restart-Output"][];
+            restarts: components["schemas"]["OutputRestart"][];
             /**
              * Unreached
              * @description Statements that would read it and were not executed.
@@ -5870,46 +5888,6 @@ export interface components {
              * @enum {string}
              */
             type: "restart";
-        };
-        /**
-         * Restart
-         * @description Restarts the program, in every mode; afterwards it runs.
-         */
-        "Restart-Input": {
-            /**
-             * Kind
-             * @enum {string}
-             */
-            kind: "cold" | "warm" | "power";
-            /**
-             * Ref
-             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
-             * @default 0
-             */
-            ref: number;
-            /**
-             * @description discriminator enum property added by openapi-typescript
-             * @enum {string}
-             */
-            type: "restart";
-        };
-        /**
-         * Restart
-         * @description An output that the error had switched off, and that went on again by itself when the error was recovered.
-         */
-        "Restart-Output": {
-            /**
-             * Allowed By
-             * @description The requirement that allows it; empty: none does, it is a finding.
-             */
-            allowed_by: string;
-            /** Path */
-            path: string;
-            /**
-             * Scan
-             * @description Since the recovery, from 1.
-             */
-            scan: number;
         };
         /**
          * RestartRequest

@@ -152,7 +152,7 @@ class RequiredResult(Public):
 
 
 @dataclass(frozen=True, slots=True)
-class Restart(Public):
+class OutputRestart(Public):
     """An output that the error had switched off, and that went on again by itself when the error was recovered."""
 
     path: str
@@ -192,7 +192,7 @@ class Reaction(Public):
     """Statements that would read it and were not executed."""
     required: tuple[RequiredResult, ...] = ()
     """What the project requires, in the order of its file."""
-    restarts: tuple[Restart, ...] = ()
+    restarts: tuple[OutputRestart, ...] = ()
     recovery: int = 0
     """Scans that were run after the recovery; 0: it was not tried, as nothing depends on it."""
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from scanbench.faults.inject import ACTIVE, Recover
 from scanbench.faults.reaction.effects import Variables
 from scanbench.faults.reaction.error_memory import Words
-from scanbench.faults.reaction.reaction import Reaction, RequiredResult, Restart
+from scanbench.faults.reaction.reaction import OutputRestart, Reaction, RequiredResult
 from scanbench.faults.reaction.required_rules import Made
 from scanbench.faults.reaction.required_watch import Watch, allows, graded, not_checked, result
 from scanbench.faults.reaction.restarts import Outputs, is_on
@@ -31,7 +31,7 @@ class RequiredRun:
         self._recovery = 0
         """Scans since the recovery."""
         self._off: list[Leaf] = []
-        self._restarts: dict[str, Restart] = {}
+        self._restarts: dict[str, OutputRestart] = {}
 
     def before(self) -> None:
         """A scan comes; what came from outside is entered."""
@@ -95,7 +95,7 @@ class RequiredRun:
         for leaf in self._off:
             if leaf.name not in self._restarts and is_on(leaf, memory):
                 allowed = allows(self._every, leaf, self._resource.program, memory)
-                self._restarts[leaf.name] = Restart(leaf.name, self._recovery, allowed)
+                self._restarts[leaf.name] = OutputRestart(leaf.name, self._recovery, allowed)
 
     def _stopped(self, scans: int | None) -> str:
         """What ended the run early; empty: nothing."""
