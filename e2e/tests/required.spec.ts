@@ -20,7 +20,7 @@ test('a required reaction is red, the program is corrected, then it is green', {
     await lines.fill('lamp = TRUE within 2 scans\nafter recovery: lamp stays TRUE until reset');
     await expect(simulator.details.getByRole('alert')).toHaveCount(0);
     await expect(simulator.details).toContainText('Not saved yet');
-    await handler.open();
+    await ann.explorer.item('ErrorHandler').click();
     await handler.build();
     await expect(handler.outcome).toContainText('Built for line-1');
   });
