@@ -34,6 +34,8 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "ErrorTime": ("place", "format"),
     "Special": ("address", "meaning", "text"),
     "Instruction": ("effect", "numbers", "clearing", "system-errors", "text"),
+    "Message": ("numbers", "text"),
+    "Query": ("effect", "numbers", "text"),
     "Reset": ("effect", "text"),
     "Error": ("flag", "code", "severity", "priority", "cause", "memory", "log", "details", "text"),
 }

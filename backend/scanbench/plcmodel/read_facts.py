@@ -101,16 +101,26 @@ def _special(node: etree._Element) -> Iterator[tuple[str, str]]:
 
 
 def _instruction(node: etree._Element) -> Iterator[tuple[str, str]]:
-    if node.tag == "Reset":
-        yield "effect", node.get("Flags", "")
-    else:
-        yield "effect", node.get("Error", "")
-        yield "numbers", f"{node.get('Min')}-{node.get('Max')}"
-        if node.get("Clears") is not None:
-            yield "clearing", node.get("Clears", "")
-        if node.get("SystemErrors") is not None:
-            yield "system-errors", node.get("SystemErrors", "")
+    match node.tag:
+        case "Reset":
+            yield "effect", node.get("Flags", "")
+        case "Query":
+            yield "effect", f"{node.get('Flags')} {node.get('Code')}"
+            yield "numbers", f"{node.get('Bits')}: {node.get('Levels')}"
+        case "Message":
+            yield "numbers", _numbers(node)
+        case _:
+            yield "effect", ", ".join([node.get("Error", ""), *(each.get("Error", "") for each in node.iter("Range"))])
+            yield "numbers", ", ".join(map(_numbers, [node, *node.iter("Range")]))
+            if node.get("Clears") is not None:
+                yield "clearing", node.get("Clears", "")
+            if node.get("SystemErrors") is not None:
+                yield "system-errors", node.get("SystemErrors", "")
     yield from _text(node, "Description")
+
+
+def _numbers(node: etree._Element) -> str:
+    return f"{node.get('Min')}-{node.get('Max')}"
 
 
 def _error(node: etree._Element, error: ErrorEntry) -> Iterator[tuple[str, str]]:

@@ -16,8 +16,8 @@ from scanbench.program.types import Record
 _SAMPLES = 500
 _WORDS = frozenset({"description", "source", "verified", "wordings", "user", "facts"})
 _LATER = frozenset({
-    (ErrorAddress, "lasting"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"), (ResetInstruction, "code"),
-    (Model, "queries"), (Model, "messages"),
+    (Area, "texts"), (ErrorAddress, "lasting"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"),
+    (ResetInstruction, "code"), (Model, "queries"), (Model, "messages"),
 })  # fmt: skip
 """Fields that came after run files were kept: with their defaults they say nothing, so that runs from before fit."""
 _F64 = struct.Struct("<d")

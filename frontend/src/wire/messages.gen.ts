@@ -445,6 +445,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/errors/device": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What a tool reads from the PLC's memory at the scan that is shown: errors that are present, its own error log, messages
+         * @description What a tool reads from the PLC's memory at the scan that is shown: errors that are present, its own error log, messages.
+         */
+        get: operations["get_instance_errors_device"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/errors/disarm": {
         parameters: {
             query?: never;
@@ -677,6 +697,27 @@ export interface paths {
          * @description Who last wrote a variable before `scan` began, or before what is shown now.
          */
         get: operations["get_instance_last_write"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/log": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this `kind`), or the last ones
+         * @description Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this
+         *     `kind`), or the last ones.
+         */
+        get: operations["get_instance_log"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2560,6 +2601,7 @@ export interface components {
              * @default {
              *       "acknowledge": "",
              *       "kind": "stay",
+             *       "per_million": 1000,
              *       "period": 2,
              *       "scans": 1,
              *       "seed": null,
@@ -2644,6 +2686,7 @@ export interface components {
              * @default {
              *       "acknowledge": "",
              *       "kind": "stay",
+             *       "per_million": 1000,
              *       "period": 2,
              *       "scans": 1
              *     }
@@ -3121,7 +3164,7 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
         /** CloseDraft */
         CloseDraft: {
             /** Path */
@@ -3347,6 +3390,183 @@ export interface components {
             label?: string | null;
             /** Message */
             message?: string | null;
+        };
+        /**
+         * Device
+         * @description The device's own view of its errors, read from its memory.
+         */
+        Device: {
+            found: components["schemas"]["DeviceErrors"];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "device";
+        };
+        /**
+         * DeviceDetail
+         * @description One detail of an error as the memory shows it.
+         */
+        DeviceDetail: {
+            /**
+             * Name
+             * @description As in the catalogue: `rack`.
+             */
+            name: string;
+            /**
+             * Text
+             * @description For people, in English: `Rack number: 1`.
+             */
+            text: string;
+            /**
+             * Value
+             * @description A number, a text or the id of a choice; several choices that are on together are joined by `+`.
+             */
+            value: string;
+        };
+        /**
+         * DeviceError
+         * @description An error that the memory shows as present.
+         */
+        DeviceError: {
+            /**
+             * Cause
+             * @description What the catalogue says about it.
+             */
+            cause: string;
+            /**
+             * Code
+             * @description With what details add; empty where the memory does not say it.
+             */
+            code: string;
+            /** Details */
+            details: components["schemas"]["DeviceDetail"][];
+            /** Flag */
+            flag: string;
+            /**
+             * Id
+             * @description Of the catalogue; empty where a flag is on and nothing says which of its errors it is.
+             */
+            id: string;
+            /**
+             * Lasting
+             * @description While its cause lasts it shows again as soon as it is cleared.
+             */
+            lasting: boolean;
+            /** Name */
+            name: string;
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "fatal" | "nonfatal";
+            /**
+             * Text
+             * @description What the program said with it: the text of FAL or FALS.
+             */
+            text: string;
+            /**
+             * Top
+             * @description Its code is the one in the code word.
+             */
+            top: boolean;
+        };
+        /**
+         * DeviceErrors
+         * @description The device's own view of its errors, read from its memory at one scan.
+         */
+        DeviceErrors: {
+            /**
+             * Code
+             * @description What the code word shows; all digits 0 where no error is present, empty where the model has no code word.
+             */
+            code: string;
+            /**
+             * Codes
+             * @description How the model writes its codes: four or eight hexadecimal digits, or decimal.
+             * @enum {string}
+             */
+            codes: "hex4" | "hex8" | "decimal";
+            /**
+             * Errors
+             * @description The most serious first.
+             */
+            errors: components["schemas"]["DeviceError"][];
+            /**
+             * Has Log
+             * @description The model keeps an error log in its memory.
+             */
+            has_log: boolean;
+            /**
+             * Keeps Latest
+             * @description The model keeps the latest error with its time instead of a log.
+             */
+            keeps_latest: boolean;
+            /**
+             * Log
+             * @description The newest first.
+             */
+            log: components["schemas"]["DeviceRecord"][];
+            /** Messages */
+            messages: components["schemas"]["DeviceMessage"][];
+            /**
+             * Past
+             * @description It is the past that is shown.
+             */
+            past: boolean;
+            /** Scan */
+            scan: number;
+        };
+        /**
+         * DeviceMessage
+         * @description A message that the program shows on tools (MSG).
+         */
+        DeviceMessage: {
+            /** Instruction */
+            instruction: string;
+            /** Number */
+            number: number;
+            /** Text */
+            text: string;
+        };
+        /**
+         * DeviceRecord
+         * @description A record of the device's own error log.
+         */
+        DeviceRecord: {
+            /** Code */
+            code: string;
+            /**
+             * Contents
+             * @description The word with details, in hexadecimal; empty where the log has none.
+             */
+            contents: string;
+            /** Details */
+            details: components["schemas"]["DeviceDetail"][];
+            /**
+             * Id
+             * @description Of the catalogue; empty where no error has this code.
+             */
+            id: string;
+            /** Name */
+            name: string;
+            /**
+             * Number
+             * @description Its place in the log: 1 is the oldest that is there.
+             */
+            number: number;
+            /** Severity */
+            severity: ("fatal" | "nonfatal") | null;
+            /**
+             * Text
+             * @description What the program says now with this number; the log itself keeps no text.
+             */
+            text: string;
+            /**
+             * Time
+             * @description The PLC's clock at that moment, `2026-11-24 10:15:02`; empty where the record has no time.
+             */
+            time: string;
         };
         /**
          * Diagnostics
@@ -3860,6 +4080,11 @@ export interface components {
             description: string;
             /** Details */
             details: components["schemas"]["ErrorDetail"][];
+            /**
+             * Facts
+             * @description none of a project's own error
+             */
+            facts: components["schemas"]["Fact"][];
             /** Flag */
             flag: string;
             /** Id */
@@ -3903,10 +4128,39 @@ export interface components {
             type: "errors";
         };
         /**
+         * Fact
+         * @description One statement of the model about the device, and where it comes from.
+         */
+        Fact: {
+            /**
+             * Inherited
+             * @description it has no source of its own, but that of the whole error
+             */
+            inherited: boolean;
+            /**
+             * Of
+             * @description flag, code, severity, priority, cause, memory, log, details, text
+             */
+            of: string;
+            /**
+             * Source
+             * @description keys are in models/FORMAT.md
+             */
+            source: string;
+            /** Value */
+            value: string;
+            /**
+             * Verified
+             * @description somebody found it on the page that `source` names
+             */
+            verified: boolean;
+        };
+        /**
          * FaultShape
          * @description How a fault goes on. stay: until it is recovered. for: `scans`. intermittent: present for `scans` of each `period`,
          *     `times` times (null: until it is taken back), varied by chance when there is a `seed`. chatter: on and off in turn, scan by scan,
-         *     `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds.
+         *     `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds. chance: while it is gone, it comes in each scan with a
+         *     probability of `per_million` millionths, and is present for `scans`; `seed` decides in which.
          */
         FaultShape: {
             /**
@@ -3919,7 +4173,12 @@ export interface components {
              * @default stay
              * @enum {string}
              */
-            kind: "stay" | "for" | "intermittent" | "chatter" | "unacknowledged";
+            kind: "stay" | "for" | "intermittent" | "chatter" | "unacknowledged" | "chance";
+            /**
+             * Per Million
+             * @default 1000
+             */
+            per_million: number;
             /**
              * Period
              * @default 2
@@ -4114,6 +4373,25 @@ export interface components {
             type: "generate";
         };
         /**
+         * GenerateAbsent
+         * @description Raises those of the errors that are not present, all between the same two scans; the others stay as they are.
+         */
+        GenerateAbsent: {
+            /** Errors */
+            errors: components["schemas"]["GenerateOne"][];
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "generate_absent";
+        };
+        /**
          * GenerateErrors
          * @description All of them between the same two scans, or none. `again`: errors that are present change to these details.
          */
@@ -4270,6 +4548,8 @@ export interface components {
             /** Breakpoints */
             breakpoints: components["schemas"]["BreakpointInfo"][];
             coverage: components["schemas"]["Coverage"] | null;
+            /** @description null until the PLC was there once */
+            device: components["schemas"]["DeviceErrors"] | null;
             diagnostics: components["schemas"]["Diagnostics"];
             /** Disturbances */
             disturbances: components["schemas"]["DisturbanceInfo"][];
@@ -4609,6 +4889,29 @@ export interface components {
             text: string;
         };
         /**
+         * LogPage
+         * @description A stretch of the log as it is kept.
+         */
+        LogPage: {
+            /**
+             * First
+             * @description The number of the first of these lines, counted from 0.
+             */
+            first: number;
+            /**
+             * Kept
+             * @description Lines that are kept at most; older ones go.
+             */
+            kept: number;
+            /** Lines */
+            lines: components["schemas"]["LogLine"][];
+            /**
+             * Total
+             * @description Lines that are kept (of the kind that was asked for).
+             */
+            total: number;
+        };
+        /**
          * LostVariable
          * @description A variable whose value does not go over.
          */
@@ -4687,6 +4990,11 @@ export interface components {
             description: string;
             /** Error Count */
             error_count: number;
+            /**
+             * Fact Count
+             * @description statements about the device, each with a source: `scanbench model facts`
+             */
+            fact_count: number;
             /** Name */
             name: string;
             /**
@@ -4698,9 +5006,14 @@ export interface components {
             vendor: string;
             /**
              * Verified Count
-             * @description errors whose facts were looked up, not only known
+             * @description errors all of whose facts were looked up, not only known
              */
             verified_count: number;
+            /**
+             * Verified Facts
+             * @description how many of them were looked up on a page
+             */
+            verified_facts: number;
         };
         /** ModelSummary */
         ModelSummary: {
@@ -4708,15 +5021,25 @@ export interface components {
             description: string;
             /** Error Count */
             error_count: number;
+            /**
+             * Fact Count
+             * @description statements about the device, each with a source: `scanbench model facts`
+             */
+            fact_count: number;
             /** Name */
             name: string;
             /** Vendor */
             vendor: string;
             /**
              * Verified Count
-             * @description errors whose facts were looked up, not only known
+             * @description errors all of whose facts were looked up, not only known
              */
             verified_count: number;
+            /**
+             * Verified Facts
+             * @description how many of them were looked up on a page
+             */
+            verified_facts: number;
         };
         /**
          * NewCommit
@@ -5150,7 +5473,7 @@ export interface components {
          * PlcCommand
          * @description A command by its `type`.
          */
-        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
+        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
         /**
          * Pou
          * @description What a file declares, for the explorer.
@@ -6144,7 +6467,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /** SetCell */
         SetCell: {
             /** Call */
@@ -8885,6 +9208,37 @@ export interface operations {
             };
         };
     };
+    get_instance_errors_device: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceErrors"];
+                };
+            };
+        };
+    };
     disarm_instance_errors: {
         parameters: {
             query?: never;
@@ -9280,6 +9634,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["LastWriter"];
+                };
+            };
+        };
+    };
+    get_instance_log: {
+        parameters: {
+            query?: {
+                count?: number;
+                first?: number | null;
+                kind?: ("write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt" | "disturbance") | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LogPage"];
                 };
             };
         };
