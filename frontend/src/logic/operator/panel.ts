@@ -6,7 +6,7 @@ export type Kind = (typeof KINDS)[number];
 
 /** What it means that a lamp is on, or a button pressed: as the colours of IEC 60073 do. */
 export const TONES = ["normal", "neutral", "warning", "fault"] as const;
-export type Tone = (typeof TONES)[number];
+type Tone = (typeof TONES)[number];
 
 /** Cells of the grid, counted from 0 at the top left. */
 interface Place {

@@ -1,7 +1,7 @@
 /** The looks at the past that this browser began: each is at a branch that the server ends when nobody is there. */
 import { keep, recall } from "../page/localStorage";
 
-export interface Look {
+interface Look {
   /** The PLC that one came from. */
   of: number;
   scan: number;
