@@ -33,8 +33,9 @@ test("the value of an open hover is the live one, and nothing is watched once it
 test("a value that is not known leaves what was said", async () => {
   await openPage();
   const hover = drawHover("a + b : INT := 5");
-  liveHover("a + b : INT", "a + b");
+  const end = liveHover("a + b : INT", "a + b");
   await waitFor(() => expect(useWatches.getState().refusals.has("a + b")).toBe(true));
   expect(hover.textContent?.replaceAll("\u00a0", " ")).toBe("a + b : INT := 5");
   hover.remove();
+  end();
 });

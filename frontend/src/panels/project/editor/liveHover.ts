@@ -8,8 +8,8 @@ const LOOK = 250;
 
 let stop: () => void = () => undefined;
 
-/** Keeps the line `head := value` of the hover up to date, by the value of a path; one hover is open at a time. */
-export function liveHover(head: string, path: string): void {
+/** Keeps the line `head := value` of the hover up to date, by the value of a path, until the returned function is called; one hover is open at a time. */
+export function liveHover(head: string, path: string): () => void {
   stop();
   const begun = Date.now();
   let text: string | null = null;
@@ -33,6 +33,7 @@ export function liveHover(head: string, path: string): void {
     unbind();
     unwatch();
   };
+  return stop;
 }
 
 const lineOf = (head: string) =>
