@@ -16,10 +16,12 @@ from scanbench.program.types import Record
 _SAMPLES = 500
 _WORDS = frozenset({"description", "source", "verified", "wordings", "user", "facts"})
 _LATER = frozenset({
-    (Area, "texts"), (ErrorAddress, "lasting"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"),
-    (ResetInstruction, "code"), (Model, "queries"), (Model, "messages"),
+    (Area, "texts"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"), (ResetInstruction, "code"),
+    (Model, "queries"), (Model, "messages"),
 })  # fmt: skip
 """Fields that came after run files were kept: with their defaults they say nothing, so that runs from before fit."""
+_ENTERED = frozenset({(ErrorAddress, "lasting")})
+"""Fields that decide what is entered into the journal: what was entered a run keeps."""
 _F64 = struct.Struct("<d")
 
 
@@ -40,7 +42,8 @@ def _deeds(value: object, areas: set[str]) -> Iterator[str]:
         if isinstance(value, Area):
             areas.add(value.name)
         for field in fields(value):
-            if (type(value), field.name) in _LATER and getattr(value, field.name) == field.default:
+            place = (type(value), field.name)
+            if place in _ENTERED or (place in _LATER and getattr(value, field.name) == field.default):
                 continue
             if field.name not in _WORDS and not (field.name == "name" and hasattr(value, "id")):
                 yield field.name

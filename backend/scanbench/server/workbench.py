@@ -39,8 +39,8 @@ from scanbench.session.log import LOG_LINES
 from scanbench.session.session import Session
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
-from scanbench.wire.events import LogPage
 from scanbench.wire.host import Driven
+from scanbench.wire.log import LogPage
 from scanbench.wire.refused import Refused, Unavailable
 
 log = logging.getLogger("scanbench")

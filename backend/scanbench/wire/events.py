@@ -94,21 +94,6 @@ class LogEntry(Public):
 
 
 @dataclass(frozen=True, slots=True)
-class LogPage(Public):
-    """A stretch of the log as it is kept."""
-
-    PUBLIC: ClassVar = "LogPage"
-
-    first: int
-    """The number of the first of these lines, counted from 0."""
-    total: int
-    """Lines that are kept (of the kind that was asked for)."""
-    kept: int
-    """Lines that are kept at most; older ones go."""
-    lines: tuple[LogEntry, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class StateChanged:
     """The PLC's state changed."""
 

@@ -19,8 +19,8 @@ from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket.socket import Client
-from scanbench.wire.events import LogPage
 from scanbench.wire.host import MarkKind as LogKind
+from scanbench.wire.log import LogPage
 from scanbench.wire.refused import Refused
 from scanbench.wire.symbols import SymbolInfo
 
