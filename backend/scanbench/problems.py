@@ -126,4 +126,5 @@ TABLE: dict[str, str] = {
     "M008": "error detail that is incomplete",
     "M009": "base model that cannot be used",
     "M010": "special address or instruction that does not fit its role or error",
+    "M011": "hardware configuration that the model does not allow",
 }

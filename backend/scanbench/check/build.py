@@ -35,7 +35,7 @@ from scanbench.check.system.system import System, system_of
 from scanbench.check.system.system_text import COMMON
 from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model, Who
-from scanbench.plcmodel.user_errors import extended, is_user_errors
+from scanbench.plcmodel.user_errors import extended, is_of_catalogue
 from scanbench.problems import Problem, Severity, Span
 from scanbench.program.origin import in_library, is_system
 from scanbench.program.program import Assign, Base, Const, Expr, Place, Pou, Program
@@ -90,8 +90,9 @@ def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 1
 
 
 def program_files(sources: Mapping[str, str]) -> dict[str, str]:
-    """The sources without the errors that the project defines, and what it requires: these are no part of the program."""
-    return {name: text for name, text in sources.items() if not is_user_errors(name) and not is_requirements(name)}
+    """The sources without the errors that the project defines, what is fitted, and what it requires: these are no part of the
+    program."""
+    return {name: text for name, text in sources.items() if not is_of_catalogue(name) and not is_requirements(name)}
 
 
 def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model) -> Checked:

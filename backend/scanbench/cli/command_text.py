@@ -67,7 +67,7 @@ def _raise(program: Program, text: str) -> Command:
 
 
 def _clear(program: Program, text: str) -> Command:
-    return Recover(AUTHOR, None if text.lower() == "all" else (read_error(program, text).id,))
+    return Recover(AUTHOR, None if text.lower() == "all" else (str(read_error(program, text)),))
 
 
 def _mode(_: Program, text: str) -> Command:

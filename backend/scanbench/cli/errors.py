@@ -25,6 +25,7 @@ from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.requirements import BadRequirements, read_requirements, wanted_of
 from scanbench.cli.run_options import read_interval
+from scanbench.cli.side_by_side import sweep_side_by_side
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state, while_present
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.reaction.choices import Choices
@@ -33,7 +34,7 @@ from scanbench.faults.reaction.reaction import WINDOW
 from scanbench.faults.reaction.required import Required
 from scanbench.faults.reaction.required_rules import Rules, rules_of
 from scanbench.faults.reaction.steps import Point
-from scanbench.faults.reaction.sweep import Cell, sweep
+from scanbench.faults.reaction.sweep import Cell
 from scanbench.faults.reference import ErrorRef, error_of, find_error
 from scanbench.jobs.starting import checked_program, model_of, point_in
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
@@ -207,7 +208,7 @@ def _swept(
     try:
         of = len(points) * len(raised)
         with progress(of, lambda: len(cells), lambda: f"{len(cells):,} of {of:,} cases"):
-            cells.extend(sweep(points, raised, window, programs, rules=rules))
+            cells.extend(sweep_side_by_side(points, raised, window, programs, rules=rules))
     except KeyboardInterrupt:
         return tuple(cells[: len(cells) - len(cells) % len(points)]), False
     return tuple(cells), True

@@ -9,7 +9,8 @@ from scanbench.check.system.system_text import Form
 from scanbench.faults import device_errors
 from scanbench.faults.clear import clear, most_serious, nonfatal
 from scanbench.faults.details import Chosen, choose
-from scanbench.faults.inject import ACTIVE, Active, Generate, Recover, present_after, present_choices
+from scanbench.faults.inject import ACTIVE, Generate, Recover, present_after, present_choices
+from scanbench.faults.present import Active
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Instruction, Location
 from scanbench.runtime.command import Command, Refusal, View

@@ -5,15 +5,15 @@ which is due. What can be told of a lane after a step follows from `Arm` and tha
 forget the steps between.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 from scanbench.check.typed.condition import BadCondition, compile_condition
-from scanbench.faults.details import choose
-from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.details import Chosen, choose
+from scanbench.faults.inject import Generate, Recover, clash, settled_ref, unfitted
 from scanbench.faults.lines import find_line
-from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.reference import ErrorRef, error_of, find_error
 from scanbench.faults.shapes import Wanted, describe_shape, flaw, lasts, step_count, waits_first
 from scanbench.public import Public
 from scanbench.runtime.command import Category, Command, Entry, Numbered, Plan, Refusal, View
@@ -31,6 +31,17 @@ class Arm(Command):
 
     wanted: Wanted
 
+    def settled(self, view: View) -> "Arm":
+        """With what tells the instances of its errors apart."""
+        refs: list[ErrorRef] = []
+        for ref in self.wanted.errors:
+            entry = find_error(view.model, ref.id)
+            chosen = entry if isinstance(entry, Refusal) else choose(entry, dict(ref.details), view.program.layout)
+            if isinstance(chosen, Refusal):
+                return self
+            refs.append(settled_ref(ref, chosen))
+        return replace(self, wanted=replace(self.wanted, errors=tuple(refs)))
+
     def plan(self, view: View) -> Plan | Refusal:
         """A number for it; the first step is entered when it is due, which may be in this very seam."""
         wanted = self.wanted
@@ -38,7 +49,7 @@ class Arm(Command):
         if refusal is not None:
             return refusal
         number = view.derived(NUMBERED) + 1
-        ids = ", ".join(ref.id for ref in wanted.errors)
+        ids = ", ".join(map(str, wanted.errors))
         return Plan((), f"armed {number}: {ids}, {describe_shape(wanted)}", Numbered(number))
 
 
@@ -97,14 +108,22 @@ class Lane:
     step: int = 0
     """The next one; even steps raise, odd ones recover."""
     present: tuple[str, ...] = ()
-    """What it raised and nobody took over or recovered."""
+    """What it raised and nobody took over or recovered, in the notation of references; in older runs ids alone."""
     ending: bool = False
     """Taken back: nothing but a recovery comes any more."""
 
     @property
-    def ids(self) -> tuple[str, ...]:
-        """Of its errors."""
-        return tuple(ref.id for ref in self.errors)
+    def texts(self) -> tuple[str, ...]:
+        """Its errors, in the notation of references."""
+        return tuple(map(str, self.errors))
+
+    def has_raised(self, ref: ErrorRef) -> bool:
+        """Whether this is one of its errors that is present."""
+        return any(_same(text, ref) for text in self.present)
+
+    def has(self, ref: ErrorRef) -> bool:
+        """Whether this is one of its errors."""
+        return any(each.id == ref.id and set(each.details) <= set(ref.details) for each in self.errors)
 
     @property
     def waiting(self) -> bool:
@@ -156,7 +175,7 @@ def _info(number: int, lanes: Sequence[Lane]) -> ArmedInfo:
     raised = max((lane.step + 1) // 2 for lane in lanes)
     dues = [lane.due for lane in lanes if lane.due is not None]
     return ArmedInfo(
-        number, tuple(ref.id for ref in wanted.errors), describe_shape(wanted), lanes[0].by,
+        number, tuple(map(str, wanted.errors)), describe_shape(wanted), lanes[0].by,
         "running" if raised else "waiting", raised, min(dues, default=None),
     )  # fmt: skip
 
@@ -205,7 +224,7 @@ def unmeant(wanted: Wanted, view: View, started: bool = False) -> Refusal | None
 
 
 def _bad_errors(wanted: Wanted, view: View) -> Refusal | None:
-    seen: set[str] = set()
+    seen: list[Chosen] = []
     for index, ref in enumerate(wanted.errors):
         entry = find_error(view.model, ref.id)
         if isinstance(entry, Refusal):
@@ -213,9 +232,11 @@ def _bad_errors(wanted: Wanted, view: View) -> Refusal | None:
         chosen = choose(entry, dict(ref.details), view.program.layout)
         if isinstance(chosen, Refusal):
             return chosen
-        if entry.id in seen:
+        if any(clash(chosen, other) for other in seen):
             return Refusal(f"{entry.id} is there twice: one error can be present only once")
-        seen.add(entry.id)
+        seen.append(chosen)
+        if (unfit := unfitted(view.model, chosen)) is not None:
+            return unfit
         if entry.severity != "fatal":
             continue
         if wanted.shape.kind != "stay":
@@ -273,15 +294,15 @@ def _changed(lane: Lane, command: Command, scan: int) -> Lane:
         case Disarm(ids=ids):
             taken = ids is None or lane.number in ids
             return replace(lane, ending=True, due=scan if lane.present else None) if taken else lane
-        case Generate(arm=lane.number, step=step) if _own(lane, _ids(command)):
-            return _after(lane, step, scan, lane.ids)
+        case Generate(arm=lane.number, step=step) if any(map(lane.has, command.errors)):
+            return _after(lane, step, scan, lane.texts)
         case Generate():
-            return _without(lane, _ids(command))
-        case Recover(arm=lane.number, step=step) if _own(lane, command.ids or ()):
+            return _without(lane, lambda text: _gives_way(text, command))
+        case Recover(arm=lane.number, step=step) if any(_goes(text, command) for text in lane.texts):
             return _after(lane, step, scan)
         case Recover():
-            return _without(lane, lane.present if command.ids is None else command.ids)
-        case Missed(arm=lane.number, step=step) if _own(lane, command.ids):
+            return _without(lane, lambda text: _goes(text, command))
+        case Missed(arm=lane.number, step=step) if not set(command.ids).isdisjoint((*lane.texts, *_ids(lane))):
             if step % 2 == 1:
                 return _after(lane, step, scan)
             # the scans in which it would have been present pass all the same
@@ -289,8 +310,26 @@ def _changed(lane: Lane, command: Command, scan: int) -> Lane:
     return lane
 
 
-def _own(lane: Lane, ids: Sequence[str]) -> bool:
-    return not set(ids).isdisjoint(lane.ids)
+def _same(text: str, ref: ErrorRef) -> bool:
+    """Whether this text of a lane means this error, written as it is in `ACTIVE`."""
+    return text in (ref.id, str(ref))
+
+
+def _gives_way(text: str, command: Generate) -> bool:
+    if command.replaces is None:
+        return error_of(text) in (ref.id for ref in command.errors)
+    return any(_same(text, ref) for ref in command.replaces)
+
+
+def _goes(text: str, command: Recover) -> bool:
+    if command.ids is None or error_of(text) in command.ids:
+        return True
+    return any(_same(text, ref) for ref in command.numbers)
+
+
+def _ids(lane: Lane) -> Iterator[str]:
+    """As steps that were missed name them in older runs."""
+    return (ref.id for ref in lane.errors)
 
 
 def _after(lane: Lane, step: int, scan: int, present: tuple[str, ...] = ()) -> Lane:
@@ -301,9 +340,9 @@ def _after(lane: Lane, step: int, scan: int, present: tuple[str, ...] = ()) -> L
     return replace(lane, step=step + 1, due=due, present=present)
 
 
-def _without(lane: Lane, ids: Sequence[str]) -> Lane:
+def _without(lane: Lane, gone: Callable[[str], bool]) -> Lane:
     """Somebody else recovered these errors, or raised them again: they are not this lane's any more."""
-    left = tuple(id for id in lane.present if id not in ids)
+    left = tuple(text for text in lane.present if not gone(text))
     if left == lane.present:
         return lane
     if left or lane.ending or lane.due is None:
@@ -318,10 +357,6 @@ def _with_others(changed: Lanes, lanes: Lanes, number: int, scan: int) -> dict[s
         key: replace(lane, due=scan + lane.offset) if began and lane.number == number and lane.waiting else lane
         for key, lane in changed.items()
     }
-
-
-def _ids(command: Generate) -> tuple[str, ...]:
-    return tuple(ref.id for ref in command.errors)
 
 
 ARMED: Fold[Lanes] = Fold({}, _step)

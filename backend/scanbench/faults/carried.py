@@ -7,7 +7,7 @@ never be recovered; one that writes different bits now would leave the old bits 
 from collections.abc import Mapping
 
 from scanbench.faults.details import Chosen, choose
-from scanbench.faults.inject import Active
+from scanbench.faults.present import Active
 from scanbench.faults.reference import ErrorRef
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program

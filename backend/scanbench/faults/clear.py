@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from scanbench.faults.details import Chosen
-from scanbench.faults.inject import ACTIVE, Active, Raised, Recover, describe, present_choices
+from scanbench.faults.inject import ACTIVE, Recover, describe, present_choices
+from scanbench.faults.present import Active, Raised
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.switch import rank
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 
+from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorAddress, ErrorDetail, ErrorEntry, Location
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Refusal
@@ -47,6 +48,16 @@ class Chosen:
     def bits(self) -> tuple[Bits, ...]:
         """Everything that the error writes."""
         return self.contents + self.marks
+
+    @property
+    def instance(self) -> ErrorRef:
+        """The error with just the details that tell it apart from others of its kind."""
+        names = {each.name for each in self.error.identifying}
+        return ErrorRef(self.error.id, tuple(each for each in self.details if each[0] in names))
+
+    def same_instance(self, other: "Chosen") -> bool:
+        """Whether the two are one error, whatever else their details say."""
+        return self.error is other.error and self.instance == other.instance
 
     @property
     def code_text(self) -> str:

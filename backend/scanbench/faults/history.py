@@ -1,14 +1,16 @@
-"""What was tested: for every version of the program one row for every error, folded from journal entries as they come."""
+"""What was tested: for every version of the program one row for every error instance, folded from journal entries as they come."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Literal
 
-from scanbench.faults.details import choose
-from scanbench.faults.inject import Active, Generate, Origin, Recover
+from scanbench.faults.details import Chosen, choose
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.present import Active, Origin, instances_in
 from scanbench.faults.reaction.reaction import WORST_FIRST, Reaction, Verdict
-from scanbench.faults.reference import ErrorRef
+from scanbench.faults.reference import ErrorRef, covers, named_reference, natural
+from scanbench.plcmodel.hardware import fitted_instances, is_fitted, name_of
 from scanbench.plcmodel.model import ErrorEntry, Model
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry, Refusal, Swapped
@@ -60,7 +62,7 @@ def _badness(swept: Swept) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class ErrorRow:
-    """The history of one error on one instance and one version of its program."""
+    """The history of one error instance on one PLC and one version of its program."""
 
     id: str
     name: str
@@ -79,6 +81,25 @@ class ErrorRow:
     program_version: int = 0
     swept: Swept | None = None
     """Not kept: sweeps are."""
+    instance: str = ""
+    """Which of its kind, in the notation of references: `fal:number=5`. Empty: the kind, of which no instance is known yet."""
+
+    fitted: bool = True
+    """False: the project says that the hardware is not there."""
+    label: str = ""
+    """What the project calls the unit or the number."""
+
+    @property
+    def key(self) -> str:
+        """What names it among the rows of a version."""
+        return self.instance or self.id
+
+
+def instance_of(error: ErrorEntry | None, id: str, details: str) -> str:
+    """The instance that a row is of, from its details: `rack=1, slot=3`."""
+    known = dict(part.split("=", 1) for part in details.split(", ") if "=" in part)
+    names = [each.name for each in error.identifying] if error is not None else []
+    return str(ErrorRef(id, tuple((name, known[name]) for name in names if name in known)))
 
 
 def comes_again(command: Generate) -> bool:
@@ -97,10 +118,10 @@ class History:
         self._model = model
         self._layout = _layout(model)
         self._version = version
-        self._swept: Mapping[int, Mapping[str, Swept]] = {}
+        self._swept: Mapping[int, Mapping[str, list[tuple[ErrorRef, Swept]]]] = {}
         self._raised_by_version: dict[int, dict[str, ErrorRow]] = {}
         for row in kept:
-            self._raised_by_version.setdefault(row.program_version, {})[row.id] = row
+            self._raised_by_version.setdefault(row.program_version, {})[row.key] = row
 
     @property
     def version(self) -> int:
@@ -119,21 +140,25 @@ class History:
 
     def rows_of(self, version: int, model: Model) -> list[ErrorRow]:
         """Every row of a version, which ran on this model."""
-        raised = self._raised_by_version.get(version, {})
+        raised: dict[str, dict[str, ErrorRow]] = {}
+        for key, row in self._raised_by_version.get(version, {}).items():
+            raised.setdefault(row.id, {})[key] = row
+        swept = self._swept.get(version, {})
         return [
-            replace(raised[error.id], name=error.name, severity=error.severity)
-            if error.id in raised
-            else _never(error, version)
+            row
             for error in model.errors()
+            for row in _rows_of_kind(model, error, raised.get(error.id, {}), swept.get(error.id, ()), version)
         ]
 
     def take_sweeps(self, swept: Mapping[int, Mapping[str, Swept]]) -> None:
-        """What sweeps found out, by version and error."""
-        self._swept = swept
+        """What sweeps found out, by version and error, which may have details."""
+        self._swept = {version: self._by_kind(found) for version, found in swept.items()}
 
     def with_sweep(self, row: ErrorRow) -> ErrorRow:
-        """The row with what a sweep of its version found out."""
-        swept = self._swept.get(row.program_version, {}).get(row.id)
+        """The row with what a sweep of its version found out; of several cells the worst."""
+        cells = self._swept.get(row.program_version, {}).get(row.id, ())
+        meant = ((row.key, swept) for ref, swept in cells if covers(row.key, ref))
+        swept = worst(meant).get(row.key)
         return row if swept == row.swept else replace(row, swept=swept)
 
     # ---- what happens ---------------------------------------------------------------------------------------------
@@ -149,7 +174,7 @@ class History:
         if isinstance(command, Generate):
             return self._generated(entry, command)
         if isinstance(command, Recover):
-            return self._cleared(self._present if command.ids is None else command.ids, entry.at, entry.scan)
+            return self._cleared(self._recovered(command), entry.at, entry.scan)
         return []
 
     def take_model(self, model: Model) -> None:
@@ -165,28 +190,29 @@ class History:
         """Turns to the version that runs from now on. Present errors get rows of this version too; gives the rows that changed."""
         if version == self._version:
             return []
-        present = {id: self._now[id] for id in self._present}
+        present = {key: self._now[key] for key in self._present}
         self._version = version
-        changed = self._cleared([id for id in self._present if id not in present], at, scan)
-        for id, row in present.items():
-            known = self._now.get(id)
+        changed = self._cleared([key for key in self._present if key not in present], at, scan)
+        for key, row in present.items():
+            known = self._now.get(key)
             same = known is not None and known.generated_at == row.generated_at
             if same and known is not None and known.status == "generated":
                 continue  # the program went back to a version that saw it raised
             count = (0 if known is None else known.count) + (not same)
             reaction = known.reaction if same and known is not None else None
-            self._now[id] = replace(row, program_version=version, count=count, reaction=reaction)
-            changed.append(self._now[id])
+            self._now[key] = replace(row, program_version=version, count=count, reaction=reaction)
+            changed.append(self._now[key])
         return changed
 
     def reconcile(self, present: Mapping[str, Active], at: datetime) -> list[ErrorRow]:
         """These errors are present now and no others, whatever was heard of before (a branch has a past that nobody told);
         the rows that it changed."""
-        changed = self._cleared([id for id in self._present if id not in present], at, 0)
-        for id, active in present.items():
-            row = self._now.get(id)
+        there = {self._key(raised.ref): raised for raised in instances_in(present).values()}
+        changed = self._cleared([key for key in self._present if key not in there], at, 0)
+        for key, raised in there.items():
+            row = self._now.get(key)
             if row is None or row.status != "generated":
-                changed += self._raised(active.refs[-1], at, active.scan, active.by, active.origin, None)
+                changed += self._raised(raised.ref, at, raised.scan, raised.by, raised.origin, None)
         return changed
 
     def as_of(self, present: Mapping[str, Active], at: datetime, version: int | None = None) -> list[ErrorRow]:
@@ -196,16 +222,16 @@ class History:
         then.reconcile(present, at)
         return then.rows
 
-    def set_reaction(self, id: str, version: int, scan: int, found: Reaction | str) -> ErrorRow | None:
-        """What was found out of the reaction to an error that was raised before `scan` on this version, or why nothing
+    def set_reaction(self, key: str, version: int, scan: int, found: Reaction | str) -> ErrorRow | None:
+        """What was found out of the reaction to an instance that was raised before `scan` on this version, or why nothing
         was; the changed row, or None when it was raised again in the meantime."""
-        row = self._raised_by_version.get(version, {}).get(id)
+        row = self._raised_by_version.get(version, {}).get(key)
         if row is None or row.reaction is None or row.reaction.scan != scan:
             return None
         text, seen = (found, None) if isinstance(found, str) else ("", found)
         reaction = RowReaction("done" if seen is not None else "failed", seen, text, scan)
         changed = replace(row, reaction=reaction)
-        self._raised_by_version[version][id] = changed
+        self._raised_by_version[version][key] = changed
         return changed
 
     # ---- inside ---------------------------------------------------------------------------------------------------
@@ -217,21 +243,44 @@ class History:
 
     @property
     def _present(self) -> list[str]:
-        return [row.id for row in self._now.values() if row.status == "generated"]
+        return [row.key for row in self._now.values() if row.status == "generated"]
+
+    def _key(self, ref: ErrorRef) -> str:
+        """What names the row of this error."""
+        return _key_of(self._model, self._layout, ref)
+
+    def _by_kind(self, found: Mapping[str, Swept]) -> dict[str, list[tuple[ErrorRef, Swept]]]:
+        by_kind: dict[str, list[tuple[ErrorRef, Swept]]] = {}
+        for text, swept in found.items():
+            ref = named_reference(self._key(named_reference(text)))
+            by_kind.setdefault(ref.id, []).append((ref, swept))
+        return by_kind
+
+    def _recovered(self, command: Recover) -> list[str]:
+        if command.ids is None:
+            return self._present
+        numbers = set(map(self._key, command.numbers))
+        return [key for key in self._present if self._now[key].id in command.ids or key in numbers]
 
     def _generated(self, entry: Entry, command: Generate) -> list[ErrorRow]:
-        changed = []
+        changed: list[ErrorRow] = []
+        raised = set(map(self._key, command.errors))
+        changed += self._cleared(set(map(self._key, command.replaces or ())) - raised, entry.at, entry.scan)
         for ref in command.errors:
-            reaction = self._reaction_to(entry, command, ref.id)
+            reaction = self._reaction_to(entry, command, self._key(ref))
             changed += self._raised(ref, entry.at, entry.scan, command.author, command.origin, reaction)
         return changed
 
-    def _reaction_to(self, entry: Entry, command: Generate, id: str) -> RowReaction | None:
+    def _reaction_to(self, entry: Entry, command: Generate, key: str) -> RowReaction | None:
         """A fault that recurs is compared once, from its first time on; so is one that only gets new details, as a comparison
         with a run in which it is present already shows little."""
         if command.origin != "simulator":
             return None
-        known = self._now.get(id)
+        if key not in map(self._key, command.replaces or ()) and any(
+            each.id == named_reference(key).id for each in command.replaces or ()
+        ):
+            return None  # it only moved to a different unit
+        known = self._now.get(key)
         if known is not None and known.reaction is not None:
             if comes_again(command) or (command.again and known.status == "generated"):
                 return known.reaction
@@ -244,26 +293,74 @@ class History:
         chosen = choose(error, dict(ref.details), self._layout) if error is not None else None
         if error is None or chosen is None or isinstance(chosen, Refusal):
             return []
-        row = self._now.get(error.id) or _never(error, self._version)
-        self._now[error.id] = replace(
+        key = str(chosen.instance)
+        row = self._now.get(key) or _never(error, self._version, key)
+        raised = replace(
             row,
             status="generated", code=chosen.code_text, details=str(chosen), generated_at=at, recovered_at=None,
             generated_scan=scan, recovered_scan=None, by=by, origin=origin, count=row.count + 1, reaction=reaction,
         )  # fmt: skip
-        return [self._now[error.id]]
+        self._now[key] = _told(self._model, error, raised)
+        return [self._now[key]]
 
-    def _cleared(self, ids: Iterable[str], at: datetime, scan: int) -> list[ErrorRow]:
+    def _cleared(self, keys: Iterable[str], at: datetime, scan: int) -> list[ErrorRow]:
         changed = []
-        for id in ids:
-            row = self._now.get(id)
+        for key in keys:
+            row = self._now.get(key)
             if row is not None and row.status == "generated":
-                self._now[id] = replace(row, status="cleared", recovered_at=at, recovered_scan=scan)
-                changed.append(self._now[id])
+                self._now[key] = replace(row, status="cleared", recovered_at=at, recovered_scan=scan)
+                changed.append(self._now[key])
         return changed
 
 
-def _never(error: ErrorEntry, version: int) -> ErrorRow:
-    return ErrorRow(error.id, error.name, error.severity, code=error.code_text, program_version=version)
+def key_for(model: Model, text: str) -> str:
+    """What names the row of an error that a sweep raised."""
+    return _key_of(model, _layout(model), named_reference(text))
+
+
+def _key_of(model: Model, layout: Layout, ref: ErrorRef) -> str:
+    error = model.error(ref.id)
+    chosen = None if error is None else choose(error, dict(ref.details), layout)
+    return str(chosen.instance) if isinstance(chosen, Chosen) else str(ref)
+
+
+def _rows_of_kind(
+    model: Model,
+    error: ErrorEntry,
+    raised: Mapping[str, ErrorRow],
+    swept: Sequence[tuple[ErrorRef, Swept]],
+    version: int,
+) -> list[ErrorRow]:
+    """A row for each instance that is fitted, was raised or swept, in the order of their numbers; else one for the kind."""
+    names = {each.name for each in error.identifying}
+    told = (ErrorRef(error.id, tuple(each for each in ref.details if each[0] in names)) for ref, _ in swept)
+    known = {*raised, *(str(ref) for ref in told if ref.details or not names)}
+    fitted = fitted_instances(model.fitted, error)
+    known |= {str(ErrorRef(error.id, details)) for details in fitted or ()}
+    rows = [raised.get(key) or _never(error, version, key) for key in sorted(known, key=natural)]
+    return [_told(model, error, row) for row in rows or [_never(error, version)]]
+
+
+def _told(model: Model, error: ErrorEntry, row: ErrorRow) -> ErrorRow:
+    """The row as the model of its version tells it."""
+    details = named_reference(row.key).details
+    there = (
+        is_fitted(model.fitted, error, details)
+        if details or not error.identifying
+        else fitted_instances(model.fitted, error) != ()
+    )
+    return replace(
+        row, name=error.name, severity=error.severity, fitted=there, label=name_of(model.fitted, error, details)
+    )  # fmt: skip
+
+
+def _never(error: ErrorEntry, version: int, instance: str = "") -> ErrorRow:
+    """A row of what was never raised; of a kind whose instances are not told apart it is its only one."""
+    known = instance or ("" if error.identifying else error.id)
+    details = ", ".join(f"{name}={value}" for name, value in named_reference(instance).details)
+    return ErrorRow(
+        error.id, error.name, error.severity, code=error.code_text, details=details, program_version=version, instance=known
+    )  # fmt: skip
 
 
 def _layout(model: Model) -> Layout:

@@ -6,14 +6,17 @@ recovered, and to 0 when none is left. A fatal error stops the program and switc
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import ClassVar, Literal
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.errorlog import log_patches, time_patches
-from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.present import NOTHING, Active, Instances, Origin, Present, Raised, instances_in
+from scanbench.faults.reference import ErrorRef, find_error, parse_reference
 from scanbench.faults.switch import switch
 from scanbench.faults.trap_errors import error_of
+from scanbench.plcmodel.hardware import HARDWARE_FILE, can_be_absent, is_fitted
+from scanbench.plcmodel.model import Model
 from scanbench.program.layout import Layout
 from scanbench.program.sites import TrapKind
 from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, View
@@ -22,54 +25,17 @@ from scanbench.runtime.journal import Fold
 from scanbench.runtime.modes import held, outputs_off, volatile_cleared
 from scanbench.runtime.trap import TRAPPED
 
-Origin = Literal["simulator", "plc", "program"]
-"""Who raised an error: somebody at the error simulator, the PLC that found it itself, an instruction of the program."""
-
-
-@dataclass(frozen=True, slots=True)
-class Raised:
-    """An error with its details, as somebody raised it."""
-
-    ref: ErrorRef
-    by: str
-    scan: int
-    origin: Origin
-
-
-@dataclass(frozen=True, slots=True)
-class Active:
-    """An error that is present."""
-
-    raised: tuple[Raised, ...]
-    """One; several where the program raised it too, with other numbers or details (FAL 1 and FAL 2). The latest last."""
-
-    @property
-    def refs(self) -> tuple[ErrorRef, ...]:
-        """With all details that it is present with."""
-        return tuple(each.ref for each in self.raised)
-
-    @property
-    def by(self) -> str:
-        """Who raised it last."""
-        return self.raised[-1].by
-
-    @property
-    def scan(self) -> int:
-        """When it was raised last."""
-        return self.raised[-1].scan
-
-    @property
-    def origin(self) -> Origin:
-        """Whence it came last."""
-        return self.raised[-1].origin
+Choices = Mapping[str, list[Chosen]]
+"""The errors that are present with all their details, by id."""
 
 
 @dataclass(frozen=True, slots=True)
 class Generate(Command):
     """Raises errors, all or none of them.
 
-    What somebody raises at the simulator must not be present, unless `again` says that it is raised again, with these
-    details. An error that the PLC finds takes new details; several numbers that the program raises are present together, as on the device.
+    An instance that somebody raises at the simulator must not be present, unless `again` says that it is raised again, with
+    these details. Of a kind that the device has a place for one of, none must be. An error that the PLC finds takes new
+    details; what the program raises is present beside what was there, as on the device.
     """
 
     category: ClassVar[Category] = "error"
@@ -80,6 +46,22 @@ class Generate(Command):
     arm: int | None = None
     """The armed fault that this is a step of, and which."""
     step: int = 0
+    replaces: tuple[ErrorRef, ...] | None = None
+    """What was present and gives way, as it is in `ACTIVE`; `settled` says it. None, of a run of before: the whole kind, unless
+    the program raised it."""
+    anyway: bool = False
+    """Although it is not fitted: of what the device reports although it is not there."""
+
+    def settled(self, view: View) -> "Generate":
+        """With what tells its instances apart, and with what gives way."""
+        chosen = _choose_all(view, self.errors)
+        if isinstance(chosen, Refusal):
+            return self
+        present = view.derived(ACTIVE)
+        known = present_choices(view, present)
+        gone = (self._gives_way(one, present, known) for one in chosen)
+        refs = tuple(raised.ref for each in gone for raised, _ in each)
+        return replace(self, errors=tuple(map(settled_ref, self.errors, chosen)), replaces=refs)
 
     def plan(self, view: View) -> Plan | Refusal:
         """Everything that the device would set."""
@@ -87,14 +69,19 @@ class Generate(Command):
         chosen = _choose_all(view, self.errors)
         if isinstance(chosen, Refusal):
             return chosen
-        others = present_choices(view, present)
+        known = present_choices(view, present)
+        others = {id: list(several) for id, several in known.items()}
         changed: list[Chosen] = []
         for one in chosen:
-            before = others.get(one.error.id, [])
-            if before and not self._takes(one, before):
-                return _already(present[one.error.id].by, before)
-            if self.origin != "program":
-                changed += others.pop(one.error.id, [])
+            by_hand = self.origin == "simulator" and self.arm is None
+            if by_hand and (unfit := unfitted(view.model, one, self.anyway)) is not None:
+                return unfit
+            before = self._in_the_way(one, present, known)
+            if before:
+                return _already(one, *before[-1])
+            for _, each in self._gives_way(one, present, known):
+                others[one.error.id].remove(each)
+                changed.append(each)
         patches = list(switch(view, off=changed, on=chosen, others=_flat(others)))
         patches += log_patches(view, chosen)
         patches += time_patches(view, chosen)
@@ -105,16 +92,21 @@ class Generate(Command):
         stops = f"; the program is stopped{_what_is_held(view, fatal)}" if fatal else ""
         return Plan(tuple(patches), "generated " + ", ".join(map(describe, chosen)) + stops)
 
-    def _takes(self, one: Chosen, before: Sequence[Chosen]) -> bool:
-        """Whether it may be raised although it is present."""
+    def _in_the_way(self, one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
+        """What is present so that it cannot be raised."""
         if self.origin == "simulator":
-            return self.again
-        return all(each.details != one.details for each in before)
+            return [] if self.again else _rivals(one, present, others)
+        return [each for each in _of_kind(one, present, others) if each[1].details == one.details]
+
+    def _gives_way(self, one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
+        """What is present and is so no more when it is raised."""
+        return [] if self.origin == "program" else _rivals(one, present, others)
 
 
 @dataclass(frozen=True, slots=True)
 class Recover(Command):
-    """Takes errors back; None is all that are present."""
+    """Takes errors back; None is all that are present. Of a kind all instances, or with details (`io-bus-error:rack=1`) those that
+    have them."""
 
     category: ClassVar[Category] = "recover"
 
@@ -123,28 +115,37 @@ class Recover(Command):
     """The armed fault that this is a step of, and which."""
     step: int = 0
     numbers: tuple[ErrorRef, ...] = ()
-    """Of errors that are present with several numbers and stay so: only these, written as they are in `ACTIVE`."""
+    """Single instances, written as they are in `ACTIVE`."""
+
+    def settled(self, view: View) -> "Recover":
+        """With its instances as they are present."""
+        meant = _meant(view, self.ids or ())
+        if isinstance(meant, Refusal) or self.ids is None:
+            return self
+        present = view.derived(ACTIVE)
+        single = tuple(id for id in meant[0] if len(present[id].raised) == 1)
+        whole = (each.ref for id in meant[0] if id not in single for each in present[id].raised)
+        numbers = dict.fromkeys((*self.numbers, *whole, *meant[1]))
+        return replace(self, ids=single, numbers=tuple(each for each in numbers if each.id not in single))
 
     def plan(self, view: View) -> Plan | Refusal:
         """Details off, flag off, code word recomputed."""
         present = view.derived(ACTIVE)
-        for id in self.ids or ():
-            entry = find_error(view.model, id)
-            if isinstance(entry, Refusal):
-                return entry
-            if id not in present:
-                return Refusal(f"{id} is not generated: there is nothing to recover", tuple(present))
+        meant = _meant(view, self.ids or ())
+        if isinstance(meant, Refusal):
+            return meant
+        settled = self.settled(view)
         others = present_choices(view, present)
-        ids = tuple(present) if self.ids is None else tuple(dict.fromkeys(self.ids))
-        if not ids and not self.numbers:
+        ids = tuple(present) if settled.ids is None else settled.ids
+        if not ids and not settled.numbers:
             return Plan((), "no error is generated")
         off = [one for id in ids for one in others.pop(id)]
         named = list(ids)
-        for ref in self.numbers:
+        for ref in settled.numbers:
             one = _choose_all(view, (ref,))
             if isinstance(one, Refusal) or ref.id not in others or one[0] not in others[ref.id]:
                 return Refusal(
-                    f"{ref.id} is not generated with this number: there is nothing to recover", tuple(present)
+                    f"{ref.id} is not generated with this number: there is nothing to recover", present_texts(present)
                 )
             others[ref.id].remove(one[0])
             off += one
@@ -164,34 +165,65 @@ class Recover(Command):
 
 
 def present_after(present: Mapping[str, Active], command: Command, scan: int) -> Mapping[str, Active]:
-    """The errors that are present after a command; the same mapping where it does not touch them."""
+    """The errors that are present after a command; the very same where it does not touch them."""
+    before = instances_in(present)
+    after = _after(before, command, scan)
+    return present if after is before else Present(after)
+
+
+def takes_back(command: Recover, ref: ErrorRef) -> bool:
+    """Whether a command that is in a journal recovers this error, written as it is in `ACTIVE`."""
+    return command.ids is None or ref.id in command.ids or ref in command.numbers
+
+
+def _after(instances: Instances, command: Command, scan: int) -> Instances:
     if isinstance(command, Generate):
-        changed = dict(present)
+        changed = {text: raised for text, raised in instances.items() if not _replaced(raised.ref, command)}
         for ref in command.errors:
-            before = changed.pop(ref.id, None)
-            stay = before.raised if before is not None and command.origin == "program" else ()
-            changed[ref.id] = Active((*stay, Raised(ref, command.author, scan, command.origin)))
+            changed.pop(str(ref), None)
+            changed[str(ref)] = Raised(ref, command.author, scan, command.origin)
         return changed
     if isinstance(command, Recover):
-        gone = present if command.ids is None else command.ids
-        left = {id: error for id, error in present.items() if id not in gone}
-        for ref in command.numbers:
-            if ref.id in left:
-                left[ref.id] = Active(tuple(each for each in left[ref.id].raised if each.ref != ref))
-        return left
-    return present
+        return {text: raised for text, raised in instances.items() if not takes_back(command, raised.ref)}
+    return instances
 
 
-def _step(present: Mapping[str, Active], entry: Entry) -> Mapping[str, Active]:
-    return {} if entry.plan.starts_fresh else present_after(present, entry.command, entry.scan)
+def _replaced(ref: ErrorRef, command: Generate) -> bool:
+    if command.replaces is None:
+        return command.origin != "program" and any(ref.id == each.id for each in command.errors)
+    return ref in command.replaces
 
 
-ACTIVE: Fold[Mapping[str, Active]] = Fold({}, _step)
-"""The errors that are present, by id, the oldest first: the journal is the only state there is, so a replay knows it too."""
+def _step(instances: Instances, entry: Entry) -> Instances:
+    return {} if entry.plan.starts_fresh else _after(instances, entry.command, entry.scan)
+
+
+def _kinds(present: Mapping[str, Active], entry: Entry) -> Mapping[str, Active]:
+    before = instances_in(present)
+    after = _step(before, entry)
+    return present if after is before else Present(after)
+
+
+INSTANCES: Fold[Instances] = Fold({}, _step)
+"""The instances that are present, by their text, the oldest first: the journal is the only state there is, so a replay knows it
+too."""
+ACTIVE: Fold[Mapping[str, Active]] = Fold(NOTHING, _kinds)
+"""The same by id."""
+
+
+def present_texts(present: Mapping[str, Active]) -> tuple[str, ...]:
+    """The instances that are present, in the notation in which they are recovered."""
+    return tuple(str(raised.ref) for active in present.values() for raised in active.raised)
+
+
+def settled_ref(ref: ErrorRef, chosen: Chosen) -> ErrorRef:
+    """The error with the details that were given and those that tell it apart: what names it without its model."""
+    wanted = {*(name for name, _ in ref.details), *(name for name, _ in chosen.instance.details)}
+    return ErrorRef(ref.id, tuple(each for each in chosen.details if each[0] in wanted))
 
 
 def present_choices(view: View, present: Mapping[str, Active]) -> dict[str, list[Chosen]]:
-    """The errors that are present with all their details, by id."""
+    """The errors that are present with all their details, by id; in the order of `ACTIVE`."""
     found: dict[str, list[Chosen]] = {}
     for id, error in present.items():
         for ref in error.refs:
@@ -217,17 +249,77 @@ def _choose_all(view: View, refs: Iterable[ErrorRef]) -> list[Chosen] | Refusal:
         chosen = choose(entry, dict(ref.details), view.program.layout)
         if isinstance(chosen, Refusal):
             return chosen
-        if any(entry is other.error for other in all_):
+        if any(clash(chosen, other) for other in all_):
             return Refusal(f"{entry.id} is there twice: one error can be present only once")
         all_.append(chosen)
     return all_
 
 
-def _already(by: str, before: Sequence[Chosen]) -> Refusal:
-    error, shown = before[-1].error, before[-1]
-    details = f" ({shown})" if shown.details else ""
-    other = ", or generate it again to change its details" if shown.details else ""
-    return Refusal(f"{error.id}: already generated by {by}{details}. Recover it first{other}", (error.id,))
+def clash(one: Chosen, other: Chosen) -> bool:
+    """Whether the device cannot have both: they are one instance, or of a kind that it has a place for one of."""
+    return one.error is other.error and (not one.error.several or one.instance == other.instance)
+
+
+def unfitted(model: Model, one: Chosen, anyway: bool = False) -> Refusal | None:
+    """Why an error is not raised when the hardware that it is of is not there; None where it is, or nobody says."""
+    if is_fitted(model.fitted, one.error, one.instance.details) or (anyway and can_be_absent(one.error)):
+        return None
+    where = f"{one.instance} is not fitted: {HARDWARE_FILE} does not have it"
+    if can_be_absent(one.error):
+        return Refusal(f"{where}. Add it there, or raise it anyway: the device can report it all the same")
+    return Refusal(f"{where}. Add it there, and build: the device reports no such error of what is not there")
+
+
+def _of_kind(one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
+    """What is present of the same kind."""
+    active = present.get(one.error.id)
+    return [] if active is None else list(zip(active.raised, others[one.error.id], strict=True))
+
+
+def _rivals(one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
+    """What is present and cannot be so together with it."""
+    return [each for each in _of_kind(one, present, others) if clash(one, each[1])]
+
+
+def _meant(view: View, texts: Iterable[str]) -> tuple[tuple[str, ...], tuple[ErrorRef, ...]] | Refusal:
+    """What is to be recovered: kinds, of which all instances go, and single instances as they are in `ACTIVE`."""
+    present = view.derived(ACTIVE)
+    ids: dict[str, None] = {}
+    refs: dict[ErrorRef, None] = {}
+    for text in texts:
+        ref = parse_reference(view.model, text)
+        if isinstance(ref, Refusal):
+            return ref
+        if ref.id not in present:
+            return Refusal(f"{text} is not generated: there is nothing to recover", present_texts(present))
+        if not ref.details:
+            ids[ref.id] = None
+            continue
+        chosen = _choose_all(view, (ref,))
+        if isinstance(chosen, Refusal):
+            return chosen
+        given = {name: value for name, value in chosen[0].details if name in dict(ref.details)}
+        several = present_choices(view, {ref.id: present[ref.id]})[ref.id]
+        pairs = zip(present[ref.id].raised, several, strict=True)
+        found = [raised.ref for raised, one in pairs if given.items() <= dict(one.details).items()]
+        if not found:
+            return Refusal(f"{text} is not generated: there is nothing to recover", present_texts(present))
+        refs.update(dict.fromkeys(found))
+    return tuple(ids), tuple(refs)
+
+
+def _already(one: Chosen, raised: Raised, before: Chosen) -> Refusal:
+    error = before.error
+    details = f" ({before})" if before.details else ""
+    only = (
+        ""
+        if one.same_instance(before)
+        else f"; {error.id} can be present only once, as the device has one place for it"
+    )
+    other = ", or generate it again to change its details" if before.details else ""
+    return Refusal(
+        f"{error.id}: already generated by {raised.by}{details}{only}. Recover it first{other}", (str(raised.ref),)
+    )
 
 
 def _flat(choices: Mapping[str, list[Chosen]]) -> list[Chosen]:

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 
 from scanbench.faults.arm import ARMED, Lanes
 from scanbench.faults.details import Chosen, choose
-from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
+from scanbench.faults.inject import ACTIVE, Generate, Recover, takes_back
+from scanbench.faults.present import NOTHING, Active, Raised
+from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Entry, Refusal, View
 from scanbench.runtime.journal import Fold
 
@@ -29,19 +31,26 @@ def _step(known: CutOff, entry: Entry) -> CutOff:
     command = entry.command
     if entry.plan.starts_fresh:
         # a fault that comes and goes by itself ends with the restart
-        passing = {id for lane in known.lanes.values() if lane.wanted.shape.kind != "stay" for id in lane.present}
-        before = (each for active in known.present.values() for each in active.raised)
-        gone = (*gone, *(each for each in before if each.origin == "simulator" and each.ref.id not in passing))
+        passing = [lane for lane in known.lanes.values() if lane.wanted.shape.kind != "stay"]
+        before = (each for active in known.present.values() for each in active.raised if each.origin == "simulator")
+        gone = (*gone, *(each for each in before if not any(lane.has_raised(each.ref) for lane in passing)))
     elif gone and isinstance(command, Generate):
-        gone = tuple(each for each in gone if all(each.ref.id != ref.id for ref in command.errors))
+        gone = tuple(each for each in gone if not _again(each.ref, command))
     elif gone and isinstance(command, Recover):
-        gone = tuple(each for each in gone if command.ids is not None and each.ref.id not in command.ids)
+        gone = tuple(each for each in gone if not takes_back(command, each.ref))
     if present is known.present and lanes is known.lanes and gone is known.gone:
         return known
     return CutOff(present, lanes, gone)
 
 
-CUT_OFF: Fold[CutOff] = Fold(CutOff({}, {}, ()), _step)
+def _again(ref: ErrorRef, command: Generate) -> bool:
+    """Whether this error is raised again, in whatever way."""
+    if command.replaces is None:
+        return any(ref.id == each.id for each in command.errors)
+    return ref in command.errors
+
+
+CUT_OFF: Fold[CutOff] = Fold(CutOff(NOTHING, {}, ()), _step)
 
 
 def returning(view: View) -> Generate | None:
@@ -51,7 +60,7 @@ def returning(view: View) -> Generate | None:
         chosen = None if error is None else choose(error, dict(raised.ref.details), view.program.layout)
         if not isinstance(chosen, Chosen) or not chosen.lasting:
             continue
-        command = Generate(raised.by, (raised.ref,))
+        command = Generate(raised.by, (raised.ref,), anyway=True)
         if not isinstance(command.plan(view), Refusal):
             return command
     return None

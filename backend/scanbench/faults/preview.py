@@ -78,10 +78,12 @@ def _own(view: View, errors: Iterable[ErrorRef]) -> Iterator[Part]:
 
 def _replaced(view: View, errors: Iterable[ErrorRef]) -> Iterator[Part]:
     """Details of errors that are raised again: the old ones go."""
-    choices = present_choices(view, view.derived(ACTIVE))
-    for ref in errors:
-        for one in choices.get(ref.id, ()):
-            yield "detail", ref.id, one.contents
+    present = view.derived(ACTIVE)
+    settled = Generate("preview", tuple(errors), again=True).settled(view)
+    for id, several in present_choices(view, present).items():
+        for ref, one in zip(present[id].refs, several, strict=True):
+            if ref in (settled.replaces or ()):
+                yield "detail", id, one.contents
 
 
 def _log(view: View) -> Iterator[Part]:

@@ -1,5 +1,6 @@
 """An error as text: `battery-error`, `memory-error:io-table-checksum`, `io-bus-error:rack=1,slot=3`."""
 
+import re
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -25,6 +26,25 @@ class ErrorRef:
 def error_of(text: str) -> str:
     """The id in the notation of the command line: what comes before the details."""
     return text.partition(":")[0]
+
+
+def named_reference(text: str) -> ErrorRef:
+    """What `str` of a reference was, without looking into a catalogue."""
+    id, _, rest = text.partition(":")
+    pairs = (part.partition("=") for part in rest.split(",") if part)
+    return ErrorRef(id, tuple((name, value) for name, _, value in pairs))
+
+
+def covers(text: str, ref: ErrorRef) -> bool:
+    """Whether this text, in which details have names, means this error: all details that it gives are so."""
+    given = named_reference(text)
+    return given.id == ref.id and set(given.details) <= set(ref.details)
+
+
+def natural(text: str) -> tuple[tuple[bool, int, str], ...]:
+    """A key by which `unit=3` comes before `unit=20`."""
+    parts = re.split(r"(\d+)", text)
+    return tuple((part.isdigit(), int(part) if part.isdigit() else 0, part) for part in parts)
 
 
 def find_error(model: Model, id: str) -> ErrorEntry | Refusal:

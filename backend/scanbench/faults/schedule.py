@@ -59,7 +59,7 @@ class Schedule:
         """The step is passed over, and the log says so."""
         match command:
             case Generate(arm=int(arm), step=step):
-                return Missed(command.author, arm, step, tuple(ref.id for ref in command.errors), refusal.message)
+                return Missed(command.author, arm, step, tuple(map(str, command.errors)), refusal.message)
             case Recover(arm=int(arm), step=step, ids=tuple(ids)):
                 return Missed(command.author, arm, step, ids, refusal.message)
         raise ValueError(f"{command} is no step of an armed fault, and was refused: {refusal.message}")

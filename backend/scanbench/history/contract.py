@@ -116,7 +116,7 @@ class RerunChange:
     scan: int
     """Before which the error was raised, in the original."""
     error: str
-    """Its id."""
+    """Its id, or with details the instance that is meant: `fal:number=5`."""
     by: int = 0
     """So many scans later; negative: earlier. Its recovery and whatever an armed fault does move with it."""
     instead: str = ""

@@ -1,12 +1,12 @@
 """What is entered when a run is repeated with one error changed: where the copy of the original ends, and what follows."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from scanbench.faults.arm import Arm, Disarm, Missed
 from scanbench.faults.disturb.fire import Firing
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.reference import ErrorRef, covers, error_of, find_error
 from scanbench.faults.shapes import Start
 from scanbench.history.contract import RerunChange
 from scanbench.recording.reader import RunReader, Unreadable
@@ -79,7 +79,7 @@ def _raised(reader: RunReader, change: RerunChange) -> int:
     of = [
         (index, each)
         for index, each in enumerate(reader.entries)
-        if isinstance(each.command, Generate) and change.error in _ids(each.command)
+        if isinstance(each.command, Generate) and _raises(each.command, change)
     ]
     found = [(index, each) for index, each in of if each.scan == change.scan]
     if not found:
@@ -129,17 +129,17 @@ def _changed_command(entry: Entry, raised: Entry, change: RerunChange) -> Comman
 
 def _errors(refs: Sequence[ErrorRef], change: RerunChange) -> tuple[ErrorRef, ...]:
     if change.leave_out:
-        return tuple(each for each in refs if each.id != change.error)
+        return tuple(each for each in refs if not covers(change.error, each))
     if not change.instead:
         return tuple(refs)
-    return tuple(ErrorRef(change.instead) if each.id == change.error else each for each in refs)
+    return tuple(ErrorRef(change.instead) if covers(change.error, each) else each for each in refs)
 
 
 def _began(entry: Entry, raised: Entry, change: RerunChange) -> int:
     """Before which scan an armed fault is to begin, so that this error comes so much earlier or later."""
     command = entry.command
     assert isinstance(command, Arm)
-    index = [each.id for each in command.wanted.errors].index(change.error)
+    index = [covers(change.error, each) for each in command.wanted.errors].index(True)
     began = raised.scan - index * command.wanted.gap
     step = raised.command.step if isinstance(raised.command, Generate) else 0
     if step and command.wanted.start.kind in ("now", "scan"):
@@ -169,13 +169,13 @@ def _rest(
         if at == index or comes_by_itself(command):
             continue
         scan = entry.scan
-        if at > raised and isinstance(command, Generate) and change.error in _ids(command):
+        if at > raised and isinstance(command, Generate) and _raises(command, change):
             goes_with = False  # it was raised again: what follows is about that
-        if at > raised and goes_with and isinstance(command, Recover) and change.error in (command.ids or ()):
+        if at > raised and goes_with and isinstance(command, Recover) and _recovers(command, change):
             moved = _recovery(command, change)
             if moved is None:
                 continue
-            command, scan = moved, scan + change.by * (len(command.ids or ()) == 1)
+            command, scan = moved, scan + change.by * (len(command.ids or ()) + len(command.numbers) == 1)
         if entry.step:
             notes.append(
                 f"{type(command).__name__} by {command.author} was entered inside of scan {entry.scan}, and is entered "
@@ -187,12 +187,17 @@ def _rest(
 
 def _recovery(command: Recover, change: RerunChange) -> Recover | None:
     """The recovery of the error, of what is raised this time."""
-    ids = tuple(command.ids or ())
-    if change.leave_out:
-        ids = tuple(each for each in ids if each != change.error)
-    elif change.instead:
-        ids = tuple(change.instead if each == change.error else each for each in ids)
-    return replace(command, ids=ids) if ids or command.numbers else None
+    ids, numbers = tuple(command.ids or ()), command.numbers
+    if change.leave_out or change.instead:
+        ids = tuple(each for each in ids if each != error_of(change.error))
+        numbers = tuple(each for each in numbers if not covers(change.error, each))
+    if change.instead:
+        ids = (*ids, change.instead)
+    return replace(command, ids=ids, numbers=numbers) if ids or numbers else None
+
+
+def _recovers(command: Recover, change: RerunChange) -> bool:
+    return error_of(change.error) in (command.ids or ()) or any(covers(change.error, each) for each in command.numbers)
 
 
 def comes_by_itself(command: Command) -> bool:
@@ -214,5 +219,5 @@ def _number(entry: Entry) -> int | None:
     return effect.number if isinstance(effect, Numbered) else None
 
 
-def _ids(command: Generate) -> Iterator[str]:
-    return (each.id for each in command.errors)
+def _raises(command: Generate, change: RerunChange) -> bool:
+    return any(covers(change.error, each) for each in command.errors)

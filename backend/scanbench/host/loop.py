@@ -11,7 +11,8 @@ from pathlib import Path
 
 from scanbench.engines.engine import Reason
 from scanbench.faults.carried import why_not_carried
-from scanbench.faults.inject import ACTIVE, Active
+from scanbench.faults.inject import ACTIVE
+from scanbench.faults.present import Active
 from scanbench.host.answers import Answers
 from scanbench.host.covering import Covering
 from scanbench.host.debugcode import Debuggable, Probed

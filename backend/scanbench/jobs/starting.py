@@ -7,12 +7,13 @@ from pathlib import Path
 from scanbench.check.build import check_sources
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.carried import why_not_carried
-from scanbench.faults.inject import ACTIVE, Generate
+from scanbench.faults.inject import ACTIVE, Generate, present_texts
 from scanbench.faults.reaction.react import react
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reaction.required_rules import rules_of
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import AUTHOR
+from scanbench.faults.reference import covers
 from scanbench.host.build import BuildFailed, find_model
 from scanbench.host.run_files import ProgramOf, programs_by, sources_in
 from scanbench.plcmodel.model import Model
@@ -116,7 +117,7 @@ def _raised(entries: Sequence[Entry], error: str, scan: int) -> int | None:
         if entry.scan < scan:
             return None
         command = entry.command
-        if entry.scan == scan and isinstance(command, Generate) and any(each.id == error for each in command.errors):
+        if entry.scan == scan and isinstance(command, Generate) and any(covers(error, each) for each in command.errors):
             return index
     return None
 
@@ -145,5 +146,7 @@ def _must_run(resource: Resource) -> None:
         return
     if resource.header.halt & Halt.FATAL_ERROR:
         present = resource.journal.derived(ACTIVE)
-        raise Unreadable(f"the program is stopped there by a fatal error ({', '.join(present)}): begin where it runs")
+        raise Unreadable(
+            f"the program is stopped there by a fatal error ({', '.join(present_texts(present))}): begin where it runs"
+        )
     raise Unreadable("the program does not run there: begin where the PLC is in MONITOR or RUN, and has not trapped")

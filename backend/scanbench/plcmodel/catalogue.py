@@ -9,6 +9,16 @@ from scanbench.plcmodel.areas import Location
 Severity = Literal["fatal", "nonfatal"]
 Control = Literal["List", "Spin", "Edit"]
 Kind = Literal["Bit", "Word", "Byte", "BCD", "Nibble", "BitArray"]
+Identifies = Literal["", "several", "one"]
+"""Whether each value of a detail is an error instance of its own: `several` are present together, as the device has a place for
+each; of `one` it has a place for one at a time."""
+Hardware = Literal[
+    "", "rack", "slot", "basic-io-unit", "special-io-unit", "cpu-bus-unit", "unit", "inner-board", "serial-port",
+    "sysmac-bus-master", "module", "station", "sensor", "fal", "fals",
+]  # fmt: skip
+"""What a number counts, or what an error needs. `unit`: CPU Bus Units, and from `FIRST_SPECIAL` on Special I/O Units. With `slot`
+goes `rack`; an error of a `basic-io-unit` names both."""
+FIRST_SPECIAL = 16
 CodeForm = Literal["hex4", "hex8", "decimal"]
 """How a model shows its error codes: `80F1`, `60010000`, `1600`."""
 CODE_LIMITS: dict[CodeForm, int] = {"hex4": 0xFFFF, "hex8": 0xFFFF_FFFF, "decimal": 0xFFFF}
@@ -76,6 +86,11 @@ class ErrorDetail:
     default: str | None = None
     """The id of the choice that a List starts with."""
     wordings: tuple[Wording, ...] = ()
+    identifies: Identifies = ""
+    hardware: Hardware = ""
+    """What its number counts; empty: nothing that a hardware configuration has."""
+    absent: bool = False
+    """The device can report the error of what is not fitted, too."""
 
     def choice(self, id: str) -> ErrorAddress | None:
         """The choice of a List with this id."""
@@ -127,6 +142,18 @@ class ErrorEntry:
     """One of the project's own (`user_errors`), not of the device."""
     lasting: bool = False
     """Its cause lasts: what a tool or program clears shows again at once. Only who holds the cause can recover it."""
+    hardware: Hardware = ""
+    """What has to be fitted for it, where no detail says which."""
+
+    @property
+    def identifying(self) -> tuple[ErrorDetail, ...]:
+        """The details that tell its instances apart."""
+        return tuple(each for each in self.details if each.identifies)
+
+    @property
+    def several(self) -> bool:
+        """Whether the device has several instances of it present together."""
+        return bool(self.identifying) and all(each.identifies == "several" for each in self.identifying)
 
     @property
     def code_text(self) -> str:

@@ -51,6 +51,9 @@ class DraftDetail:
     default: str = ""
     addresses: tuple[DraftAddress, ...] = ()
     texts: Texts = ()
+    identifies: str = ""
+    hardware: str = ""
+    absent: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +86,7 @@ class DraftError:
     texts: Texts = ()
     details: tuple[DraftDetail, ...] = ()
     also: tuple[DraftAlso, ...] = ()
+    hardware: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +111,15 @@ ADDRESS = {
     "max": "Max", "default": "Default", "base": "Base", "adds": "AddToErrorCode",
 }  # fmt: skip
 """Field -> attribute."""
-DETAIL = {"name": "Name", "control": "Type", "default": "Default"}
+DETAIL = {
+    "name": "Name", "control": "Type", "default": "Default", "identifies": "Identifies", "hardware": "Hardware",
+    "absent": "Absent",
+}  # fmt: skip
 ALSO = {"address": "Address", "type": "Type", "shift": "Shift", "width": "Width", "value": "Value", "detail": "Detail"}
 ERROR = {
     "id": "Id", "code": "ErrorCode", "flag": "ErrorFlag", "severity": "Severity", "priority": "Priority",
     "cause": "Cause", "memory": "Memory", "source": "Source", "verified": "Verified", "adds": "AddToErrorCode",
+    "hardware": "Hardware",
 }  # fmt: skip
 
 

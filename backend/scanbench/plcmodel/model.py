@@ -20,6 +20,7 @@ from scanbench.plcmodel.catalogue import (
     show_code,
 )
 from scanbench.plcmodel.facts import Fact
+from scanbench.plcmodel.hardware import Fitted
 
 __all__ = [
     "Access",
@@ -255,6 +256,8 @@ class Model:
     """Everything that the model file says about the device, and where it comes from."""
     queries: tuple[QueryInstruction, ...] = ()
     messages: tuple[MessageInstruction, ...] = ()
+    fitted: tuple[Fitted, ...] | None = None
+    """What a project says is fitted; None: it does not say."""
 
     def area(self, name: str) -> Area | None:
         """The area of this name (not of an alias)."""

@@ -13,6 +13,8 @@ from scanbench.plcmodel.catalogue import (
     ErrorDetail,
     ErrorEntry,
     ErrorGroup,
+    Hardware,
+    Identifies,
     Kind,
     Severity,
     show_code,
@@ -130,6 +132,7 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
         form=reader.code_form,
         wordings=wordings_of(node),
         lasting=node.get("Cause") == "lasting",
+        hardware=cast(Hardware, node.get("Hardware", "")),
     )
 
 
@@ -193,7 +196,11 @@ def _detail(reader: Reader, node: etree._Element, inherited: bool) -> ErrorDetai
     if default is not None and default not in ids:
         reader.problem("M008", f"Default {default!r} is none of the choices: {', '.join(ids)}", node, "Default")
     description = text_of(node, "Description")
-    return ErrorDetail(node.get("Name", ""), control, description, addresses, default, wordings_of(node))
+    return ErrorDetail(
+        node.get("Name", ""), control, description, addresses, default, wordings_of(node),
+        cast(Identifies, node.get("Identifies", "")), cast(Hardware, node.get("Hardware", "")),
+        node.get("Absent") in ("true", "1"),
+    )  # fmt: skip
 
 
 def _address(reader: Reader, node: etree._Element, control: Control, inherited: bool) -> ErrorAddress:

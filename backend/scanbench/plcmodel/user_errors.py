@@ -15,16 +15,20 @@ from lxml import etree
 
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Wording
 from scanbench.plcmodel.document import Document, first_of, parse, schema_of
+from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.load import model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.overlaps import Stretch, stretch, stretches
 from scanbench.plcmodel.read_catalogue import read_catalogue
+from scanbench.plcmodel.read_hardware import is_hardware, read_hardware
 from scanbench.plcmodel.reading import Reader
 from scanbench.plcmodel.system_words import addresses_of, taken, who_has
 from scanbench.problems import Problem, Span
 
 USER_ERRORS = "errors.xml"
 """The name of the file, at the top of a project."""
+CATALOGUE_FILES = (USER_ERRORS, HARDWARE_FILE)
+"""Files of a project that say something about errors, and are no part of the program."""
 ROOT = "UserErrors"
 GROUP = "User-defined"
 _WORDINGS = (Wording("ja", "ユーザー定義", ""),)
@@ -33,26 +37,52 @@ _REMEMBERED = 32
 Extended = tuple[Model | None, list[Problem]]
 
 
+def is_of_catalogue(path: str) -> bool:
+    """Whether a file of this path says something about errors, and is no part of the program."""
+    return is_user_errors(path) or is_hardware(path)
+
+
 def is_user_errors(path: str) -> bool:
     """Whether a file of this path has the errors of its project."""
     return posixpath.basename(path.replace("\\", "/")) == USER_ERRORS
 
 
 def model_for(model: Model, files: Mapping[str, str]) -> Model:
-    """The model with the errors that these files of a project define; the device alone where they are broken."""
+    """The model with the errors that these files of a project define, and what they say is fitted; the device alone where they
+    are broken."""
     return extended(model, files)[0]
 
 
 def extended(model: Model, files: Mapping[str, str]) -> tuple[Model, list[Problem]]:
     """The same, and what is wrong with them."""
     names = [name for name in files if is_user_errors(name)]
-    if not names:
-        return model, []
-    made, problems = with_user_errors(model, files[names[0]], names[0])
+    made: Extended = with_user_errors(model, files[names[0]], names[0]) if names else (device_of(model), [])
+    problems = [*made[1]]
     for name in names[1:]:
         message = f"a program has one {USER_ERRORS}, and {names[0]} is it already: put all errors in there"
-        problems = [*problems, Problem("M004", message, Span(name, 1, 1, 1, 2))]
-    return made or model, problems
+        problems.append(Problem("M004", message, Span(name, 1, 1, 1, 2)))
+    complete, wrong = _with_hardware(made[0] or model, files)
+    return complete, [*problems, *wrong]
+
+
+def _with_hardware(model: Model, files: Mapping[str, str]) -> tuple[Model, list[Problem]]:
+    """The model with what these files say is fitted."""
+    names = [name for name in files if is_hardware(name)]
+    if not names:
+        return model, []
+    key = (names[0], files[names[0]])
+    with _lock:
+        known, made = _fitted.get(key, (None, None))
+    if made is None or known is not model:
+        fitted, problems = read_hardware(model, key[1], key[0])
+        made = (model if fitted is None else replace(model, fitted=fitted)), problems
+    with _lock:
+        _fitted[key] = model, made
+        _fitted.move_to_end(key)
+        while len(_fitted) > _REMEMBERED:
+            _fitted.popitem(last=False)
+    message = f"a program has one {HARDWARE_FILE}, and {names[0]} is it already: put all hardware in there"
+    return made[0], [*made[1], *(Problem("M004", message, Span(name, 1, 1, 1, 2)) for name in names[1:])]
 
 
 def with_user_errors(model: Model, text: str, file: str = USER_ERRORS) -> Extended:
@@ -71,9 +101,11 @@ def with_user_errors(model: Model, text: str, file: str = USER_ERRORS) -> Extend
 
 
 def device_of(model: Model) -> Model:
-    """The model without the errors of any project."""
+    """The model without the errors and the hardware of any project."""
     own = tuple(group for group in model.catalogue if not any(error.user for error in group.walk()))
-    return model if len(own) == len(model.catalogue) else replace(model, catalogue=own)
+    if len(own) == len(model.catalogue) and model.fitted is None:
+        return model
+    return replace(model, catalogue=own, fitted=None)
 
 
 def document_of(text: str, file: str = USER_ERRORS) -> Document | list[Problem]:
@@ -82,6 +114,7 @@ def document_of(text: str, file: str = USER_ERRORS) -> Document | list[Problem]:
 
 
 _lock = threading.Lock()
+_fitted: OrderedDict[tuple[str, str], tuple[Model | None, tuple[Model, list[Problem]] | None]] = OrderedDict()
 _known: OrderedDict[tuple[str, str], tuple[Model | None, Extended | None]] = OrderedDict()
 
 

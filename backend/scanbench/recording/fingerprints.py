@@ -14,7 +14,10 @@ from scanbench.program.program import Program
 from scanbench.program.types import Record
 
 _SAMPLES = 500
-_WORDS = frozenset({"description", "source", "verified", "wordings", "user", "facts"})
+_WORDS = frozenset(
+    {"description", "source", "verified", "wordings", "user", "identifies", "hardware", "absent", "fitted", "facts"}
+)
+"""What an error is of, and what is fitted, decides what may be entered; what was entered a run keeps."""
 _LATER = frozenset({
     (Area, "texts"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"), (ResetInstruction, "code"),
     (Model, "queries"), (Model, "messages"),

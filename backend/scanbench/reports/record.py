@@ -6,7 +6,7 @@ from datetime import datetime
 from typing import ClassVar, Literal
 
 from scanbench.faults.history import ErrorRow, Status
-from scanbench.faults.inject import Origin
+from scanbench.faults.present import Origin
 from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Reaction, Verdict
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
@@ -44,9 +44,10 @@ class RecordAccepted(Public):
 
 @dataclass(frozen=True, slots=True)
 class RecordError:
-    """One error of the catalogue."""
+    """One error instance. Those of hardware that is not fitted are not in a record, unless somebody raised them."""
 
     id: str
+    """In the notation of references: `fal:number=5`; of a kind of which no instance is known, and in older records, its id."""
     name: str
     group: str
     """Names of its groups, from the top, with ` / ` between."""
@@ -225,13 +226,17 @@ def make_record(
     accepted: Iterable[tuple[str, RecordAccepted]] = (), log: Sequence[RecordLine] = (), language: Language = "en",
 ) -> TestRecord:  # fmt: skip
     """The record of these rows, in the order of the model's catalogue; `accepted` are pairs of error and acceptance."""
-    by_id = {row.id: row for row in rows}
+    by_id: dict[str, list[ErrorRow]] = {}
+    for row in rows:
+        by_id.setdefault(row.id, []).append(row)
     reasons: dict[str, list[RecordAccepted]] = {}
     for error, one in accepted:
         reasons.setdefault(error, []).append(one)
     kept = [
-        _error(groups, error, by_id.get(error.id), tuple(reasons.get(error.id, ())), language)
+        _error(groups, error, row, tuple(reasons.get(row.key, ())), language)
         for groups, error in model.errors_with_groups()
+        for row in by_id.get(error.id) or [ErrorRow(error.id, error.name, error.severity, code=error.code_text)]
+        if row.fitted or row.status != "never"
     ]
     known = {error.id for error in kept}
     ours = [replace(each, cells=tuple(cell for cell in each.cells if cell.error in known)) for each in sweeps]
@@ -241,20 +246,19 @@ def make_record(
 
 
 def _error(
-    groups: Iterable[ErrorGroup], error: ErrorEntry, row: ErrorRow | None, accepted: tuple[RecordAccepted, ...],
+    groups: Iterable[ErrorGroup], error: ErrorEntry, row: ErrorRow, accepted: tuple[RecordAccepted, ...],
     language: Language,
 ) -> RecordError:  # fmt: skip
-    row = row or ErrorRow(error.id, error.name, error.severity, code=error.code_text)
     reaction = row.reaction
     return RecordError(
-        id=error.id, name=worded(error.name, error.wordings, language),
+        id=row.key, name=worded(error.name, error.wordings, language),
         group=path_text(worded(group.name, group.wordings, language) for group in groups), code=row.code,
         flag=error.flag_text, severity=error.severity, status=row.status, details=row.details,
         generated_at=row.generated_at, recovered_at=row.recovered_at, generated_scan=row.generated_scan,
         recovered_scan=row.recovered_scan, by=row.by or "", origin=row.origin, count=row.count,
         reaction=None if reaction is None or reaction.found is None else _outputs_only(reaction.found),
         reaction_note="" if reaction is None else reaction.message, accepted=accepted,
-        details_text=details_in_words(error, row.details, language),
+        details_text=", ".join(filter(None, (details_in_words(error, row.details, language), row.label))),
     )  # fmt: skip
 
 

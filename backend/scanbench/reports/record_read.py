@@ -11,7 +11,7 @@ from typing import cast
 from lxml import etree
 
 from scanbench.faults.history import Status
-from scanbench.faults.inject import Origin
+from scanbench.faults.present import Origin
 from scanbench.faults.reaction.reaction import (
     Basis,
     Carried,

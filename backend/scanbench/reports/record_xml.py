@@ -9,8 +9,8 @@ from scanbench.faults.reaction.reaction import FINDINGS, Reaction
 from scanbench.plcmodel.document import xml_text
 from scanbench.reports.record import RecordError, RecordSweep, TestRecord
 
-VERSION = "3"
-READ = ("1", "2", "3")
+VERSION = "4"
+READ = ("1", "2", "3", "4")
 """The versions that `record_read.py` reads."""
 Told = str | int | datetime | None
 

@@ -4,7 +4,7 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
@@ -15,7 +15,8 @@ PROJECT_FILE = "project.json"
 
 
 def program_files(path: Path) -> list[Path]:
-    """A file is taken whatever its ending; a folder gives every program file in it and below, its own errors, and what it requires.
+    """A file is taken whatever its ending; a folder gives every program file in it and below, its own errors, what is fitted, and
+    what it requires.
 
     `Refused` when there is none.
     """
@@ -26,7 +27,7 @@ def program_files(path: Path) -> list[Path]:
     found = sorted(each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and each.is_file())
     if not found:
         raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
-    return found + [each for name in (USER_ERRORS, REQUIREMENTS) if (each := path / name).is_file()]
+    return found + [each for name in (*CATALOGUE_FILES, REQUIREMENTS) if (each := path / name).is_file()]
 
 
 def read_text(path: Path) -> str:

@@ -4,8 +4,9 @@ import asyncio
 from collections.abc import Callable, Mapping, Sequence
 
 from scanbench.jobs.checker import INTERVAL_NS, Checker
+from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.model import Model
-from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.plcmodel.user_errors import CATALOGUE_FILES, USER_ERRORS
 from scanbench.server.archive import Archive, pack
 from scanbench.server.drafts import Drafts
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
@@ -246,11 +247,11 @@ def _question(changes: Sequence[Change]) -> str:
 
 def _check_path(path: str) -> None:
     parts = path.split("/")
-    known = is_program_file(path) or path in (USER_ERRORS, REQUIREMENTS) or is_panel_file(path)
+    known = is_program_file(path) or path in (*CATALOGUE_FILES, REQUIREMENTS) or is_panel_file(path)
     odd = any(part.strip(". ") == "" or part.rstrip(". ").lower() == ".git" for part in parts)
     if not known or len(path) > 200 or odd:
         raise Refused(
             f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
-            f"the project's own errors are in {USER_ERRORS}, what must happen then in {REQUIREMENTS}, operator panels in "
-            f"files like belt{PANEL_ENDING}"
+            f"the project's own errors are in {USER_ERRORS}, what must happen then in {REQUIREMENTS}, its hardware in "
+            f"{HARDWARE_FILE}, operator panels in files like belt{PANEL_ENDING}"
         )

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.public import Public
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.git import MISSING, asked, git, installed
@@ -258,7 +258,7 @@ def _is_text(path: str) -> bool:
 
 
 def _is_ours(path: str) -> bool:
-    return path in (PROJECT_FILE, USER_ERRORS, REQUIREMENTS) or is_program_file(path) or is_panel_file(path)
+    return path in (PROJECT_FILE, *CATALOGUE_FILES, REQUIREMENTS) or is_program_file(path) or is_panel_file(path)
 
 
 def _changes(before: Mapping[str, str], now: Mapping[str, str]) -> list[FileChange]:

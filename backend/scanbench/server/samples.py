@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.syntax.parse_file import is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 
-_OTHERS = (USER_ERRORS, REQUIREMENTS)
+_OTHERS = (*CATALOGUE_FILES, REQUIREMENTS)
 
 
 @dataclass(frozen=True, slots=True)

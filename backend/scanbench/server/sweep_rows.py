@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import get_args
 
+from scanbench.faults.history import key_for
 from scanbench.faults.reaction.compare import Outcome, outcome
 from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Verdict
 from scanbench.faults.reference import error_of, find_error
@@ -78,11 +79,12 @@ def outcomes_of(cells: Iterable[CellRow], kept: Mapping[tuple[str, str], Json]) 
     return found
 
 
-def merged(cells: Iterable[CellRow], accepted: Collection[tuple[str, str]]) -> list[CellRow]:
-    """One cell for each error of the catalogue and state: of several with details the worst: what is not as it is required, then what nobody accepted."""
+def merged(model: Model, cells: Iterable[CellRow], accepted: Collection[tuple[str, str]]) -> list[CellRow]:
+    """One cell for each error instance and state: of several with other details the worst: what is not as it is required, then what
+    nobody accepted."""
     found: dict[tuple[str, str], CellRow] = {}
     for cell in cells:
-        key = error_of(cell.error), cell.state
+        key = key_for(model, cell.error), cell.state
         if key not in found or _rank(cell, accepted) < _rank(found[key], accepted):
             found[key] = cell
     return list(found.values())

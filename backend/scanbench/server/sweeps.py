@@ -12,7 +12,7 @@ from scanbench.faults.history import Swept, worst
 from scanbench.faults.inject import Generate
 from scanbench.faults.reaction.compare import SweepChange, compare
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction
-from scanbench.faults.reference import error_of, parse_reference
+from scanbench.faults.reference import parse_reference
 from scanbench.jobs.client import WORK_S, Gone, Job, Make
 from scanbench.reports.reaction_json import from_json
 from scanbench.runtime.clock import monotonic_ns
@@ -161,9 +161,7 @@ class Sweeps:
     async def _verdicts(self, id: int) -> list[tuple[str, Swept]]:
         cells = await asyncio.to_thread(self._store.sweeps.cells, id)
         found = ((cell, VERDICTS.get(cell.verdict or "")) for cell in cells)
-        return [
-            (error_of(cell.error), Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None
-        ]
+        return [(cell.error, Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None]
 
     async def show(self, sessions: Sequence[Session]) -> None:
         """Tells PLCs of one project what its sweeps found out. A look at the past is at a time in which they were not."""

@@ -6,9 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from scanbench.faults.history import ErrorRow
+from scanbench.faults.history import ErrorRow, key_for
 from scanbench.faults.reaction.reaction import Verdict
-from scanbench.faults.reference import error_of
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import device_of, model_for
 from scanbench.public import Moment, Public
@@ -85,14 +84,14 @@ class Records:
         def make() -> TestRecord:
             project = self._store.projects.get(session.project_id)
             earlier, lines = self._store.log.errors(session.id, version, LOG_LINES)
-            swept, accepted = self._sweeps(session, version)
+            swept, accepted = self._sweeps(session, version, model)
             head = RecordHead(
                 project.name, model.name, session.name, version, "" if build is None else build.hash, wall_time(), by,
                 self._tool,
             )  # fmt: skip
             return make_record(
                 head, model, rows, language=language, sweeps=swept,
-                accepted=[(error_of(one.error), RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
+                accepted=[(key_for(model, one.error), RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
                 log=[*_earlier(earlier, lines), *(RecordLine(line.at, line.scan, line.author, line.text) for line in lines)],
             )  # fmt: skip
 
@@ -121,23 +120,23 @@ class Records:
             return session.model
         return model_for(device_of(session.model), build.sources)
 
-    def _sweeps(self, session: Session, version: int) -> tuple[list[RecordSweep], list[AcceptedRow]]:
+    def _sweeps(self, session: Session, version: int, model: Model) -> tuple[list[RecordSweep], list[AcceptedRow]]:
         """The sweeps, with one cell for each error and state, and what was accepted of these cells."""
         accepted = self._store.findings.accepted(session.project_id)
         pairs = {(one.error, one.state) for one in accepted}
         found, told = [], set[tuple[str, str]]()
         for sweep in self._swept(session, version)[:SWEEPS]:
-            cells = merged(self._store.sweeps.cells(sweep.id), pairs)
+            cells = merged(model, self._store.sweeps.cells(sweep.id), pairs)
             told |= {(cell.error, cell.state) for cell in cells}
-            made = tuple(map(_record_cell, cells))
+            made = tuple(_record_cell(model, cell) for cell in cells)
             found.append(
                 RecordSweep(sweep.at, sweep.by, sweep.instance, sweep.status, sweep.window, sweep.states, made)
             )
-        counts = Counter((error_of(error), state) for error, state in told)
+        counts = Counter((key_for(model, error), state) for error, state in told)
         return found, [
             one for one in accepted
-            if one.error == error_of(one.error)
-            or ((one.error, one.state) in told and counts[error_of(one.error), one.state] == 1)
+            if one.error == key_for(model, one.error)
+            or ((one.error, one.state) in told and counts[key_for(model, one.error), one.state] == 1)
         ]  # fmt: skip
 
     def _swept(self, session: Session, version: int) -> list[SweepRow]:
@@ -188,13 +187,13 @@ def _read(text: str) -> TestRecord:
     raise Refused(f"this is no test record that can be read, nothing was kept: {'; '.join(told)}{more}")
 
 
-def _record_cell(cell: CellRow) -> RecordCell:
-    """The details that it was raised with are named in its note."""
-    error, _, details = cell.error.partition(":")
-    note = "; ".join(filter(None, (details, cell.note)))
+def _record_cell(model: Model, cell: CellRow) -> RecordCell:
+    """The details that it was raised with, beyond those of its row, are named in its note."""
+    key, details = key_for(model, cell.error), cell.error.partition(":")[2]
+    note = "; ".join(filter(None, ("" if key == cell.error else details, cell.note)))
     return RecordCell(
-        error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note, cell.required, cell.unmet
-    )
+        key, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note, cell.required, cell.unmet
+    )  # fmt: skip
 
 
 def _earlier(count: int, lines: Sequence[LogRow]) -> Iterator[RecordLine]:

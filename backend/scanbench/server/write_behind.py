@@ -11,7 +11,8 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar, get_args
 
-from scanbench.faults.history import ErrorRow, RowReaction
+from scanbench.faults.history import ErrorRow, RowReaction, instance_of
+from scanbench.faults.reference import error_of
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.session.keeper import Keeper
@@ -74,7 +75,7 @@ class WriteBehind(Keeper):
     def keep_rows(self, instance: int, rows: Sequence[ErrorRow]) -> None:
         """Error history rows that changed, of whatever version."""
         if rows:
-            self._rows.setdefault(instance, {}).update(((row.program_version, row.id), row) for row in rows)
+            self._rows.setdefault(instance, {}).update(((row.program_version, row.key), row) for row in rows)
             self._wake.set()
 
     def keep_line(self, instance: int, line: LogEntry, version: int) -> None:
@@ -218,7 +219,7 @@ def _kept(row: ErrorRow) -> HistoryRow:
     reaction = row.reaction
     found = None if reaction is None else reaction.found
     return HistoryRow(
-        row.id, row.program_version, "cleared" if cleared else "generated", row.code, row.details, row.generated_at,
+        row.key, row.program_version, "cleared" if cleared else "generated", row.code, row.details, row.generated_at,
         row.recovered_at if cleared else None, row.generated_scan or 0,
         (row.recovered_scan or 0) if cleared else None, row.by or "", row.origin or "simulator", row.count,
         None if reaction is None else reaction.state, None if found is None else to_json(found),
@@ -228,12 +229,14 @@ def _kept(row: ErrorRow) -> HistoryRow:
 
 def row_of(model: Model, kept: HistoryRow) -> ErrorRow:
     """A row as the store has it. An error that only the catalogue of a different version has is shown by its id."""
-    error = model.error(kept.error)
-    name = kept.error if error is None else error.name
+    id = error_of(kept.error)
+    error = model.error(id)
+    name = id if error is None else error.name
+    instance = kept.error if ":" in kept.error else instance_of(error, id, kept.details)
     return ErrorRow(
-        kept.error, name, "nonfatal" if error is None else error.severity, kept.status, kept.code, kept.details, kept.generated_at, kept.recovered_at,
+        id, name, "nonfatal" if error is None else error.severity, kept.status, kept.code, kept.details, kept.generated_at, kept.recovered_at,
         kept.generated_scan, kept.recovered_scan, kept.by, kept.origin, kept.count, _reaction_of(kept),
-        kept.program_version,
+        kept.program_version, instance=instance,
     )  # fmt: skip
 
 

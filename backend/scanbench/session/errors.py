@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow, History, Swept
-from scanbench.faults.inject import Active
+from scanbench.faults.present import Active
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.clock import wall_time
@@ -67,8 +67,10 @@ class Errors:
         return [self._history.with_sweep(row) for row in self._history.rows_of(version, model)]
 
     def reaction(self, error: str) -> Reaction | None:
-        """How the program reacted to an error the last time it was raised; None where nobody compared."""
-        row = next((row for row in self._history.rows if row.id == error), None)
+        """How the program reacted to an error the last time it was raised, which may name an instance; None where nobody
+        compared."""
+        rows = [row for row in self._history.rows if error in (row.key, row.id) and row.generated_at is not None]
+        row = max(rows, key=lambda row: str(row.generated_at), default=None)
         return None if row is None or row.reaction is None else row.reaction.found
 
     def take_sweeps(self, swept: Mapping[int, Mapping[str, Swept]]) -> None:
@@ -81,7 +83,7 @@ class Errors:
         for row in rows:
             reaction = row.reaction
             if reaction is not None and reaction.state == "recording" and scan in (None, reaction.scan):
-                self._reacting.raised(Raised(row.id, reaction.scan, row.program_version))
+                self._reacting.raised(Raised(row.key, reaction.scan, row.program_version))
 
     async def close(self) -> None:
         """Nobody waits for reactions any more."""
@@ -117,7 +119,7 @@ class Errors:
         version = self._history.version
         for entry in entries:
             changed = self._history.fold(entry)
-            rows.update(((row.program_version, row.id), row) for row in changed)
+            rows.update(((row.program_version, row.key), row) for row in changed)
             if entry.plan.cuts:
                 self._reacting.ended(entry.scan)
             self.compare(changed, entry.scan)

@@ -22,8 +22,8 @@ from sqlalchemy import (
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 from sqlalchemy.types import TypeDecorator
 
-NAME, PATH, AUTHOR, ID = 100, 255, 100, 64
-"""Longest names, in characters."""
+NAME, PATH, AUTHOR, ID, ERROR = 100, 255, 100, 64, 255
+"""Longest names, in characters. ERROR: an error with the details that tell it apart."""
 
 
 class Moment(TypeDecorator[datetime]):
@@ -164,13 +164,14 @@ class Person(Base):
 
 
 class ErrorHistory(Base):
-    """One row for an instance, a version of its program, and an error that was raised at least once on it."""
+    """One row for an instance, a version of its program, and an error (with the details that tell it apart from others of its
+    kind) that was raised at least once on it."""
 
     __tablename__ = "error_history"
 
     instance_id: Mapped[int] = mapped_column(ForeignKey("instance.id", ondelete="CASCADE"), primary_key=True)
     program_version: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
-    error: Mapped[str] = mapped_column(String(ID), primary_key=True)
+    error: Mapped[str] = mapped_column(String(ERROR), primary_key=True)
     status: Mapped[str] = mapped_column(String(16))
     code: Mapped[str] = mapped_column(String(16))
     details: Mapped[str] = mapped_column(Text)
@@ -230,7 +231,7 @@ class SweepCell(Base):
     __tablename__ = "sweep_cell"
 
     sweep_id: Mapped[int] = mapped_column(ForeignKey("sweep.id", ondelete="CASCADE"), primary_key=True)
-    error: Mapped[str] = mapped_column(String(ID), primary_key=True)
+    error: Mapped[str] = mapped_column(String(ERROR), primary_key=True)
     state: Mapped[str] = mapped_column(String(NAME), primary_key=True)
     raised_scan: Mapped[int] = mapped_column(BigInteger)
     verdict: Mapped[str | None] = mapped_column(String(16))
@@ -247,7 +248,7 @@ class AcceptedFinding(Base):
     __tablename__ = "accepted_finding"
 
     project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"), primary_key=True)
-    error: Mapped[str] = mapped_column(String(ID), primary_key=True)
+    error: Mapped[str] = mapped_column(String(ERROR), primary_key=True)
     state: Mapped[str] = mapped_column(String(NAME), primary_key=True)
     reason: Mapped[str] = mapped_column(Text)
     by: Mapped[str] = mapped_column(String(AUTHOR))

@@ -62,7 +62,9 @@ class Recover(Numbered):
     """Recovers errors that were raised."""
 
     type: Literal["recover"] = "recover"
-    ids: list[str] | None = Field(description="null recovers every error that is generated")
+    ids: list[str] | None = Field(
+        description="all instances (`fal`), or one (`fal:number=5`); null recovers every error that is generated"
+    )
 
 
 class Arm(Numbered, ArmFaults):

@@ -37,6 +37,10 @@ class ErrorDetail(Wire):
     default: str = ""
     base: int = Field(default=10, description="10, 16; 0: a text of at most `maximum` characters")
     adds: bool = Field(default=False, description="the number is added to the error code")
+    identifies: Literal["", "several", "one"] = Field(
+        default="", description="its values are errors of their own: several are present together, or one at a time"
+    )
+    hardware: str = Field(default="", description="what its number counts, of what a project can fit; empty: nothing")
     wordings: list[Wording] = Field(default_factory=list)
 
 
@@ -97,9 +101,15 @@ class ReactionState(Wire):
 
 
 class ErrorHistoryRow(Wire):
-    """One row per catalogue error: has this version of the program been tested against it?"""
+    """One row per error instance: has this version of the program been tested against it?"""
 
     id: str
+    instance: str = Field(
+        default="",
+        description="which of its kind (`fal:number=5`), what `recover` takes; empty: the kind, of which none is known yet",
+    )
+    fitted: bool = Field(default=True, description="false: the project's hardware.json does not have it")
+    label: str = Field(default="", description="what hardware.json calls the unit or the number")
     name: str
     severity: Severity
     status: Literal["never", "generated", "cleared"]
@@ -131,6 +141,7 @@ class GenerateErrors(Wire):
 
     errors: list[GenerateOne] = Field(min_length=1)
     again: bool = False
+    anyway: bool = Field(default=False, description="although the project's hardware.json does not have it")
 
 
 class FaultStart(Wire):
@@ -187,7 +198,9 @@ class CommandResult(Wire):
 
 
 class RecoverErrors(Wire):
-    ids: list[str] | None = None
+    ids: list[str] | None = Field(
+        default=None, description="all instances (`fal`), or one (`fal:number=5`); null is all that are present"
+    )
 
 
 class ClearErrors(Wire):

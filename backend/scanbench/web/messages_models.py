@@ -35,6 +35,7 @@ class ModelSummary(Wire):
 class ModelInfo(ModelSummary):
     areas: list[Area]
     code_word: str | None = Field(description="address of the error code word, e.g. A400")
+    hardware: bool = Field(default=False, description="the project says what is fitted (hardware.json)")
     code_words: list[str] = Field(
         description="the words of the error code, the low one first; two where it has 32 bits"
     )

@@ -40,6 +40,9 @@ class UserDetail(Wire):
     name: Typed = ""
     control: Typed = "List"
     default: Typed = ""
+    identifies: Typed = Field(default="", description="several, one, or empty: its values are no errors of their own")
+    hardware: Typed = Field(default="", description="what its number counts, of what a project can fit")
+    absent: Typed = ""
     addresses: list[UserAddress] = Field(default_factory=list, max_length=1000)
     texts: list[UserText] = Field(default_factory=list, max_length=64)
 
@@ -67,6 +70,7 @@ class UserError(Wire):
     source: Typed = ""
     verified: Typed = ""
     adds: Typed = ""
+    hardware: Typed = ""
     texts: list[UserText] = Field(default_factory=list, max_length=64)
     details: list[UserDetail] = Field(default_factory=list, max_length=64)
     also: list[UserAlso] = Field(default_factory=list, max_length=64)

@@ -142,7 +142,7 @@ def watched(item: WatchItem) -> wire.Watched:
 def error_row(row: ErrorRow) -> simulator.ErrorHistoryRow:
     """A row of the error history."""
     return simulator.ErrorHistoryRow(
-        id=row.id, name=row.name, severity=row.severity, status=row.status, code=row.code, details=row.details,
+        id=row.id, instance=row.instance, fitted=row.fitted, label=row.label, name=row.name, severity=row.severity, status=row.status, code=row.code, details=row.details,
         generated_at=None if row.generated_at is None else iso(row.generated_at),
         recovered_at=None if row.recovered_at is None else iso(row.recovered_at),
         generated_scan=row.generated_scan, recovered_scan=row.recovered_scan, by=row.by, origin=row.origin,
@@ -229,6 +229,7 @@ def model_info(model: plc.Model) -> messages_models.ModelInfo:
         if word is None
         else [model.format(word.area, word.byte + at, None, 16) for at in range(0, word.bits // 8, 2)],
         status_words=list(model.status_words),
+        hardware=model.fitted is not None,
         catalogue=translate_errors.groups(model.catalogue, translate_errors.facts_by_error(model)),
     )
 

@@ -68,6 +68,7 @@ def _detail(detail: plc.ErrorDetail) -> wire.ErrorDetail:
         minimum=None if is_list else first.minimum, maximum=None if is_list else first.maximum,
         default=(detail.default or "") if is_list else _default(first), base=first.base,
         adds=not is_list and first.add_to_code, wordings=_wordings(detail.wordings or first.wordings),
+        identifies=detail.identifies, hardware=detail.hardware,
     )  # fmt: skip
 
 

@@ -22,7 +22,8 @@ from scanbench.faults.device_shapes import DeviceDetail, DeviceError, DeviceErro
 from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo
 from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
-from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
+from scanbench.faults.inject import INSTANCES, Generate, Recover
+from scanbench.faults.present import Active, Raised
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reaction.reaction import (
     Carried,
@@ -171,7 +172,7 @@ class Splitter:
 class EntryCodec:
     """How a run file keeps journal entries."""
 
-    folds = (FORCED, ACTIVE, TRAPPED, ARMED, NUMBERED, DISTURBED, HELD)
+    folds = (FORCED, INSTANCES, TRAPPED, ARMED, NUMBERED, DISTURBED, HELD)
 
     def pack(self, entry: Entry) -> bytes:
         """The bytes of an entry."""

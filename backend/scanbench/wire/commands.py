@@ -30,7 +30,7 @@ COMMANDS: dict[str, Known] = {
     "write": Known(Write, ("path", "value", "site")),
     "force": Known(Force, ("path", "value", "site")),
     "release": Known(Release, ("path",)),
-    "generate": Known(Generate, ("errors", "again")),
+    "generate": Known(Generate, ("errors", "again", "anyway")),
     "generate_absent": Known(GenerateAbsent, ("errors",)),
     "recover": Known(Recover, ("ids",)),
     "arm": Known(Arm, ("wanted",)),

@@ -12,7 +12,7 @@ from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
-from scanbench.faults.inject import Active
+from scanbench.faults.present import Active
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reference import ErrorRef
 from scanbench.public import Public

@@ -106,9 +106,9 @@ def test_the_journal_says_what_went_and_a_replay_knows_it() -> None:
     assert entry.command.author == "tool"
     assert entry.plan.message == "recovered fal (number=7)"
     assert (value(resource, "A400"), value(resource, "A402"), value(resource, "A360")) == (0x4108, 1 << 15, 1 << 8)
-    assert row(resource, "fal").status == "generated"
+    assert [row(resource, f"fal:number={each}").status for each in (7, 8)] == ["cleared", "generated"]
     done(resource, ClearErrors("tool", 0x4108))
-    assert row(resource, "fal").status == "cleared"
+    assert row(resource, "fal:number=8").status == "cleared"
     go(resource, 3)
     for engine in ENGINES:
         again = plc(OMRON, engine)

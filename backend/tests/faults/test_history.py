@@ -3,7 +3,8 @@
 from datetime import UTC, datetime
 
 from scanbench.faults.history import ErrorRow, History, RowReaction
-from scanbench.faults.inject import Active, Generate, Raised, Recover
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.present import Active, Raised
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Command, Entry, Plan, Swapped

@@ -54,11 +54,11 @@ def generated(resource: Resource) -> list[str]:
     return [entry.plan.message for entry in resource.journal if isinstance(entry.command, Generate)]
 
 
-def row(resource: Resource, id: str) -> ErrorRow:
+def row(resource: Resource, key: str) -> ErrorRow:
     history = History(model())
     for entry in resource.journal:
         history.fold(entry)
-    return next(row for row in history.rows if row.id == id)
+    return next(row for row in history.rows if row.key == key)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -75,7 +75,7 @@ def test_an_error_that_the_program_raises_in_every_scan_is_one_error(engine: Eng
     ]
     assert generated(resource) == ["generated fal (number=9), code 4109"]
     assert resource.runnable
-    found = row(resource, "fal")
+    found = row(resource, "fal:number=9")
     assert (found.origin, found.by, found.count, found.generated_scan) == ("program", "program", 1, 1)
 
 
@@ -90,7 +90,7 @@ def test_numbers_are_present_together(engine: EngineFactory) -> None:
     assert [value(resource, word) for word in ("A400", "A402", "A360", "A362")] == [0, 0, 0, 0]
     go(resource, 50)  # the cause is still there, so the device shows it again at once
     assert value(resource, "A400") == 0x4103
-    assert row(resource, "fal").count == 4
+    assert [row(resource, f"fal:number={number}").count for number in (3, 40)] == [2, 2]
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -102,11 +102,12 @@ def test_the_program_clears_its_error(engine: EngineFactory) -> None:
     assert go(resource, 20) == [Reason.ASKED, Reason.DONE]
     assert [value(resource, word) for word in ("A400", "A402", "A360")] == [0, 0, 0]
     assert value(resource, "Main.ok") is True
-    assert (row(resource, "fal").status, row(resource, "fal").recovered_scan) == ("cleared", 6)
+    seven = row(resource, "fal:number=7")
+    assert (seven.status, seven.recovered_scan, seven.count) == ("cleared", 6, 1)
     set_to(resource, second=3)  # FAL(0); FAL(3); in one scan: both, in this order
     go(resource, 3)
     assert value(resource, "A400") == 0x4103
-    assert row(resource, "fal").count == 4
+    assert row(resource, "fal:number=3").count == 3
 
 
 def test_a_number_that_it_does_not_take() -> None:
@@ -123,7 +124,7 @@ def test_what_somebody_generated_is_no_news() -> None:
     done(resource, Generate("Ada", (ErrorRef("fal", (("number", "9"),)),)))
     set_to(resource, first=9)
     assert go(resource, 10) == [Reason.DONE]
-    assert row(resource, "fal").origin == "simulator"
+    assert row(resource, "fal:number=9").origin == "simulator"
 
 
 @pytest.mark.parametrize("engine", ENGINES)
@@ -142,7 +143,8 @@ def test_a_fatal_instruction_stops_right_there(engine: EngineFactory) -> None:
     assert trap is not None
     assert (trap.kind, SOURCE.splitlines()[trap.line - 1].strip()[:16]) == ("fatal", "IF fatal <> 0 TH")
     assert [type(entry.command) for entry in resource.journal][1:] == [Trapped, Generate]
-    assert (row(resource, "fals").origin, row(resource, "fals").code) == ("program", "C105")
+    fals = row(resource, "fals:number=5")
+    assert (fals.origin, fals.code) == ("program", "C105")
     done(resource, Recover("Ada", None))
     assert (resource.header.halt, resource.header.mode, resource.trap) == (Halt.NONE, Mode.PROGRAM, None)
     set_to(resource, fatal=0)

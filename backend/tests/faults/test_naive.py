@@ -66,11 +66,36 @@ def told(error: ErrorEntry, details: Details) -> tuple[dict[Bit, int], int]:
     return found, code
 
 
-def expected(name: str, present: Mapping[str, Details]) -> dict[Bit, int]:
+Key = tuple[str, tuple[str, ...]]
+"""An id, and what tells its instances apart, where the device has several of them."""
+
+
+def key_of(error: ErrorEntry, details: Details) -> Key:
+    names = [each.name for each in error.details if each.identifies == "several"]
+    return error.id, tuple(details.get(each, str(_first(error, each))) for each in names) if error.several else ()
+
+
+def _first(error: ErrorEntry, name: str) -> object:
+    """What a detail is where nobody says it."""
+    detail = next(each for each in error.details if each.name == name)
+    address = detail.addresses[0]
+    if detail.control == "List":
+        return detail.default or address.id
+    return address.default if address.default is not None else address.minimum or 0
+
+
+def text_of(name: str, key: Key) -> str:
+    error = model(name).error(key[0])
+    assert error is not None
+    names = [each.name for each in error.details if each.identifies == "several"]
+    return str(ErrorRef(key[0], tuple(zip(names, key[1], strict=False)))) if key[1] else key[0]
+
+
+def expected(name: str, present: Mapping[Key, Details]) -> dict[Bit, int]:
     """What is not 0."""
     memory: dict[Bit, int] = {}
     shown: list[tuple[int, int]] = []
-    for id, details in present.items():
+    for (id, _), details in present.items():
         error = model(name).error(id)
         assert error is not None
         bits, code = told(error, details)
@@ -83,9 +108,10 @@ def expected(name: str, present: Mapping[str, Details]) -> dict[Bit, int]:
     for query in model(name).queries:
         area, start = first_bit(query.code)
         there = [
-            (error.priority, told(error, present[error.id])[1])
+            (error.priority, told(error, details)[1])
             for error in model(name).errors()
-            if error.id in present and error.flag.word == query.flags.word
+            for (id, _), details in present.items()
+            if error.id == id and error.flag.word == query.flags.word
         ]
         memory |= {(area, start + bit): min(there, default=(0, 0))[1] >> bit & 1 for bit in range(32)}
     return {bit: value for bit, value in memory.items() if value}
@@ -118,25 +144,27 @@ def test_any_order_any_company(name: str, data: st.DataObject) -> None:
     errors = list(model(name).errors())
     resource = plc(SOURCE, model_name=name)
     assert found(resource) == {}
-    present: dict[str, Details] = {}
+    present: dict[Key, Details] = {}
     for _ in range(data.draw(st.integers(1, 10))):
         step = data.draw(st.sampled_from(["generate", "generate", "again", "recover"]))
         if step == "recover" and present:
             gone = data.draw(st.lists(st.sampled_from(sorted(present)), min_size=1, unique=True))
-            assert isinstance(resource.submit(Recover("Ada", tuple(gone))), Entry)
-            present = {id: details for id, details in present.items() if id not in gone}
+            texts = tuple(text_of(name, key) for key in gone)
+            assert isinstance(resource.submit(Recover("Ada", texts)), Entry)
+            present = {key: details for key, details in present.items() if key not in gone}
         else:
-            batch = data.draw(st.lists(st.sampled_from(errors), min_size=1, max_size=3, unique_by=lambda one: one.id))
-            chosen = {error.id: data.draw(st.sampled_from(every_choice(error))) for error in batch}
-            refs = tuple(ErrorRef(id, tuple(details.items())) for id, details in chosen.items())
+            batch = data.draw(st.lists(st.sampled_from(errors), min_size=1, max_size=3))
+            drawn = [(error, data.draw(st.sampled_from(every_choice(error)))) for error in batch]
+            chosen = {key_of(error, details): details for error, details in drawn}
+            refs = tuple(ErrorRef(key[0], tuple(details.items())) for key, details in chosen.items())
             outcome = resource.submit(Generate("Ada", refs, again=step == "again"))
             if step != "again" and present.keys() & chosen.keys():
                 assert isinstance(outcome, Refusal)
                 continue
             assert isinstance(outcome, Entry), outcome
-            for id, details in chosen.items():  # what is raised again counts as the latest
-                present.pop(id, None)
-                present[id] = details
+            for key, details in chosen.items():  # what is raised again counts as the latest
+                present.pop(key, None)
+                present[key] = details
         assert found(resource) == expected(name, present)
     assert isinstance(resource.submit(Recover("Ada", None)), Entry)
     assert found(resource) == {}

@@ -133,7 +133,7 @@ def test_a_code_that_a_more_serious_error_hides_is_not_read(make: MakeObserved) 
     where = f"main.st:{line('IF code', CODE)}"
     note = (
         f"the error code was that of a more serious error where the program read it: {where}; "
-        f"{first.id} was present before: what follows from both is no difference"
+        f"{first.id}:rack=0,slot=0 was present before: what follows from both is no difference"
     )
     assert hidden == Reaction("never_read", 50, note=note, basis="exact")
 
@@ -355,7 +355,7 @@ def test_an_error_that_was_there_before_is_named(make: MakeObserved) -> None:
     """What it switched on already is no difference."""
     found = reaction(HANDLERS, "battery-error", make, before=(Generate("Ada", (ref("basic-io-error"),)),))
     assert found.verdict == "never_read"
-    assert "basic-io-error was present before" in found.note
+    assert "basic-io-error:rack=0,slot=0 was present before" in found.note
 
 
 def test_a_write_that_only_the_error_makes_possible_is_no_excuse(make: MakeObserved) -> None:

@@ -146,4 +146,5 @@ def test_the_table_has_them_all_and_the_right_ones_are_usable(loaded: Loaded) ->
     assert wrong == {f"maker/{path.name}" for path in BROKEN.glob("*.xml")} - {"maker/GOOD.xml"}
     shipped = {path.stem for path in model_directory().glob("*/*.xml")}
     assert models.keys() == shipped | {"GOOD"}
-    assert {problem.code for problem in problems} == {code for code in TABLE if code.startswith("M")}
+    of_models = {code for code in TABLE if code.startswith("M")} - {"M011"}  # that is of `hardware.json`
+    assert {problem.code for problem in problems} == of_models

@@ -365,10 +365,10 @@ def test_json_that_is_no_reaction(change: dict[str, object], says: str) -> None:
     ("old", "new", "line", "says"),
     [
         (
-            'Version="3"',
             'Version="4"',
+            'Version="5"',
             2,
-            "of Version 4, and this Scanbench reads Version 1, 2 and 3: bring it in with the version",
+            "of Version 5, and this Scanbench reads Version 1, 2, 3 and 4: bring it in with the version",
         ),
         ('ProgramVersion="3"', 'ProgramVersion="three"', 2, "three"),
         ('ProgramVersion="3"', 'ProgramVersion="-1"', 2, "-1"),

@@ -103,7 +103,7 @@ def test_a_script_arms_faults_and_takes_them_back(server: Server) -> None:
     begin = int(str(plc.state["scan"]))
     said = plc.arm("basic-io-error", start={"kind": "scan", "scan": begin + 4}, shape={"kind": "stay"}, rack=1, slot=3)
     assert said.startswith("armed 1: basic-io-error")
-    assert [(each["id"], each["errors"]) for each in plc.armed] == [(1, ["basic-io-error"])]
+    assert [(each["id"], each["errors"]) for each in plc.armed] == [(1, ["basic-io-error:rack=1,slot=3"])]
     plc.run(scans=6)
     assert plc.read("A408") == "16#0103"
     plc.arm("battery-error", start={"kind": "scan", "scan": begin + 1000})

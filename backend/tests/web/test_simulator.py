@@ -194,7 +194,9 @@ def test_a_fault_with_a_shape_comes_and_goes(server: Server) -> None:
         )  # fmt: skip
         assert armed["ok"], armed
         (fault,) = browser.wait_for("armed")["faults"]
-        assert (fault["state"], fault["by"], fault["errors"]) == ("waiting", "Ada Lovelace", ["basic-io-error"])
+        assert (fault["state"], fault["by"], fault["errors"]) == (
+            "waiting", "Ada Lovelace", ["basic-io-error:rack=0,slot=0"],
+        )  # fmt: skip
         assert browser.ask(type="write", path="Main.ready", value="TRUE")["ok"]
         row = row_of(browser, "basic-io-error", status="cleared")
         assert row["recovered_scan"] - row["generated_scan"] == 3

@@ -193,19 +193,22 @@ def test_details_that_the_program_tells_apart_have_rows_of_their_own(server: Ser
         assert found == {
             "battery-error": "never_read", f"{ERROR}:unit=3": "acted", f"{ERROR}:unit=5": "stored",
         }  # fmt: skip
-        rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}
-        assert rows[ERROR]["swept"]["verdict"] == "stored"  # the worst of them
+        rows = server.http.get(f"/api/instances/{instance}/errors").json()
+        assert [(row["instance"], row["swept"]["verdict"]) for row in rows if row["id"] == ERROR] == [
+            (f"{ERROR}:unit=3", "acted"), (f"{ERROR}:unit=5", "stored"),
+        ]  # fmt: skip
         cell = {"error": f"{ERROR}:unit=5", "state": "Now"}
         record = server.http.get(f"/api/instances/{instance}/record").json()
         assert [(each["error"], each["verdict"], each["note"]) for each in record["sweeps"][0]["cells"]] == [
-            ("battery-error", "never_read", ""), (ERROR, "stored", "unit=5"),
+            ("battery-error", "never_read", ""), (f"{ERROR}:unit=3", "acted", ""), (f"{ERROR}:unit=5", "stored", ""),
         ]  # fmt: skip
         accepted = {**cell, "reason": "a spare one"}
         assert server.http.post(f"/api/sweeps/{begun['id']}/accept", json=accepted).status_code < 300
         opened = server.http.post(f"/api/sweeps/{begun['id']}/open", json={**cell, "name": "unit five"})
         assert opened.status_code == 201, opened.text
         history = server.http.get(f"/api/instances/{opened.json()['id']}/errors").json()
-        assert [row["details"] for row in history if row["id"] == ERROR] == ["unit=5"]
+        present = [row["instance"] for row in history if row["id"] == ERROR and row["status"] == "generated"]
+        assert present == [f"{ERROR}:unit=5"]
 
 
 def test_a_version_that_was_only_swept_has_a_record(server: Server) -> None:

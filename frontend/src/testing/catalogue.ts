@@ -31,6 +31,8 @@ const spin = (name: string, description: string, maximum: number): ErrorDetail =
   default: "0",
   minimum: 0,
   maximum,
+  hardware: "",
+  identifies: "",
 });
 
 export const BATTERY = error("battery-error", "Battery error", {
@@ -77,6 +79,9 @@ export function row({ id, name, code, severity }: ErrorInfo, more: Partial<Error
     origin: null,
     reaction: null,
     swept: null,
+    fitted: true,
+    instance: "",
+    label: "",
     ...more,
   };
 }

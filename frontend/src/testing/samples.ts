@@ -64,6 +64,7 @@ export const MODEL: ModelInfo = {
   areas: [],
   catalogue: [],
   code_word: "A400",
+  hardware: false,
   code_words: ["A400"],
   status_words: [],
   error_count: 0,

@@ -3993,6 +3993,19 @@ export interface components {
             /** Description */
             description: string;
             /**
+             * Hardware
+             * @description what its number counts, of what a project can fit; empty: nothing
+             * @default
+             */
+            hardware: string;
+            /**
+             * Identifies
+             * @description its values are errors of their own: several are present together, or one at a time
+             * @default
+             * @enum {string}
+             */
+            identifies: "" | "several" | "one";
+            /**
              * Kind
              * @description of a List: of its first choice
              * @enum {string}
@@ -4023,7 +4036,7 @@ export interface components {
         };
         /**
          * ErrorHistoryRow
-         * @description One row per catalogue error: has this version of the program been tested against it?
+         * @description One row per error instance: has this version of the program been tested against it?
          */
         ErrorHistoryRow: {
             /** By */
@@ -4035,6 +4048,12 @@ export interface components {
             /** Details */
             details: string;
             /**
+             * Fitted
+             * @description false: the project's hardware.json does not have it
+             * @default true
+             */
+            fitted: boolean;
+            /**
              * Generated At
              * @description ISO 8601, UTC
              */
@@ -4043,6 +4062,18 @@ export interface components {
             generated_scan: number | null;
             /** Id */
             id: string;
+            /**
+             * Instance
+             * @description which of its kind (`fal:number=5`), what `recover` takes; empty: the kind, of which none is known yet
+             * @default
+             */
+            instance: string;
+            /**
+             * Label
+             * @description what hardware.json calls the unit or the number
+             * @default
+             */
+            label: string;
             /** Name */
             name: string;
             /** Origin */
@@ -4358,6 +4389,12 @@ export interface components {
              * @default false
              */
             again: boolean;
+            /**
+             * Anyway
+             * @description although the project's hardware.json does not have it
+             * @default false
+             */
+            anyway: boolean;
             /** Errors */
             errors: components["schemas"]["GenerateOne"][];
             /**
@@ -4401,6 +4438,12 @@ export interface components {
              * @default false
              */
             again: boolean;
+            /**
+             * Anyway
+             * @description although the project's hardware.json does not have it
+             * @default false
+             */
+            anyway: boolean;
             /** Errors */
             errors: components["schemas"]["GenerateOne"][];
         };
@@ -4995,6 +5038,12 @@ export interface components {
              * @description statements about the device, each with a source: `scanbench model facts`
              */
             fact_count: number;
+            /**
+             * Hardware
+             * @description the project says what is fitted (hardware.json)
+             * @default false
+             */
+            hardware: boolean;
             /** Name */
             name: string;
             /**
@@ -5569,6 +5618,12 @@ export interface components {
              * @default false
              */
             again: boolean;
+            /**
+             * Anyway
+             * @description although the project's hardware.json does not have it
+             * @default false
+             */
+            anyway: boolean;
             /** Errors */
             errors: components["schemas"]["GenerateOne"][];
         };
@@ -6054,7 +6109,7 @@ export interface components {
         Recover: {
             /**
              * Ids
-             * @description null recovers every error that is generated
+             * @description all instances (`fal`), or one (`fal:number=5`); null recovers every error that is generated
              */
             ids: string[] | null;
             /**
@@ -6071,7 +6126,10 @@ export interface components {
         };
         /** RecoverErrors */
         RecoverErrors: {
-            /** Ids */
+            /**
+             * Ids
+             * @description all instances (`fal`), or one (`fal:number=5`); null is all that are present
+             */
             ids?: string[] | null;
         };
         /**
@@ -7376,6 +7434,11 @@ export interface components {
         };
         /** UserDetail */
         UserDetail: {
+            /**
+             * Absent
+             * @default
+             */
+            absent: string;
             /** Addresses */
             addresses?: components["schemas"]["UserAddress"][];
             /**
@@ -7388,6 +7451,18 @@ export interface components {
              * @default
              */
             default: string;
+            /**
+             * Hardware
+             * @description what its number counts, of what a project can fit
+             * @default
+             */
+            hardware: string;
+            /**
+             * Identifies
+             * @description several, one, or empty: its values are no errors of their own
+             * @default
+             */
+            identifies: string;
             /**
              * Name
              * @default
@@ -7427,6 +7502,11 @@ export interface components {
              * @description names of the groups it is in, the outermost first
              */
             group: string[];
+            /**
+             * Hardware
+             * @default
+             */
+            hardware: string;
             /**
              * Id
              * @default

@@ -12,6 +12,7 @@ from scanbench.faults.reaction.error_memory import Watched, code_bits
 from scanbench.faults.reaction.places import heads, parts
 from scanbench.faults.reaction.readings import Readings
 from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.plcmodel.hardware import fitted_instances
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry
 from scanbench.program.bodies import every
 from scanbench.program.program import Case, Const, Program
@@ -36,14 +37,19 @@ class Choices:
 
     def of(self, id: str) -> Sequence[ErrorRef]:
         """The error with its default details, and with each choice that is told apart. Without the former, if the program
-        looks at nothing of it but at these choices."""
+        looks at nothing of it but at these choices. Where a project says what is fitted: each instance of that, perhaps none."""
         entry = find_error(self._program.layout.model, id)
         default = ErrorRef(id)
-        if isinstance(entry, Refusal) or not entry.details:
+        if isinstance(entry, Refusal):
             return (default,)
+        if not entry.details:
+            return () if fitted_instances(self._program.layout.model.fitted, entry) == () else (default,)
         chosen = choose(entry, {}, self._program.layout)
         if isinstance(chosen, Refusal):
             return (default,)
+        fitted = fitted_instances(self._program.layout.model.fitted, entry)
+        if fitted is not None:
+            return [ErrorRef(id, details) for details in fitted]
         found = [each for detail in entry.details for each in self._of_detail(entry, detail, dict(chosen.details))]
         if found and not self._looks_at(default, entry):
             return found

@@ -3,8 +3,9 @@
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.inject import Generate, Recover, takes_back
 from scanbench.faults.reaction.steps import Given, Point, advance, reenter, resource_at
+from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Command, Entry, Swapped
 from scanbench.runtime.programs import Programs
 from scanbench.runtime.trap import Trapped
@@ -51,7 +52,7 @@ def following_of(
 
 
 def commands_without(
-    generate: Entry, given: Iterable[Given], errors: Collection[str]
+    generate: Entry, given: Iterable[Given], errors: Collection[ErrorRef]
 ) -> list[tuple[int, Command | Entry]]:
     """The commands that the run without these errors gets. What is left of one inside of a scan comes after that."""
     found: list[tuple[int, Command | Entry]] = []
@@ -64,22 +65,25 @@ def commands_without(
     return found
 
 
-def spared(command: Command, errors: Collection[str]) -> Command | None:
-    """What is left of a command when it is not to touch these errors."""
+def spared(command: Command, errors: Collection[ErrorRef]) -> Command | None:
+    """What is left of a command of a journal when it is not to touch these errors."""
     if isinstance(command, Generate):
-        left = tuple(each for each in command.errors if each.id not in errors)
+        left = tuple(each for each in command.errors if each not in errors and not _moved(command, each, errors))
         return replace(command, errors=left) if left else None
     if isinstance(command, Recover) and command.ids is not None:
-        ids = tuple(id for id in command.ids if id not in errors)
-        numbers = tuple(each for each in command.numbers if each.id not in errors)
+        ids = tuple(id for id in command.ids if all(each.id != id for each in errors))
+        numbers = tuple(each for each in command.numbers if each not in errors)
         return replace(command, ids=ids, numbers=numbers) if ids or numbers else None
     return command
 
 
-def is_about(command: Command, error: str) -> bool:
-    """Whether a command raises or recovers this error."""
+def _moved(command: Generate, ref: ErrorRef, errors: Collection[ErrorRef]) -> bool:
+    """Whether raising this only changes what one of these errors says."""
+    return any(each.id == ref.id and each in errors for each in command.replaces or ())
+
+
+def is_about(command: Command, error: ErrorRef) -> bool:
+    """Whether a command of a journal raises or recovers this error."""
     if isinstance(command, Generate):
-        return any(each.id == error for each in command.errors)
-    if not isinstance(command, Recover):
-        return False
-    return command.ids is None or error in command.ids or any(each.id == error for each in command.numbers)
+        return error in command.errors or any(_moved(command, each, (error,)) for each in command.errors)
+    return isinstance(command, Recover) and takes_back(command, error)

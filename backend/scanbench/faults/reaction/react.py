@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from scanbench.engines.observe import Observer, ReadAt
 from scanbench.faults.details import Chosen, choose
-from scanbench.faults.inject import ACTIVE, Generate, Recover
+from scanbench.faults.inject import ACTIVE, Generate, Recover, present_texts, takes_back
 from scanbench.faults.reaction.effects import SHOWN, Effects, Variables
 from scanbench.faults.reaction.error_memory import Watched, code_bits, kept_bits, without_patches
 from scanbench.faults.reaction.following import commands_without, following_of, is_about, spared
@@ -43,7 +43,7 @@ from scanbench.faults.reaction.steps import (
     state_words,
 )
 from scanbench.faults.reaction.tasks import Turns, triggers
-from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.reference import ErrorRef, covers, find_error
 from scanbench.problems import Span
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal
@@ -61,26 +61,28 @@ def react(
     point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs, error: str,
     rules: Rules | None = None,
 ) -> Reaction | Refusal:  # fmt: skip
-    """The reaction to `error`, one of those that the recorded `generate` raised at this point.
+    """The reaction to `error`, one of those that the recorded `generate` raised at this point, in the notation of references.
 
     `following` is what the journal has after it. The window ends early before a change of the program or a restart.
     Errors that were raised together would hide each other's effects: each is compared as if it had been raised alone.
     """
     command = generate.command
     raised = command.errors if isinstance(command, Generate) else ()
-    ref = next((each for each in raised if each.id == error), None)
+    ref = next((each for each in raised if covers(error, each)), None)
     if ref is None:
         return Refusal(f"{error} was not raised there: {generate.plan.message}")
     rest = following_of(point, generate, following, window, programs)
-    others = [each.id for each in raised if each.id != error]
-    twin = run_twin(point, commands_without(generate, rest.given, {error, *others}), rest.window, programs, TRACE_LIMIT)
+    others = [each for each in raised if each != ref]
+    twin = run_twin(point, commands_without(generate, rest.given, raised), rest.window, programs, TRACE_LIMIT)
     comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
     notes = [rest.note]
     every = () if rules is None else rules.of(ref, None)
     if others:
         given = tuple(each for each in rest.given if spared(each.entry.command, others) is not None)
         found = comparison.raised(twin, ref, command.author, given, every)
-        notes.append(f"it was raised together with {', '.join(others)}, and is compared as if it had been alone")
+        notes.append(
+            f"it was raised together with {', '.join(map(str, others))}, and is compared as if it had been alone"
+        )
     else:
         found = comparison.of(twin, generate, ref, rest.given, every)
     if isinstance(found, Refusal):
@@ -143,10 +145,11 @@ class Comparison:
     ) -> Reaction | Refusal:  # fmt: skip
         """The reaction to an error that is raised alone, now, with the commands that follow."""
         resource = resource_at(self._point, self._programs)
-        entry = resource.submit(Generate(author, (ref,)))
+        entry = resource.submit(Generate(author, (ref,), anyway=True))
         if isinstance(entry, Refusal):
             return entry
-        return self.of(twin, entry, ref, given, required)
+        assert isinstance(entry.command, Generate)
+        return self.of(twin, entry, entry.command.errors[0], given, required)
 
     def of(
         self, twin: Twin, generate: Entry, ref: ErrorRef, given: Sequence[Given], required: Sequence[Made] = ()
@@ -159,24 +162,31 @@ class Comparison:
             return chosen
         resource = resource_at(self._point, self._programs)
         could_run = resource.runnable
-        present = [id for id in resource.journal.derived(ACTIVE) if id != ref.id]
+        before = present_texts(resource.journal.derived(ACTIVE))
         reenter(resource, generate)
+        now = present_texts(resource.journal.derived(ACTIVE))
+        before = tuple(each for each in before if each in now and each != str(ref))
         if resource.header.halt & Halt.FATAL_ERROR and chosen.error.severity == "fatal":
             note = "" if could_run else "the program did not run before either"
             return Reaction("stopped", 0, note=note, basis="exact", required=stopped(required))
-        own = [generate, *(each.entry for each in given if is_about(each.entry.command, ref.id))]
+        own = [generate, *(each.entry for each in given if is_about(each.entry.command, ref))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
         variables = self._prepared.variables
-        alone = all(is_about(each.entry.command, ref.id) for each in given)
-        watched = RequiredRun(required, resource, ref.id, len(twin.trace), variables, alone=alone)
+        alone = all(is_about(each.entry.command, ref) for each in given)
+        watched = RequiredRun(required, resource, ref, len(twin.trace), variables, alone=alone)
         run = _Run(resource, twin, Effects(variables, kept), chosen, ref, self._prepared)
         found = run.through(observer_of(self._programs, self._point), given, watched)
         if isinstance(found, Reaction):
             found = watched.judged(found, generate.command.author)
-        if isinstance(found, Refusal) or found.verdict not in FINDINGS or not present:
+        if isinstance(found, Refusal) or found.verdict not in FINDINGS or not before:
             return found
-        hidden = f"{', '.join(present)} was present before: what follows from both is no difference"
+        hidden = f"{', '.join(before)} was present before: what follows from both is no difference"
         return replace(found, note="; ".join(filter(None, (found.note, hidden))))
+
+
+_LOG: frozenset[What] = frozenset(("log",))
+_NO_CODE: frozenset[What] = frozenset(("flag", "detail", "log"))
+_CODE_TOO: frozenset[What] = frozenset(("flag", "detail", "log", "code"))
 
 
 class _Run:
@@ -199,6 +209,9 @@ class _Run:
         self._recovered: int | None = None
         """The scan after which the program itself took the error back."""
         self._ran = False
+        self._code_at = tuple(part.offset for part in code_bits(resource.program))
+        self._known = -1, False
+        """How many entries there were, and whether the error was present then."""
 
     def through(self, observer: Observer, given: Sequence[Given], watched: RequiredRun) -> Reaction | Refusal:
         """Runs to the end of the window, or of what can be compared."""
@@ -233,13 +246,19 @@ class _Run:
     def _kinds_shown(self) -> frozenset[What]:
         """What of the error can be read in this scan: its flag, its details and its record in the log, its code too unless a more
         serious error hides it; once it was recovered, only its record in the log."""
-        if self._chosen.error.id not in self._resource.journal.derived(ACTIVE):
-            return frozenset(("log",))
-        code = sum(
-            self._resource.memory[part.offset] << 8 * index
-            for index, part in enumerate(code_bits(self._resource.program))
-        )
-        return frozenset(("flag", "detail", "log", *(("code",) if code == self._chosen.code else ())))
+        if not self._present():
+            return _LOG
+        code = sum(self._resource.memory[offset] << 8 * index for index, offset in enumerate(self._code_at))
+        return _CODE_TOO if code == self._chosen.code else _NO_CODE
+
+    def _present(self) -> bool:
+        """Looked up when something was entered: in most scans nothing is."""
+        entries = len(self._resource.journal)
+        if self._known[0] != entries:
+            active = self._resource.journal.derived(ACTIVE).get(self._ref.id)
+            there = active is not None and (not self._chosen.error.several or self._ref in active.refs)
+            self._known = entries, there
+        return self._known[1]
 
     def _look(self, looking: Iterable[tuple[str, Span, What]], scan: int, shown: frozenset[What]) -> None:
         for task, span, what in looking:
@@ -373,4 +392,4 @@ def _takes_back(entry: Entry, ref: ErrorRef) -> bool:
     command = entry.command
     if not isinstance(command, Recover):
         return False
-    return command.ids is None or ref.id in command.ids or ref in command.numbers
+    return takes_back(command, ref)

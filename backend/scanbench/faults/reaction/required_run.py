@@ -11,6 +11,7 @@ from scanbench.faults.reaction.required_rules import Made
 from scanbench.faults.reaction.required_watch import Watch, allows, graded, not_checked, result
 from scanbench.faults.reaction.restarts import Outputs, is_on
 from scanbench.faults.reaction.steps import advance, state_words
+from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.leaves import Leaf
@@ -20,7 +21,7 @@ class RequiredRun:
     """Follows a run from the moment when the error is present."""
 
     def __init__(
-        self, every: Sequence[Made], resource: Resource, error: str, window: int, variables: Variables, *, alone: bool
+        self, every: Sequence[Made], resource: Resource, error: ErrorRef, window: int, variables: Variables, *, alone: bool
     ) -> None:  # fmt: skip
         """`alone`: nobody gives commands meanwhile, so that what goes on does so by itself."""
         self._every, self._resource, self._error, self._window, self._alone = every, resource, error, window, alone
@@ -35,8 +36,12 @@ class RequiredRun:
 
     def before(self) -> None:
         """A scan comes; what came from outside is entered."""
-        if self._recovered is None and self._error not in self._resource.journal.derived(ACTIVE):
+        if self._recovered is None and not self._is_present():
             self._recover()
+
+    def _is_present(self) -> bool:
+        active = self._resource.journal.derived(ACTIVE).get(self._error.id)
+        return active is not None and self._error in active.refs
 
     def after(self, scan: int, without: Words) -> None:
         """A scan of the window is over, here and in the run without the error."""
@@ -67,7 +72,7 @@ class RequiredRun:
         if self._recovered is None:
             if not checked and not (self._alone and self._outputs.switched_off()):
                 return []
-            refused = self._resource.submit(Recover(author, (self._error,)))
+            refused = self._resource.submit(Recover(author, (str(self._error),)))
             if isinstance(refused, Refusal):
                 return list(not_checked(checked, "not_recovered", refused.message))
             self._recover()

@@ -41,24 +41,40 @@ def sweep(
     for each point. What `rules` require is checked in the same runs.
     """
     left = [(error, name) for error in errors for name in points if (str(error), name) not in done]
-    prepared: dict[int, Prepared] = {}
-    known: dict[str, tuple[Comparison, Twin]] = {}
+    sweeper = Sweeper(points, window, programs, rules)
     for ref, name in left:
-        error = str(ref)
-        on_try(error, name)
-        if name not in known:
-            point = points[name]
-            if point.version not in prepared:
-                prepared[point.version] = Prepared(programs.get(point.version).program)
-            twin = run_twin(point, (), window, programs, TRACE_LIMIT // len(points))
-            known[name] = Comparison(point, programs, prepared[point.version]), twin
-        comparison, twin = known[name]
+        on_try(str(ref), name)
+        yield sweeper.cell(ref, name)
+
+
+class Sweeper:
+    """Raises errors from points, whatever the order; what all errors of a point have in common is made once."""
+
+    def __init__(
+        self, points: Mapping[str, Point], window: int, programs: Programs, rules: Rules | None = None
+    ) -> None:  # fmt: skip
+        self._points, self._window, self._programs, self._rules = points, window, programs, rules
+        self._prepared: dict[int, Prepared] = {}
+        self._known: dict[str, tuple[Comparison, Twin]] = {}
+
+    def cell(self, ref: ErrorRef, name: str) -> Cell:
+        """One error from one point."""
+        comparison, twin = self._at(name)
+        rules = self._rules
         found = comparison.raised(twin, ref, AUTHOR, (), () if rules is None else rules.of(ref, name))
         if isinstance(found, Refusal):
-            yield Cell(error, name, None, found.message)
-        else:
-            if rules is not None and name == next(iter(points)):
-                note = "it is about a state that this sweep does not begin from"
-                elsewhere = not_checked(rules.elsewhere(ref, points), "other_state", note)
-                found = replace(found, required=(*found.required, *elsewhere))
-            yield Cell(error, name, found)
+            return Cell(str(ref), name, None, found.message)
+        if rules is not None and name == next(iter(self._points)):
+            note = "it is about a state that this sweep does not begin from"
+            elsewhere = not_checked(rules.elsewhere(ref, self._points), "other_state", note)
+            found = replace(found, required=(*found.required, *elsewhere))
+        return Cell(str(ref), name, found)
+
+    def _at(self, name: str) -> tuple[Comparison, Twin]:
+        if name not in self._known:
+            point = self._points[name]
+            if point.version not in self._prepared:
+                self._prepared[point.version] = Prepared(self._programs.get(point.version).program)
+            twin = run_twin(point, (), self._window, self._programs, TRACE_LIMIT // len(self._points))
+            self._known[name] = Comparison(point, self._programs, self._prepared[point.version]), twin
+        return self._known[name]

@@ -10,7 +10,7 @@ from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol
 
 import scanbench
-from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.from_disk import PROJECT_FILE
 from scanbench.syntax.parse_file import ENDINGS
 from scanbench.translation.inside import Path, at_paths, wanted
@@ -114,7 +114,11 @@ async def watch(server: LanguageServer) -> None:
     watched = workspace.did_change_watched_files if workspace is not None else None
     if watched is None or not watched.dynamic_registration:
         return
-    globs = [*(f"**/*{ending}" for ending in ENDINGS), f"**/{PROJECT_FILE}", f"**/{USER_ERRORS}"]
+    globs = [
+        *(f"**/*{ending}" for ending in ENDINGS),
+        f"**/{PROJECT_FILE}",
+        *(f"**/{name}" for name in CATALOGUE_FILES),
+    ]
     options = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(each) for each in globs])
     wanted = types.Registration("files", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)
     await server.client_register_capability_async(types.RegistrationParams([wanted]))

@@ -22,7 +22,13 @@ export interface LeafRow {
   key: string;
   level: number;
   error: ErrorInfo;
-  checked: boolean;
+  /** Which of its kind, in words; empty: the row of the kind. */
+  instance: string;
+  /** What a click on its box ticks: itself, or the instances that are fitted. */
+  keys: string[];
+  check: Check;
+  /** False: the hardware that the error is of is not fitted. */
+  fitted: boolean;
   status: ErrorStatus;
   code: string;
   reaction: ReactionState | null;
@@ -42,6 +48,10 @@ export interface CatalogueView {
   closed: ReadonlySet<string>;
   checked: ReadonlySet<string>;
   history: ReadonlyMap<string, ErrorHistoryRow>;
+  /** The rows of instances, by kind. */
+  instances?: ReadonlyMap<string, readonly ErrorHistoryRow[]>;
+  /** The project says what is fitted. */
+  hardware?: boolean;
   armed: ReadonlySet<string>;
 }
 
@@ -85,7 +95,7 @@ function groupRows(group: ErrorGroup, view: CatalogueView, level: number, parent
   const key = `${parent}/${group.name}`;
   const shown = allErrors([group]).filter((error) => passes(error, view));
   if (shown.length === 0) return [];
-  const ids = shown.map((error) => error.id);
+  const ids = shown.flatMap((error) => keysOf(error, view));
   const open = !view.closed.has(key) || view.filter.trim() !== "";
   const head: GroupRow = {
     kind: "group",
@@ -95,29 +105,64 @@ function groupRows(group: ErrorGroup, view: CatalogueView, level: number, parent
     open,
     check: checkOf(ids, view.checked),
     ids,
-    tested: ids.filter((id) => isTested(view.history.get(id))).length,
+    tested: shown.flatMap((error) => rowsOf(error, view)).filter(isTested).length,
   };
   if (!open) return [head];
   const leaves = group.errors
     .filter((error) => passes(error, view))
-    .map((error): LeafRow => leafRow(error, view, level + 1));
+    .flatMap((error): LeafRow[] => leafRows(error, view, level + 1));
   return [head, ...group.groups.flatMap((inner) => groupRows(inner, view, level + 1, key)), ...leaves];
 }
 
-function leafRow(error: ErrorInfo, view: CatalogueView, level: number): LeafRow {
-  const status = statusOf(error.id, view);
-  const raised = view.history.get(error.id);
+/** What a box of the error ticks: where the project says what is fitted, just that. */
+function keysOf(error: ErrorInfo, view: CatalogueView): string[] {
+  const fitted = (view.instances?.get(error.id) ?? []).filter((row) => row.fitted !== false);
+  if (view.hardware && fitted.length > 0) return fitted.map((row) => row.instance ?? row.id);
+  return view.history.get(error.id)?.fitted === false ? [] : [error.id];
+}
+
+/** The rows that are counted. */
+function rowsOf(error: ErrorInfo, view: CatalogueView): ErrorHistoryRow[] {
+  const fitted = (view.instances?.get(error.id) ?? []).filter((row) => row.fitted !== false);
+  if (view.hardware && fitted.length > 0) return fitted;
+  const kind = view.history.get(error.id);
+  return kind && kind.fitted !== false ? [kind] : [];
+}
+
+/** The row of a kind, and below it those of its instances. */
+function leafRows(error: ErrorInfo, view: CatalogueView, level: number): LeafRow[] {
+  const kind = leafRow(error, view, level, view.history.get(error.id), error.id);
+  const instances = (view.instances?.get(error.id) ?? []).map((row) => {
+    const key = row.instance ?? row.id;
+    const words = [detailsInWords(error, key.slice(row.id.length + 1).replaceAll(",", ", ")), row.label];
+    return { ...leafRow(error, view, level + 1, row, key), instance: words.filter(Boolean).join(", "), keys: [key] };
+  });
+  return [kind, ...instances];
+}
+
+function leafRow(
+  error: ErrorInfo,
+  view: CatalogueView,
+  level: number,
+  raised: ErrorHistoryRow | undefined,
+  key: string,
+): LeafRow {
+  const status = raised?.status ?? "never";
+  const keys = key === error.id ? keysOf(error, view) : [key];
   return {
     kind: "error",
-    key: error.id,
+    key,
     level,
     error,
-    checked: view.checked.has(error.id),
+    instance: "",
+    keys,
+    check: checkOf(keys, view.checked),
+    fitted: raised?.fitted !== false,
     status,
     code: status === "generated" && raised?.code ? raised.code : error.code,
     reaction: reactionOf(raised),
     swept: isSwept(raised),
-    armed: view.armed.has(error.id),
+    armed: [...view.armed].some((text) => text === key || (key === error.id && text.startsWith(`${key}:`))),
   };
 }
 
@@ -157,7 +202,9 @@ function passes(error: ErrorInfo, view: CatalogueView): boolean {
   if (!reactionPasses(verdictOf(view.history.get(error.id)), view.reaction)) return false;
   const wanted = view.filter.trim().toLowerCase();
   const names = (error.wordings ?? []).map((wording) => wording.name);
-  return [error.name, ...names, error.code, error.flag, error.id].some((text) => text.toLowerCase().includes(wanted));
+  const labels = (view.instances?.get(error.id) ?? []).map((row) => row.label ?? "");
+  const texts = [error.name, ...names, error.code, error.flag, error.id, ...labels];
+  return texts.some((text) => text.toLowerCase().includes(wanted));
 }
 
 function reactionPasses(verdict: Verdict | null, wanted: ReactionFilter): boolean {
@@ -191,5 +238,6 @@ export function rowFor(rows: readonly CatalogueRow[], typed: string, from: numbe
 }
 
 function textsOf(row: CatalogueRow): string[] {
-  return row.kind === "group" ? [row.name] : [row.error.name, row.error.code, row.error.flag];
+  if (row.kind === "group") return [row.name];
+  return row.instance ? [row.instance, row.code] : [row.error.name, row.error.code, row.error.flag];
 }

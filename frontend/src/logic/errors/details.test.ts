@@ -23,6 +23,8 @@ const detail = (over: Partial<ErrorDetail>): ErrorDetail => ({
   default: "",
   base: 10,
   adds: false,
+  hardware: "",
+  identifies: "",
   minimum: 0,
   maximum: 3,
   ...over,

@@ -18,6 +18,9 @@ const line = (id: string, more: Partial<HistoryLine> = {}): HistoryLine => ({
   count: 0,
   reaction: null,
   swept: null,
+  fitted: true,
+  instance: "",
+  label: "",
   ...more,
 });
 

@@ -1,6 +1,7 @@
 /** The error history as a table, filtered and sorted: of this PLC, of an earlier program version, or of an imported record. */
 import type { ErrorHistoryRow, TestRecord, Verdict } from "../../wire/types";
 import { isFinding, type ReactionFilter, reactionOf, verdictOf } from "./catalogue";
+import { idOf } from "./instances";
 
 /** A row, from any of these sources. */
 export interface HistoryLine extends ErrorHistoryRow {
@@ -114,6 +115,10 @@ export function sortedBy(sort: HistoryView["sort"], column: Column): HistoryView
 export function recordLines(record: TestRecord): HistoryLine[] {
   return record.errors.map((error) => ({
     ...error,
+    id: idOf(error.id),
+    instance: error.id,
+    fitted: true,
+    label: "",
     by: error.by || null,
     ...(error.verdict_from === "sweep"
       ? { reaction: null, swept: reactionIn(error) }

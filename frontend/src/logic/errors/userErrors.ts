@@ -79,6 +79,9 @@ export function newDetail(control: Control, taken: readonly string[]): UserDetai
     name: freeId(control === "List" ? "kind" : "number", taken),
     control,
     default: "",
+    identifies: "",
+    hardware: "",
+    absent: "",
     addresses: [first],
     texts: [],
   };
@@ -112,6 +115,7 @@ export function newError(errors: readonly UserError[], model: ModelInfo | null):
     source: "",
     verified: "",
     adds: "",
+    hardware: "",
     texts: [],
     details: [],
     also: [],

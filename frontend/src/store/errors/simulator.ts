@@ -10,6 +10,7 @@ import {
   needsDetails,
   wireDetails,
 } from "../../logic/errors/details";
+import { idOf, isInstance, keyOf, wantedOf } from "../../logic/errors/instances";
 import { isPlain, plainShape, readShape, type ShapeForm } from "../../logic/errors/shapes";
 import { withName } from "../../logic/plc/expression";
 import { send } from "../../wire/send";
@@ -17,6 +18,7 @@ import type { ErrorHistoryRow, ErrorInfo, GenerateOne } from "../../wire/types";
 import { readClock } from "../plc/clock";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
+import { catalogueNow } from "./catalogue";
 
 export interface Outcome {
   ok: boolean;
@@ -71,7 +73,13 @@ onInstanceChange(() => set(nothing));
 
 type Filters = Pick<Simulator, "filter" | "status" | "severity" | "reaction">;
 export const setFilters = (filters: Partial<Filters>) => set(filters);
-export const selectError = (selected: string | null) => set({ selected, outcome: null });
+export function selectError(selected: string | null): void {
+  set({ selected, outcome: null });
+  const row = selected !== null && isInstance(selected) ? usePlc.getState().instances.get(selected) : undefined;
+  const error = row && catalogueNow().byId.get(row.id);
+  // The details of the instance are those that are shown, and raised.
+  if (row && error) set(({ details }) => ({ details: { ...details, [error.id]: entriesIn(error, row.details) } }));
+}
 export const setShape = (change: Partial<ShapeForm>) => set(({ shape }) => ({ shape: { ...shape, ...change } }));
 export const closeDialog = () => set({ asking: null });
 export const forgetOutcome = () => set({ outcome: null });
@@ -123,14 +131,25 @@ export function targets(state: Pick<Simulator, "checked" | "selected">): string[
 /** Details of several errors are edited in a dialog; those of one are edited in the panel, unless it shows a different error. */
 export function asksFirst(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): boolean {
   const chosen = chosenOf(state, errors);
-  if (chosen.length === 1 && chosen[0]?.id === state.selected) return false;
+  const selected = state.selected === null ? null : idOf(state.selected);
+  if (chosen.length === 1 && chosen[0]?.id === selected) return false;
   return chosen.some(needsDetails);
 }
 
 /** The errors that the buttons act on, in the order of the catalogue. */
 export function chosenOf(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): ErrorInfo[] {
-  const wanted = new Set(targets(state));
+  const single = new Set(instancesOf(state));
+  const wanted = new Set(
+    targets(state)
+      .filter((key) => !single.has(key))
+      .map(idOf),
+  );
   return errors.filter((error) => wanted.has(error.id));
+}
+
+/** The ticked instances: they are raised with their own details. The selected one is raised with the details that are shown. */
+export function instancesOf({ checked }: Pick<Simulator, "checked">): string[] {
+  return [...checked].filter(isInstance);
 }
 
 /** Opens the dialog for these errors, whether they need details or not. */
@@ -142,18 +161,22 @@ export function askDetails(errors: readonly ErrorInfo[]): void {
 /** Raises these errors; opens the dialog first if several need details. */
 export async function generate(errors: readonly ErrorInfo[]): Promise<void> {
   if (asksFirst(get(), errors)) askDetails(errors);
-  else await raise(chosenOf(get(), errors));
+  else await raise(chosenOf(get(), errors), { single: instancesOf(get()) });
 }
 
 export const asWanted = (errors: readonly ErrorInfo[]): GenerateOne[] =>
   errors.map((error) => ({ id: error.id, details: wireDetails(error, entriesNow(error)) }));
 
 /** Raises these errors in one seam, or arms them if they come later, one by one or temporarily. True when it was accepted. */
-export async function raise(errors: readonly ErrorInfo[], { gap = 0, again = false } = {}): Promise<boolean> {
-  if (errors.length === 0) return false;
+export async function raise(
+  errors: readonly ErrorInfo[],
+  { gap = 0, again = false, single = [] as readonly string[] } = {},
+): Promise<boolean> {
+  const wanted = [...asWanted(errors), ...single.map(wantedOf)];
+  if (wanted.length === 0) return false;
   const { shape: form } = get();
-  const wanted = asWanted(errors);
-  if (again || (isPlain(form) && gap === 0)) return report(send({ type: "generate", errors: wanted, again }), errors);
+  if (again || (isPlain(form) && gap === 0))
+    return report(send({ type: "generate", errors: wanted, again, anyway: false }), errors);
   const { start, shape, troubles } = readShape(form, readClock().scan);
   if (Object.keys(troubles).length > 0) return false;
   const accepted = await report(send({ type: "arm", errors: wanted, start, shape, gap }), errors);
@@ -180,9 +203,11 @@ export async function skipPresent(errors: readonly ErrorInfo[], outcome: Outcome
 
 /** Recovers those of the chosen errors that are generated; `everything` recovers all errors. */
 export async function recover(everything: boolean): Promise<void> {
-  const { errors } = usePlc.getState();
-  const present = [...errors.values()].filter((row) => row.status === "generated").map((row) => row.id);
-  const ids = everything ? present : targets(get()).filter((id) => present.includes(id));
+  const { instances } = usePlc.getState();
+  const present = [...instances.values()].filter((row) => row.status === "generated").map(keyOf);
+  const ids = everything
+    ? present
+    : targets(get()).filter((key) => present.some((each) => each === key || idOf(each) === key));
   if (await report(send({ type: "recover", ids: everything ? null : ids }))) set({ told: { ids, status: "cleared" } });
 }
 
@@ -203,8 +228,9 @@ async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInf
   const { ok, message, near } = await answer;
   const ids = errors.map((error) => error.id);
   const raised = usePlc.getState().errors;
-  const present = ok ? [] : (near ?? []).filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");
-  const others = ok ? [] : (near ?? []).filter((name) => !present.includes(name));
+  const named = (near ?? []).map(idOf);
+  const present = ok ? [] : named.filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");
+  const others = ok ? [] : (near ?? []).filter((name) => !present.includes(idOf(name)));
   set({ outcome: { ok, message, ids, present, near: others }, told: { ids: ok ? ids : present, status: "generated" } });
   return ok;
 }
@@ -214,8 +240,8 @@ usePlc.subscribe((now, before) => {
   const { told } = get();
   if (!told || now.errors === before.errors) return;
   const undone = told.ids.some((id) => {
-    const status = now.errors.get(id)?.status;
-    return status !== before.errors.get(id)?.status && status !== told.status;
+    const status = (now.instances.get(id) ?? now.errors.get(id))?.status;
+    return status !== (before.instances.get(id) ?? before.errors.get(id))?.status && status !== told.status;
   });
   if (undone) set({ outcome: null, told: null });
 });

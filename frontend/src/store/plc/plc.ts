@@ -1,5 +1,7 @@
 /** The virtual PLC this browser is connected to: state, users, errors and log, as the server last reported them. */
+
 import { create } from "zustand";
+import { byKind, type Rows, withRows } from "../../logic/errors/instances";
 import { type Deed, forbidden } from "../../logic/plc/permits";
 import { t } from "../../text";
 import type { LinkStatus } from "../../wire/socket";
@@ -15,7 +17,10 @@ export interface Plc {
   state: InstanceState | null;
   you: User | null;
   users: User[];
+  /** One row for each kind of error; the rows of its instances together. */
   errors: ReadonlyMap<string, ErrorHistoryRow>;
+  /** The row of each error instance, by its key. */
+  instances: Rows;
   /** Scheduled and recurring faults that are not over. */
   armed: readonly ArmedFault[];
   log: readonly LogLine[];
@@ -31,6 +36,7 @@ const nothing: Plc = {
   you: null,
   users: [],
   errors: new Map(),
+  instances: new Map(),
   armed: [],
   log: [],
   diagnostics: NO_DIAGNOSTICS,
@@ -54,6 +60,8 @@ export function resetPlc(): void {
   usePlc.setState({ ...nothing, link: usePlc.getState().link });
 }
 
+const known = (instances: Rows) => ({ instances, errors: byKind(instances) });
+
 export function onHello(hello: Hello): void {
   const { state } = hello.instance;
   setClock(state.scan, state.time_ns);
@@ -61,7 +69,7 @@ export function onHello(hello: Hello): void {
     state,
     you: hello.you,
     users: hello.users,
-    errors: new Map(hello.errors.map((row) => [row.id, row])),
+    ...known(withRows(new Map(), hello.errors)),
     armed: hello.armed,
     log: hello.log,
     diagnostics: hello.diagnostics,
@@ -74,11 +82,7 @@ export function onState(state: InstanceState): void {
 }
 
 export function onErrors(rows: readonly ErrorHistoryRow[]): void {
-  usePlc.setState(({ errors }) => {
-    const next = new Map(errors);
-    for (const row of rows) next.set(row.id, row);
-    return { errors: next };
-  });
+  usePlc.setState(({ instances }) => known(withRows(instances, rows)));
 }
 
 export function onLog(lines: readonly LogLine[]): void {

@@ -134,6 +134,8 @@ export const errors = {
   "errors.adds.short": "Adds",
   "errors.again": "Change details",
   "errors.again.hint": "Generates the error again with the details shown here",
+  "errors.absent": "not fitted",
+  "errors.absent.about": "hardware.json says that this hardware is not there: it is not counted and not swept",
   "errors.arm": "Arm",
   "errors.arm.many": "Arm {count}",
   "errors.ask": "Generate…",

@@ -135,6 +135,8 @@ export const errors: Record<keyof typeof english, string> = {
   "errors.adds.short": "加算",
   "errors.again": "詳細を変更",
   "errors.again.hint": "ここに表示された詳細で再び発生させます",
+  "errors.absent": "未実装",
+  "errors.absent.about": "hardware.json によると、このハードウェアは実装されていません。集計とスイープの対象外です",
   "errors.arm": "予約",
   "errors.arm.many": "{count} 件予約",
   "errors.ask": "発生…",

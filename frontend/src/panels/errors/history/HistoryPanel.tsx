@@ -1,5 +1,6 @@
 import { useEffect, useMemo } from "react";
 import type { HistoryLine } from "../../../logic/errors/history";
+import { keyOf } from "../../../logic/errors/instances";
 import { dayTime } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { refreshRecords, setHistoryView, showVersion, useRecords } from "../../../store/errors/records";
@@ -8,6 +9,7 @@ import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import type { ErrorHistoryRow } from "../../../wire/types";
 import { Filters } from "./Filters";
 import { HistoryTable } from "./HistoryTable";
 import "./history.css";
@@ -64,18 +66,21 @@ export function HistoryPanel() {
 
 /** The rows of the shown version, in the order of the catalogue and with its names. */
 function useLines(): readonly HistoryLine[] {
-  const live = usePlc((plc) => plc.errors);
+  const live = usePlc((plc) => plc.instances);
   const old = useRecords((records) => records.old);
   const { errors } = useCatalogue();
   return useMemo(() => {
-    const rows = old ? new Map(old.rows.map((row) => [row.id, row])) : live;
+    const rows = new Map<string, ErrorHistoryRow[]>();
+    for (const row of old ? old.rows : live.values()) rows.set(row.id, [...(rows.get(row.id) ?? []), row]);
     const names = new Map(errors.map(({ id, name }) => [id, name]));
     // Errors that are not in the catalogue of the running program come last: they belong to a different version.
     const others = old ? old.rows.filter(({ id }) => !names.has(id)) : [];
-    const known = errors.flatMap(({ id }) => rows.get(id) ?? []);
+    const known = errors.flatMap(({ id }) => (rows.get(id) ?? []).sort(byNumber));
     return [...known, ...others].map((row) => ({ ...row, name: names.get(row.id) ?? row.name }));
   }, [live, old, errors]);
 }
+
+const byNumber = (a: ErrorHistoryRow, b: ErrorHistoryRow) => keyOf(a).localeCompare(keyOf(b), "en", { numeric: true });
 
 function VersionMenu({ running }: { running: number | null }) {
   const { versions, old } = useRecords();

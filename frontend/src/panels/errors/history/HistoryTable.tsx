@@ -7,6 +7,7 @@ import {
   isFiltered,
   sortedBy,
 } from "../../../logic/errors/history";
+import { keyOf } from "../../../logic/errors/instances";
 import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -62,7 +63,7 @@ export function HistoryTable({ lines, view, onView, label, dated }: Props) {
         </thead>
         <tbody>
           {shown.map((line) => (
-            <Line key={line.id} line={line} dated={dated} />
+            <Line key={keyOf(line)} line={line} dated={dated} />
           ))}
         </tbody>
       </table>

@@ -1,5 +1,6 @@
 import { detailsInWords, isSwept, reactionOf } from "../../../logic/errors/catalogue";
 import type { HistoryLine } from "../../../logic/errors/history";
+import { keyOf } from "../../../logic/errors/instances";
 import { dayTime, grouped, wallTime } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { showRerun } from "../../../store/past/reruns";
@@ -13,10 +14,12 @@ import { StatusWord } from "../../../ui/StatusWord";
 
 /** One error: how often it was raised, and how the program reacted. */
 export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
-  const details = detailsInWords(useCatalogue().byId.get(line.id), line.details);
+  const { byId } = useCatalogue();
+  const words = line.details && detailsInWords(byId.get(line.id), line.details);
+  const details = [words, line.label].filter(Boolean).join(", ");
   const fatal = line.severity === "fatal";
   return (
-    <tr data-error={line.id}>
+    <tr data-error={keyOf(line)} className={line.fitted === false ? "absent" : undefined}>
       <th scope="row" title={line.name}>
         {line.name}
       </th>
@@ -34,7 +37,7 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
         <Reaction line={line} />
       </td>
       <td className="num">{reactionOf(line)?.scans ?? ""}</td>
-      <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} error={dated ? null : line.id} />
+      <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} error={dated ? null : keyOf(line)} />
       <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} error={null} />
       <td className="mono c-code">{line.status === "never" ? "" : line.code}</td>
       <td className="details" title={details || undefined}>

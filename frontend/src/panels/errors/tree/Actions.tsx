@@ -3,7 +3,16 @@ import { inNames } from "../../../logic/errors/catalogue";
 import { troubles } from "../../../logic/errors/details";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { useShape } from "../../../store/errors/shape";
-import { asksFirst, chosenOf, entriesOf, generate, recover, useSimulator } from "../../../store/errors/simulator";
+import {
+  asksFirst,
+  chosenOf,
+  entriesOf,
+  generate,
+  instancesOf,
+  recover,
+  targets,
+  useSimulator,
+} from "../../../store/errors/simulator";
 import { useForbidden, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -21,7 +30,12 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
   const locked = forbidden !== null;
   const why = forbidden ?? undefined;
   const chosen = chosenOf(state, errors);
-  const raised = chosen.filter(({ id }) => history.get(id)?.status === "generated").length;
+  const instances = usePlc((plc) => plc.instances);
+  const single = instancesOf(state);
+  const count = chosen.length + single.length;
+  const raised = targets(state).filter(
+    (key) => (instances.get(key) ?? history.get(key))?.status === "generated",
+  ).length;
   const any = [...history.values()].some((row) => row.status === "generated");
   const asks = asksFirst(state, errors);
   const unready =
@@ -37,12 +51,12 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
         <button
           type="button"
           className="btn primary sm"
-          disabled={locked || unready || chosen.length === 0}
+          disabled={locked || unready || count === 0}
           title={why}
           onClick={() => void generate(errors)}
         >
           <Icon name={shape.plain ? "generated" : "clock"} small />
-          {label(chosen.length, asks, shape.plain)}
+          {label(count, asks, shape.plain)}
         </button>
         <button
           type="button"

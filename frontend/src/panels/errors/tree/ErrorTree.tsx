@@ -77,7 +77,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
     else if (event.key === "ArrowRight") sideways(row, true);
     else if (event.key === "ArrowLeft") sideways(row, false);
     else if (event.key === " ") {
-      if (row) toggleChecked(row.kind === "group" ? row.ids : [row.error.id]);
+      if (row) toggleChecked(row.kind === "group" ? row.ids : row.keys);
     } else if (event.key === "Enter") onGenerate();
     else if (event.key.length === 1) jump(event);
     else return;

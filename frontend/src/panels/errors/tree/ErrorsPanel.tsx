@@ -1,6 +1,7 @@
 import { useMemo } from "react";
 import { useShallow } from "zustand/react/shallow";
 import { catalogueRows } from "../../../logic/errors/catalogue";
+import { idOf, instancesByKind } from "../../../logic/errors/instances";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { generate, setFilters, useSimulator } from "../../../store/errors/simulator";
 import { openSweep } from "../../../store/errors/sweeps";
@@ -39,14 +40,29 @@ function Simulator({ model }: { model: ModelInfo }) {
   );
   const { groups, errors, byId } = useCatalogue();
   const history = usePlc((plc) => plc.errors);
+  const known = usePlc((plc) => plc.instances);
+  const instances = useMemo(() => instancesByKind(known), [known]);
+  const hardware = model.hardware;
   const faults = usePlc((plc) => plc.armed);
   const armed = useMemo(() => new Set(faults.flatMap((fault) => fault.errors)), [faults]);
   const locked = useForbidden("errors") !== null;
   const rows = useMemo(
-    () => catalogueRows(groups, { filter, status, severity, reaction, closed, checked, history, armed }),
-    [groups, filter, status, severity, reaction, closed, checked, history, armed],
+    () =>
+      catalogueRows(groups, {
+        filter,
+        status,
+        severity,
+        reaction,
+        closed,
+        checked,
+        history,
+        instances,
+        hardware,
+        armed,
+      }),
+    [groups, filter, status, severity, reaction, closed, checked, history, instances, hardware, armed],
   );
-  const error = selected === null ? undefined : byId.get(selected);
+  const error = selected === null ? undefined : byId.get(idOf(selected));
   const untouched = useMemo(() => [...history.values()].every((row) => row.status === "never"), [history]);
   const refused = refusedRow(rows, outcome);
   return (

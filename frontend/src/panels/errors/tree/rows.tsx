@@ -54,25 +54,25 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
     <>
       <div
         id={`error-${index}`}
-        className={`gr${selected ? " on" : ""}`}
+        className={`gr${selected ? " on" : ""}${row.fitted ? "" : " absent"}`}
         role="row"
         style={{ "--lv": row.level + 1 }}
         aria-level={row.level + 1}
         aria-selected={selected}
         data-key={row.key}
-        title={[error.name, `${row.code} · ${error.flag}`, error.description].filter(Boolean).join("\n")}
-        onClick={() => selectError(error.id)}
+        title={[error.name, row.instance, `${row.code} · ${error.flag}`, error.description].filter(Boolean).join("\n")}
+        onClick={() => selectError(row.key)}
       >
         <span className="name" role="gridcell">
           <Checkbox
-            label={error.name}
-            check={row.checked ? "all" : "none"}
+            label={row.instance ? `${error.name}, ${row.instance}` : error.name}
+            check={row.check}
             onToggle={() => {
-              toggleChecked([error.id]);
-              selectError(error.id);
+              toggleChecked(row.keys);
+              selectError(row.key);
             }}
           />
-          <span className="cut">{error.name}</span>
+          <span className="cut">{row.instance || error.name}</span>
         </span>
         <span className="mono muted c-code" role="gridcell">
           {row.code}
@@ -88,7 +88,9 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
           />
         </span>
         <span role="gridcell" className="c-state">
-          {row.armed && row.status !== "generated" ? (
+          {!row.fitted && row.status === "never" ? (
+            <StateWord tone="stale" icon="minus" word={t("errors.absent")} title={t("errors.absent.about")} />
+          ) : row.armed && row.status !== "generated" ? (
             <StateWord tone="recording" icon="clock" word={t("errors.armed")} title={t("errors.armed.about")} />
           ) : (
             <StatusWord status={row.status} swept={row.swept && row.status === "never"} />
@@ -104,7 +106,8 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
 }, sameLeaf);
 
 function sameLeaf({ row: before, ...rest }: LeafProps, { row: after, ...others }: LeafProps): boolean {
-  return shallow(before, after) && shallow(rest, others);
+  const told = (row: LeafRow) => ({ ...row, keys: row.keys.join() });
+  return shallow(told(before), told(after)) && shallow(rest, others);
 }
 
 /** The reaction, and how many scans it took. */

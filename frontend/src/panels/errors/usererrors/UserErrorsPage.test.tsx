@@ -128,7 +128,7 @@ test("a file is imported whole or not at all: refused with its line, the dialog 
         { language: "ja", name: "ポンプ過熱", description: "" },
       ];
       const imported = { group: ["Machine"], code: "4F01", flag: "W10.00", severity: "nonfatal", priority: "1000" };
-      const rest = { cause: "", memory: "", source: "", verified: "", adds: "", details: [], also: [] };
+      const rest = { cause: "", memory: "", source: "", verified: "", adds: "", hardware: "", details: [], also: [] };
       return {
         errors: [{ id: "pump-hot", ...imported, ...rest, texts }],
         groups: [],
