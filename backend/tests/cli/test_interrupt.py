@@ -96,11 +96,11 @@ def test_a_verification_that_is_not_begun_says_so(project: Path, monkeypatch: py
 
 
 def test_a_sweep_tells_the_errors_it_has_tried(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def two(*given: object) -> Iterator[Cell]:
+    def two(*given: object, rules: object) -> Iterator[Cell]:
         yield Cell("battery-error", "Start", None, "so far")
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(ERRORS, "sweep", two)
+    monkeypatch.setattr(ERRORS, "sweep_side_by_side", two)
     said = call("errors", "sweep", project, "--json")
     assert said.exit_code == 130, said.output
     assert [each["id"] for each in json.loads(said.stdout)["results"]] == ["battery-error"]

@@ -1,7 +1,7 @@
 /** The error history as a table, filtered and sorted: of this PLC, of an earlier program version, or of an imported record. */
 import type { ErrorHistoryRow, TestRecord, Verdict } from "../../wire/types";
+import { idOf } from "../plc/errorInstances";
 import { isFinding, type ReactionFilter, reactionOf, verdictOf } from "./catalogue";
-import { idOf } from "./instances";
 
 /** A row, from any of these sources. */
 export interface HistoryLine extends ErrorHistoryRow {

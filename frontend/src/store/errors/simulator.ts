@@ -10,8 +10,8 @@ import {
   needsDetails,
   wireDetails,
 } from "../../logic/errors/details";
-import { idOf, isInstance, keyOf, wantedOf } from "../../logic/errors/instances";
 import { isPlain, plainShape, readShape, type ShapeForm } from "../../logic/errors/shapes";
+import { idOf, isInstance, keyOf, wantedOf } from "../../logic/plc/errorInstances";
 import { withName } from "../../logic/plc/expression";
 import { send } from "../../wire/send";
 import type { ErrorHistoryRow, ErrorInfo, GenerateOne } from "../../wire/types";

@@ -1,7 +1,7 @@
 /** The virtual PLC this browser is connected to: state, users, errors and log, as the server last reported them. */
 
 import { create } from "zustand";
-import { byKind, type Rows, withRows } from "../../logic/errors/instances";
+import { byKind, type Rows, withRows } from "../../logic/plc/errorInstances";
 import { type Deed, forbidden } from "../../logic/plc/permits";
 import { t } from "../../text";
 import type { LinkStatus } from "../../wire/socket";

@@ -1,7 +1,7 @@
 import { useEffect, useMemo } from "react";
 import type { HistoryLine } from "../../../logic/errors/history";
-import { keyOf } from "../../../logic/errors/instances";
 import { dayTime } from "../../../logic/format/numbers";
+import { keyOf } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { refreshRecords, setHistoryView, showVersion, useRecords } from "../../../store/errors/records";
 import { useBench } from "../../../store/plc/bench";

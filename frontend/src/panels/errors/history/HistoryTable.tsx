@@ -7,7 +7,7 @@ import {
   isFiltered,
   sortedBy,
 } from "../../../logic/errors/history";
-import { keyOf } from "../../../logic/errors/instances";
+import { keyOf } from "../../../logic/plc/errorInstances";
 import { useWidths } from "../../../store/page/columns";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";

@@ -1,7 +1,7 @@
 import { detailsInWords, isSwept, reactionOf } from "../../../logic/errors/catalogue";
 import type { HistoryLine } from "../../../logic/errors/history";
-import { keyOf } from "../../../logic/errors/instances";
 import { dayTime, grouped, wallTime } from "../../../logic/format/numbers";
+import { keyOf } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { showRerun } from "../../../store/past/reruns";
 import { travel } from "../../../store/plc/timeline";

@@ -1,7 +1,7 @@
 import { useMemo } from "react";
 import { useShallow } from "zustand/react/shallow";
 import { catalogueRows } from "../../../logic/errors/catalogue";
-import { idOf, instancesByKind } from "../../../logic/errors/instances";
+import { idOf, instancesByKind } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { generate, setFilters, useSimulator } from "../../../store/errors/simulator";
 import { openSweep } from "../../../store/errors/sweeps";

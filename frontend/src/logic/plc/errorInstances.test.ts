@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { BASIC, row } from "../../testing/catalogue";
-import { byKind, instancesByKind, keyOf, wantedOf, withRows } from "./instances";
+import { byKind, instancesByKind, keyOf, wantedOf, withRows } from "./errorInstances";
 
 const UNIT = { ...BASIC, id: "special-io-unit-error" };
 const unit = (number: number, more: Parameters<typeof row>[1] = {}) =>
