@@ -27,6 +27,8 @@ from scanbench.wire.symbols import SymbolInfo
 router = APIRouter(prefix="/api", tags=["instances"])
 LARGEST_IMPORT = 1 << 30
 MOST_LOG_LINES = 1000
+LAST_LOG_LINE = 2**53
+"""No database keeps as many."""
 
 
 @router.get("")
@@ -177,7 +179,7 @@ async def on_errors(bench: Bench, instance: Id) -> list[ErrorHistoryRow]:
 
 @router.get("/instances/{instance}/log")
 async def on_log(
-    bench: Bench, instance: Id, first: Annotated[int, Query(ge=0)] | None = None,
+    bench: Bench, instance: Id, first: Annotated[int, Query(ge=0, le=LAST_LOG_LINE)] | None = None,
     count: Annotated[int, Query(ge=1, le=MOST_LOG_LINES)] = MOST_LOG_LINES, kind: LogKind | None = None,
 ) -> LogPage:  # fmt: skip
     """Lines of the event log, oldest first: `count` of them from the number `first` on (counted from 0, of those of this

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { lineOf, requiredOf, withRequired } from "./required";
+import { isSplit, lineOf, requiredOf, withRequired } from "./required";
 
 const FILE = `// what must happen
 all: at least decided
@@ -34,4 +34,19 @@ test("an error without lines is put at the end, one whose lines were deleted goe
   expect(withRequired("all: lamp\n", "battery-error", "lamp")).toBe("all: lamp\n\nbattery-error:\n  lamp\n");
   expect(withRequired("all: lamp\n\nbattery-error:\n  lamp\n", "battery-error", " ")).toBe("all: lamp\n\n");
   expect(withRequired("all: lamp\n", "battery-error", "")).toBe("all: lamp\n");
+});
+
+test("a comment in the first column ends no block, and what is below it stays with its error", () => {
+  const text =
+    "basic-io-error:\n  always lamp\nbattery-error:\n  lamp\n// see the manual\n  motor = FALSE\n// the end\n(* all:\n  lamp *)\nall: lamp\n";
+  expect(requiredOf(text, "battery-error")).toBe("lamp\n// see the manual\nmotor = FALSE");
+  expect(withRequired(text, "battery-error", "")).toBe(
+    "basic-io-error:\n  always lamp\n// the end\n(* all:\n  lamp *)\nall: lamp\n",
+  );
+});
+
+test("an error with several blocks is known as such", () => {
+  expect(isSplit(FILE, "battery-error")).toBe(false);
+  expect(isSplit(`${FILE}battery-error:\n  motor\n`, "battery-error")).toBe(true);
+  expect(isSplit(`${FILE}// battery-error: motor\n`, "battery-error")).toBe(false);
 });

@@ -40,15 +40,36 @@ export function withRequired(text: string, error: string, said: string): string 
   return `${before}${before ? "\n\n" : ""}${block.join("\n")}\n`;
 }
 
+/** Whether the file speaks of the error in several places: which of them somebody wants to edit only the file can say. */
+export const isSplit = (text: string, error: string): boolean => headsOf(bare(text), error).length > 1;
+
 function find(lines: readonly string[], error: string): Block | null {
-  const from = lines.findIndex((line) => line.startsWith(`${error}:`) && /^(\s|$)/.test(line.slice(error.length + 1)));
-  const first = lines[from];
-  if (first === undefined) return null;
+  const said = bare(lines.join("\n"));
+  const [from] = headsOf(said, error);
+  const first = from === undefined ? undefined : lines[from];
+  if (from === undefined || first === undefined) return null;
   let to = from + 1;
-  for (let at = to; at < lines.length && !/^\S/.test(lines[at] ?? ""); at += 1) if (lines[at]?.trim()) to = at + 1;
+  // A comment in the first column ends nothing: what is indented below it still belongs to the error.
+  for (let at = to; at < lines.length && !/^\S/.test(said[at] ?? ""); at += 1)
+    if (said[at]?.trim() || /^\s+(\/\/|\(\*)/.test(lines[at] ?? "")) to = at + 1;
   const rest = first.slice(error.length + 1).trim();
   const inside = lines.slice(from + 1, to).map((line) => line.replace(/^( {1,2}|\t)/, ""));
   return { from, to, lines: rest ? [rest, ...inside] : inside };
+}
+
+function headsOf(said: readonly string[], error: string): number[] {
+  const isHead = (line: string) => line.startsWith(`${error}:`) && /^(\s|$)/.test(line.slice(error.length + 1));
+  return said.flatMap((line, at) => (isHead(line) ? [at] : []));
+}
+
+const QUOTED_OR_COMMENT = /'(?:\$.|[^$'\n])*'|"(?:\$.|[^$"\n])*"|\/\/[^\n]*|\(\*[\s\S]*?\*\)/g;
+
+/** The lines with blanks in place of comments, as the compiler reads them. */
+function bare(text: string): string[] {
+  const blanked = text.replace(QUOTED_OR_COMMENT, (found) =>
+    /^['"]/.test(found) ? found : found.replace(/[^\n]/g, " "),
+  );
+  return blanked.split("\n");
 }
 
 /** Whether it is not as the project requires it. */

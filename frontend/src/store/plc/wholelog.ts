@@ -18,20 +18,27 @@ interface WholeLog {
 const LIVE: WholeLog = { page: null, busy: false, trouble: "" };
 export const useWholeLog = create<WholeLog>(() => LIVE);
 
+let asked = 0;
+
 /** Shows the lines from the number `first` on, or the last ones, of one kind or of all. */
 export async function turnTo(first: number | null, kind: LogLine["kind"] | null): Promise<void> {
   const instance = useBench.getState().instance?.id;
   if (instance === undefined) return;
+  asked += 1;
+  const mine = asked;
   useWholeLog.setState({ busy: true, trouble: "" });
+  let now: Partial<WholeLog>;
   try {
-    const page = await rest.logPage(instance, first, kind);
-    if (useBench.getState().instance?.id === instance) useWholeLog.setState({ page, busy: false });
+    now = { page: await rest.logPage(instance, first, kind) };
   } catch (error) {
-    useWholeLog.setState({ busy: false, trouble: messageOf(error) });
+    now = { trouble: messageOf(error) };
   }
+  // The answer to an older question, or one that comes when somebody is live again, is not wanted any more.
+  if (mine === asked) useWholeLog.setState({ ...now, busy: false });
 }
 
 export function goLive(): void {
+  asked += 1;
   useWholeLog.setState(LIVE);
 }
 

@@ -259,6 +259,7 @@ export const errors = {
   "required.edit.example": "motor = FALSE within 3 scans\nafter recovery: motor stays FALSE until reset",
   "required.edit.file": "Whole file",
   "required.edit.label": "What must happen when this error comes and goes",
+  "required.edit.split": "The file speaks of this error in several places: edit them there.",
   "required.edit.unsaved": "Not saved yet: a build saves it, and then it takes effect.",
   "required.failed": "Failed",
   "required.label": "Required by the project",

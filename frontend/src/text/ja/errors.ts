@@ -257,6 +257,7 @@ export const errors: Record<keyof typeof english, string> = {
   "required.edit.example": "motor = FALSE within 3 scans\nafter recovery: motor stays FALSE until reset",
   "required.edit.file": "ファイル全体",
   "required.edit.label": "この異常の発生時と復旧時に必要な動作",
+  "required.edit.split": "この異常はファイルの複数箇所に記述されています。ファイルで編集してください。",
   "required.edit.unsaved": "未保存：ビルドで保存され、有効になります。",
   "required.failed": "不合格",
   "required.label": "プロジェクトの要求",

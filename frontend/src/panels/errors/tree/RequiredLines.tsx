@@ -1,5 +1,5 @@
 import { useEffect, useState } from "react";
-import { lineOf, REQUIREMENTS, requiredOf, withRequired } from "../../../logic/errors/required";
+import { isSplit, lineOf, REQUIREMENTS, requiredOf, withRequired } from "../../../logic/errors/required";
 import { messageOf } from "../../../logic/format/messageOf";
 import { openFile } from "../../../store/page/navigate";
 import { createFile, edit, isDirty, openDocument, useDocuments } from "../../../store/project/documents";
@@ -15,6 +15,7 @@ export function RequiredLines({ error }: { error: string }) {
   const [typed, setTyped] = useState("");
   const [refused, setRefused] = useState("");
   const told = text === undefined ? "" : requiredOf(text, error);
+  const split = isSplit(text ?? "", error);
   useEffect(() => {
     if (open && exists) openDocument(REQUIREMENTS).catch((why: unknown) => setRefused(messageOf(why)));
   }, [open, exists]);
@@ -47,12 +48,13 @@ export function RequiredLines({ error }: { error: string }) {
         spellCheck={false}
         rows={3}
         value={typed}
+        readOnly={split}
         onChange={(event) => void change(event.target.value)}
       />
       <Mistakes error={error} text={text ?? ""} />
       {refused && <p className="hint bad">{refused}</p>}
       <p className="hint">
-        {t(unsaved ? "required.edit.unsaved" : "required.edit.about")}{" "}
+        {t(split ? "required.edit.split" : unsaved ? "required.edit.unsaved" : "required.edit.about")}{" "}
         {exists && (
           <button type="button" className="link" onClick={() => openFile(REQUIREMENTS, lineOf(text ?? "", error) ?? 1)}>
             {t("required.edit.file")}
