@@ -130,11 +130,11 @@ test('by keyboard alone: tour, editor, operator panel, error simulator, debugger
 
 /** Nothing below may use it, not even by accident. */
 async function withoutMouse(page: Page): Promise<void> {
-  await page.addInitScript(() => {
+  // Of this page only: the story after this one gets the same window, and uses the mouse.
+  await page.evaluate(() => {
     for (const kind of ['pointerdown', 'mousedown'])
       addEventListener(kind, (event) => event.isTrusted && console.error(`the mouse was used: ${kind}`), true);
   });
-  await page.reload();
 }
 
 /** Tab until this has the focus. */

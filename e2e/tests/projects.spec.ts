@@ -51,7 +51,7 @@ test('versions are compared and taken back; a project goes out and comes in as o
       mimeType: 'application/zip',
       buffer: await buffer(await file.createReadStream()),
     });
-    await expect(dialog).toContainText('8 files');
+    await expect(dialog).toContainText('9 files');
     await expect(dialog.getByRole('combobox', { name: 'PLC model' })).toHaveValue('CJ1M-CPU63');
     await dialog.getByRole('textbox', { name: 'Name' }).fill('Second line');
     await dialog.getByRole('button', { name: 'Create' }).click();

@@ -56,7 +56,7 @@ test('every error from two states: unhandled ones are found, inspected, accepted
   await test.step('a cell shows the readers, and leads to their lines', async () => {
     await sweeps.choose('Basic I/O Unit error', 'Running');
     await expect(sweeps.details).toContainText('Acted');
-    await expect(sweeps.details.getByRole('listitem').filter({ hasText: 'motor' })).toContainText('TRUE → FALSE');
+    await expect(sweeps.details.getByRole('listitem').filter({ hasText: /^motor/ })).toContainText('TRUE → FALSE');
     const reader = sweeps.details.getByRole('button', { name: /^ErrorHandler\.st:\d+$/ }).first();
     const line = (await reader.textContent())?.split(':')[1];
     await reader.click();

@@ -126,6 +126,7 @@ test('a project needs its model; none of the page’s own requests is refused', 
   await dialog.getByRole('button', { name: 'Create' }).click();
   await expect(dialog).toBeHidden();
   await expect(mika.top.picker).toContainText('late');
+  await expect(page).not.toHaveURL(new RegExp(`/i/${server.instance}$`));
   const late = page.url();
   // Opened by its address, while the tabs are still those of the other project.
   const { origin } = new URL(server.address);
