@@ -1,5 +1,5 @@
 /** Error instances: unit 3 and unit 20 of one kind, each with a row of its own. Its key is what the server recovers: `fal:number=5`. */
-import type { ErrorHistoryRow, GenerateOne } from "../../wire/types";
+import type { DeviceDetail, ErrorHistoryRow, GenerateOne } from "../../wire/types";
 
 export type Rows = ReadonlyMap<string, ErrorHistoryRow>;
 
@@ -56,4 +56,12 @@ export function instancesByKind(instances: Rows): Map<string, ErrorHistoryRow[]>
 export function wantedOf(key: string): GenerateOne {
   const pairs = key.slice(idOf(key).length + 1).split(",");
   return { id: idOf(key), details: Object.fromEntries(pairs.map((pair) => pair.split("=", 2))) };
+}
+
+/** The row of what the device shows: of one unit where several of a kind can be present, else of the kind. */
+export function rowOf(instances: Rows, id: string, details: readonly DeviceDetail[]): ErrorHistoryRow | undefined {
+  const shown = new Map(details.map(({ name, value }) => [name, value]));
+  const isShown = (key: string) =>
+    Object.entries(wantedOf(key).details ?? {}).every(([name, value]) => shown.get(name) === value);
+  return [...instances.values()].find((row) => row.id === id && (!isInstance(keyOf(row)) || isShown(keyOf(row))));
 }

@@ -1,6 +1,6 @@
-import { render, screen, within } from "@testing-library/react";
+import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
-import { BATTERY, CATALOGUE, RAISED, row } from "../../../testing/catalogue";
+import { BASIC, BATTERY, CATALOGUE, RAISED, row } from "../../../testing/catalogue";
 import { button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
@@ -92,6 +92,20 @@ test("a tool clears, the simulator recovers what it raised, and a refusal is tol
   expect(server.sentOf("clear_errors")).toMatchObject([{ what: "current" }]);
   await user.click(recover());
   expect(server.sentOf("recover")).toMatchObject([{ ids: [BATTERY.id] }]);
+});
+
+test("of several units of a kind one is recovered", async () => {
+  const unit = (number: number): DeviceError => ({
+    ...FLAT,
+    id: BASIC.id,
+    details: [{ name: "unit", value: String(number), text: `Unit number: ${number}` }],
+  });
+  const { server, user } = await openDevice({ errors: [unit(3), unit(7)] });
+  const instance = (number: number) => `${BASIC.id}:unit=${number}`;
+  server.say({ type: "errors", rows: [3, 7].map((number) => row(BASIC, { ...RAISED, instance: instance(number) })) });
+  await waitFor(() => expect(screen.getAllByTitle(t("device.recover.about"))).toHaveLength(2));
+  await user.click(button(t("device.recover.of", { error: `${BASIC.name}, Unit number: 7` })));
+  expect(server.sentOf("recover")).toMatchObject([{ ids: [instance(7)] }]);
 });
 
 test("a model without a log says so", async () => {

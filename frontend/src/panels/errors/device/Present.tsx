@@ -1,4 +1,5 @@
 import { detailsIn, nameIn } from "../../../logic/errors/device";
+import { keyOf, rowOf } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { recoverPresent } from "../../../store/errors/device";
 import { useForbidden, usePlc } from "../../../store/plc/plc";
@@ -50,7 +51,9 @@ function Line({ error }: { error: DeviceError }) {
   const { byId } = useCatalogue();
   const known = byId.get(error.id);
   const forbidden = useForbidden("errors");
-  const raised = usePlc((plc) => plc.errors.get(error.id)?.status === "generated");
+  const row = usePlc((plc) => rowOf(plc.instances, error.id, error.details));
+  const raised = row?.status === "generated";
+  const details = detailsIn(known, error.details);
   const cause = [known?.description ?? error.cause, error.lasting ? t("device.lasting") : ""].filter(Boolean).join(" ");
   const name = nameIn(byId, error);
   return (
@@ -64,7 +67,7 @@ function Line({ error }: { error: DeviceError }) {
         {cause && <span className="cause">{cause}</span>}
       </th>
       <td>
-        {detailsIn(known, error.details) || <span className="faint">–</span>}
+        {details || <span className="faint">–</span>}
         <span className="cause mono">{error.flag}</span>
       </td>
       <td className="said">{error.text}</td>
@@ -74,8 +77,8 @@ function Line({ error }: { error: DeviceError }) {
           className="btn sm"
           disabled={forbidden !== null || !raised}
           title={forbidden ?? t(raised ? "device.recover.about" : "device.recover.not")}
-          aria-label={t("device.recover.of", { error: name })}
-          onClick={() => void recoverPresent(error.id)}
+          aria-label={t("device.recover.of", { error: [name, details].filter(Boolean).join(", ") })}
+          onClick={() => row && void recoverPresent(keyOf(row))}
         >
           {t("errors.recover")}
         </button>
