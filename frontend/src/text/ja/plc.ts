@@ -209,7 +209,7 @@ export const plc: Record<keyof typeof english, string> = {
   "restart.cold.hint": "すべて初期化",
   "restart.menu": "リスタート",
   "restart.power": "電源の再投入",
-  "restart.power.hint": "実機と同じ: 保持エリアは残り、強制と異常は消えます",
+  "restart.power.hint": "実機と同じ: 保持エリアは残り、強制と異常は消えます。原因が残る異常は再び発生します",
   "restart.rollback": "プログラムを元に戻す",
   "restart.rollback.hint": "最後の変更の前の版 {version} へ",
   "restart.rollback.none": "前のプログラムはありません",
