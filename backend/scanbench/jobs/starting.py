@@ -59,11 +59,11 @@ def reaction_in(
     """
     read = _file_at(path)
     try:
-        return _reaction_in(path, error, scan, min(window, end - scan), program_of, make)
+        return _reaction_in(path, error, scan, end, window, program_of, make)
     except Unreadable:
         if _file_at(path) == read:
             raise
-        return _reaction_in(path, error, scan, min(window, end - scan), program_of, make)
+        return _reaction_in(path, error, scan, end, window, program_of, make)
 
 
 def _file_at(path: Path) -> int | None:
@@ -74,7 +74,9 @@ def _file_at(path: Path) -> int | None:
         return None
 
 
-def _reaction_in(path: Path, error: str, scan: int, window: int, program_of: ProgramOf, make: MakeObserved) -> Reaction:
+def _reaction_in(
+    path: Path, error: str, scan: int, end: int, window: int, program_of: ProgramOf, make: MakeObserved
+) -> Reaction:
     with RunReader(path, programs_by(program_of, observed(make)), ENTRIES) as reader:
         reader.follow()
         entries = reader.entries
@@ -85,7 +87,8 @@ def _reaction_in(path: Path, error: str, scan: int, window: int, program_of: Pro
         point = Point(resource.version, resource.state, resource.journal)
         with reader.reading():
             rules = rules_of(resource.program, sources_in(reader.kept[resource.version]).files)
-            found = react(point, entries[index], entries[index + 1 :], window, reader.programs, error, rules)
+            after, left = entries[index + 1 :], min(window, end - scan)
+            found = react(point, entries[index], after, left, reader.programs, error, rules, window)
         if isinstance(found, Refusal):
             raise Unreadable(found.message)
         return found

@@ -225,12 +225,80 @@ def test_a_single_raise_is_judged_by_the_same_requirements(make: MakeObserved) -
     live.run(5)
     assert isinstance(live.submit(Write("Ada", "reset", "TRUE")), Entry)
     live.run(15)
-    text = "basic-io-error:\n  NOT fan within 1 scan\n  after recovery: fan stays FALSE until reset\n"
+    text = "basic-io-error:\n  NOT fan within 1 scan\n  basic\n  NOT fan within 15 scans until reset\n  after recovery: fan stays FALSE until reset\n"
     made = Rules(program, read_requirements(text + "basic-io-error in There: lamp\n"))
     reaction = react(point, entry, live.journal[entered:], WINDOW, programs(program, make), "basic-io-error", made)
     assert isinstance(reaction, Reaction), reaction
     assert [(each.outcome, each.scan, each.note) for each in reaction.required] == [
-        ("passed", 1, ""), ("passed", 6, "until came"),
+        ("passed", 1, ""), ("passed", 10, ""), ("passed", 10, "until did not come"), ("passed", 6, "until came"),
         ("not_checked", None, "a PLC that somebody works with is in none of the states of a sweep"),
     ]  # fmt: skip
     assert reaction.restarts == ()  # somebody did it
+
+
+def came_to(
+    text: str, make: MakeObserved, source: str, error: str = "battery-error"
+) -> list[tuple[str, str, int | None]]:
+    reaction = found(f"{error}:\n{text}", error, make, source=source)
+    return [(each.outcome, each.reason, each.scan) for each in reaction.required]
+
+
+HEAD = """VAR_GLOBAL
+  battery AT A402.04 : BOOL; motor AT CIO 100.00 : BOOL; lamp AT CIO 100.01 : BOOL;
+END_VAR
+PROGRAM Main
+VAR
+  list : ARRAY[1..3] OF INT; index : INT; scans : INT;
+END_VAR
+"""
+
+
+@pytest.mark.parametrize("make", MAKES.values(), ids=MAKES)
+def test_a_scan_in_which_the_program_stops_passes_nothing(make: MakeObserved) -> None:
+    """The stop switches the outputs off, not the program."""
+    source = f"""{HEAD}
+      motor := TRUE;
+      IF battery THEN scans := scans + 1; index := scans * 2; list[index] := 1; END_IF;
+    END_PROGRAM"""
+    text = "  motor = FALSE within 3 scans\n  never NOT motor\n  motor within 1 scan\n  Main.index = 2\n"
+    assert came_to(text, make, source) == [
+        ("not_checked", "ended", 2), ("not_checked", "ended", 2), ("passed", "", 1), ("not_checked", "ended", 2),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("make", MAKES.values(), ids=MAKES)
+def test_a_window_that_ended_early_decides_nothing_about_its_end(make: MakeObserved) -> None:
+    """The program stops without the error in scan 2; with it, it goes on."""
+    source = f"""{HEAD}
+      lamp := battery; scans := scans + 1;
+      IF scans > 11 AND NOT battery THEN index := 9; list[index] := 1; END_IF;
+    END_PROGRAM"""
+    text = "  lamp\n  always lamp\n  never NOT lamp\n  lamp until motor\n  lamp within 1 scan\n  always motor\n"
+    unknown = ("not_checked", "window", None)
+    assert came_to(text, make, source) == [*[unknown] * 4, ("passed", "", 1), ("failed", "", 1)]
+
+
+def recovering(scan: int) -> str:
+    """A program that recovers the error itself in this scan of the window; the motor goes on again."""
+    return f"""{HEAD.replace("battery AT A402.04", "fal AT A402.15")}
+      lamp := fal; motor := NOT fal;
+      IF fal THEN scans := scans + 1; END_IF;
+      IF scans = {scan} THEN FAL(N := 0); END_IF;
+    END_PROGRAM"""
+
+
+@pytest.mark.parametrize("make", MAKES.values(), ids=MAKES)
+def test_what_must_hold_with_the_error_is_not_asked_after_it(make: MakeObserved) -> None:
+    text = "  lamp\n  NOT lamp\n  always lamp\n  lamp until Main.scans > 90\n  NOT lamp within 20 scans\n"
+    assert came_to(text, make, recovering(10), "fal") == [
+        ("passed", "", 10), ("failed", "", 10), ("passed", "", 10), ("passed", "", 10), ("not_checked", "window", None),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("make", MAKES.values(), ids=MAKES)
+def test_a_program_that_recovers_it_in_the_last_scan(make: MakeObserved) -> None:
+    text = "fal:\n  lamp\n  after recovery: NOT lamp within 1 scan\n"
+    reaction = found(text, "fal", make, source=recovering(WINDOW))
+    assert [(each.outcome, each.scan) for each in reaction.required] == [("passed", WINDOW), ("passed", 1)]
+    assert [(each.path, each.scan) for each in reaction.restarts] == [("motor", 1)]
+    assert reaction.recovery == WINDOW

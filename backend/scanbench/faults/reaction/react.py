@@ -59,11 +59,12 @@ TRACE_LIMIT = 128 << 20
 
 def react(
     point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: Programs, error: str,
-    rules: Rules | None = None,
+    rules: Rules | None = None, asked: int | None = None,
 ) -> Reaction | Refusal:  # fmt: skip
     """The reaction to `error`, one of those that the recorded `generate` raised at this point, in the notation of references.
 
     `following` is what the journal has after it. The window ends early before a change of the program or a restart.
+    `asked` is the window for requirements, where the run does not have as much yet.
     Errors that were raised together would hide each other's effects: each is compared as if it had been raised alone.
     """
     command = generate.command
@@ -74,6 +75,7 @@ def react(
     rest = following_of(point, generate, following, window, programs)
     others = [each for each in raised if each != ref]
     twin = run_twin(point, commands_without(generate, rest.given, raised), rest.window, programs, TRACE_LIMIT)
+    twin = replace(twin, window=asked or window)
     comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
     notes = [rest.note]
     every = () if rules is None else rules.of(ref, None)
@@ -101,6 +103,8 @@ class Twin:
     trace: Trace
     reached: frozenset[int]
     trap: TrapInfo | None
+    window: int
+    """Scans that were asked for: the trace has fewer where something ended it early."""
 
 
 def run_twin(
@@ -120,7 +124,7 @@ def run_twin(
             give(resource, waiting.pop(0)[1])
         advance(resource)
         trace.add(state_words(resource))
-    return Twin(trace, observer.take().reached, resource.trap)
+    return Twin(trace, observer.take().reached, resource.trap, window)
 
 
 class Prepared:
@@ -173,7 +177,7 @@ class Comparison:
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
         variables = self._prepared.variables
         alone = all(is_about(each.entry.command, ref) for each in given)
-        watched = RequiredRun(required, resource, ref, len(twin.trace), variables, alone=alone)
+        watched = RequiredRun(required, resource, ref, twin.window, variables, alone=alone)
         run = _Run(resource, twin, Effects(variables, kept), chosen, ref, self._prepared)
         found = run.through(observer_of(self._programs, self._point), given, watched)
         if isinstance(found, Reaction):
@@ -220,6 +224,8 @@ class _Run:
         observer.take()
         looking = tuple(triggers(resource.program, self._watched))
         for without in self._twin.trace.states():
+            if waiting and waiting[0].scan <= resource.header.scan:
+                watched.entering()
             enter(resource, waiting)
             watched.before()
             shown = self._kinds_shown()

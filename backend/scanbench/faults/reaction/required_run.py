@@ -28,15 +28,23 @@ class RequiredRun:
         present = [made for made in every if not made.source.recovery]
         self._present = Watch(present, resource.program, resource.memory, window)
         self._outputs = Outputs(variables, state_words(resource))
+        self._scans = 0
+        """Scans with the error."""
         self._recovered: Watch | None = None
         self._recovery = 0
         """Scans since the recovery."""
         self._off: list[Leaf] = []
         self._restarts: dict[str, OutputRestart] = {}
 
+    def entering(self) -> None:
+        """Something from outside is about to be entered: it may recover the error, and change what is looked at."""
+        if self._recovered is None:
+            self._present.keep(self._scans)
+
     def before(self) -> None:
         """A scan comes; what came from outside is entered."""
         if self._recovered is None and not self._is_present():
+            self._present.close(self._scans)
             self._recover()
 
     def _is_present(self) -> bool:
@@ -45,8 +53,11 @@ class RequiredRun:
 
     def after(self, scan: int, without: Words) -> None:
         """A scan of the window is over, here and in the run without the error."""
-        self._present.after(scan)
         if self._recovered is None:
+            self._scans = scan
+            if self._resource.trap is not None:
+                return  # what is off now was switched off by the stop, not by the program
+            self._present.after(scan)
             self._outputs.add(without, state_words(self._resource))
         else:
             self._after_recovery(self._recovered)
@@ -54,6 +65,8 @@ class RequiredRun:
     def judged(self, reaction: Reaction, author: str) -> Reaction:
         """The reaction with what became of the requirements; runs on, beyond the recovery, where something depends on it."""
         scans = reaction.window
+        if self._resource.trap is None:
+            self.before()  # the program may have recovered it in the last scan
         present = self._present.results(scans, self._stopped(scans))
         recovered = self._run_on(author)
         found = [*graded(self._every, reaction.verdict), *present, *recovered, *_invalid(self._every)]
@@ -95,6 +108,8 @@ class RequiredRun:
         if self._recovery >= self._window:
             return
         self._recovery += 1
+        if self._resource.trap is not None:
+            return
         watch.after(self._recovery)
         memory = self._resource.memory
         for leaf in self._off:

@@ -50,13 +50,15 @@ class _Open:
     met: bool = False
     """of `within ... until`: it came true in time, and has to stay so."""
     done: RequiredResult | None = None
+    kept: RequiredResult | None = None
+    """of `end`: what it is now, if this is the end."""
 
 
 class Watch:
     """The requirements of one phase: since the error was raised, or since it was recovered."""
 
     def __init__(self, every: Sequence[Made], program: Program, memory: bytearray, window: int) -> None:
-        self._window = window
+        self._window, self._kept = window, 0
         self._evaluator = Evaluator(program, memory)
         self._open = [
             _Open(made, self._evaluator.valued(made.condition.local),
@@ -71,8 +73,22 @@ class Watch:
                 try:
                     self._look(each, scan)
                 except NoValue as why:
-                    note = f"it has no value in scan {scan}: {why}"
-                    each.done = replace(result(each.made, "not_checked", "invalid", note), scan=scan)
+                    each.done = _valueless(each.made, scan, why)
+
+    def keep(self, scan: int) -> None:
+        """What requirements about the end come to, should the phase end after this scan."""
+        if scan == self._kept:
+            return
+        self._kept = scan
+        for each in self._open:
+            if each.done is None and each.made.source.form == "end":
+                each.kept = self._ended(each, scan)
+
+    def close(self, scan: int) -> None:
+        """The phase is over after this scan, as the error is gone: nothing is looked at any more."""
+        self.keep(scan)
+        for each in self._open:
+            each.done = each.done or each.kept or self._closed(each, scan)
 
     def results(self, scan: int, ended: str = "") -> list[RequiredResult]:
         """What came of each, after the last scan; `ended` says what ended the run early."""
@@ -101,11 +117,25 @@ class Watch:
         source = each.made.source
         if ended:
             return replace(result(each.made, "not_checked", "ended", ended), scan=scan)
-        if source.form == "end":
-            note = f"only {scan} of {self._window} scans could be run"
-            return replace(result(each.made, "not_checked", "ended", note), scan=scan)
         if source.form == "within" and not each.met:
             note = f"it has {each.made.scans} scans, and the window has {scan}: use a longer window"
+            return result(each.made, "not_checked", "window", note)
+        if scan < self._window:
+            note = f"only {scan} of {self._window} scans could be run"
+            return result(each.made, "not_checked", "window", note)
+        return self._decided(each, "passed", scan, "until did not come" if each.ends is not None else "")
+
+    def _ended(self, each: _Open, scan: int) -> RequiredResult:
+        try:
+            return self._decided(each, "passed" if each.holds(0) else "failed", scan)
+        except NoValue as why:
+            return _valueless(each.made, scan, why)
+
+    def _closed(self, each: _Open, scan: int) -> RequiredResult:
+        if not scan:
+            return result(each.made, "not_checked", "window", "no scan was run with the error")
+        if each.made.source.form == "within" and not each.met:
+            note = f"it has {each.made.scans} scans, and the error was present in {scan} only"
             return result(each.made, "not_checked", "window", note)
         return self._decided(each, "passed", scan, "until did not come" if each.ends is not None else "")
 
@@ -120,6 +150,11 @@ class Watch:
                 yield ValueThen(part.text, self._evaluator.text(part, 0))
             except NoValue as why:
                 yield ValueThen(part.text, str(why))
+
+
+def _valueless(made: Made, scan: int, why: NoValue) -> RequiredResult:
+    note = f"it has no value in scan {scan}: {why}"
+    return replace(result(made, "not_checked", "invalid", note), scan=scan)
 
 
 def allows(every: Iterable[Made], leaf: Leaf, program: Program, memory: bytearray) -> str:
