@@ -29,6 +29,8 @@ _RESTART = re.compile(r"(.+?)\s+may\s+restart\s*", re.IGNORECASE)
 _UNTIL = re.compile(r"\suntil\s+", re.IGNORECASE)
 _WITHIN = re.compile(r"\s+within\s+(?:(\d{1,9})\s+scans?|(L?T(?:IME)?#\S+))\s*", re.IGNORECASE)
 _STAYS = re.compile(r"(?<=\s)stays(?=\s)", re.IGNORECASE)
+_WORD = re.compile(r"[^\s()+*/<>=&-]+")
+"""One operand, without operators."""
 _MODAL = re.compile(r"(always|never)\s+", re.IGNORECASE)
 _HOW = "write e.g. `motor = FALSE within 3 scans`, `always lamp`, `never heater`, or `at least acted`"
 
@@ -153,6 +155,20 @@ def _about(reader: _Reader, line: int, text: str) -> tuple[Piece, tuple[str, ...
     return reader.piece(line, match.start(1), match[1]), tuple(states)
 
 
+def _compared(left: str, right: str) -> tuple[int, str]:
+    """`left stays right` as a comparison, whatever operators the two have; and how much further left it begins: all columns
+    stay what they are."""
+    if _WORD.fullmatch(left.strip()) and _WORD.fullmatch(right.strip()):
+        return 0, f"{left}=    {right}"
+    if any(side.count("(") != side.count(")") for side in (_QUOTED.sub("", left), _QUOTED.sub("", right))):
+        return 0, f"{left}=    {right}"  # it is inside of parentheses already
+    before = len(left) - len(left.lstrip())
+    value = right.strip()
+    gap = right[: len(right) - len(right.lstrip()) - 1] if value else right
+    closed = f"({value})" if value else ""
+    return 1, f"{left[:before]}({left[before:]})=   {gap}{closed}"
+
+
 def _requirement(reader: _Reader, line: int, begin: int, text: str) -> Requirement | None:
     whole = reader.piece(line, begin, text)
     text, begin = whole.text, whole.span.column - 1
@@ -161,6 +177,9 @@ def _requirement(reader: _Reader, line: int, begin: int, text: str) -> Requireme
     if after is not None:
         text, begin = text[after.end() :], begin + after.end()
     if grade := _GRADE.fullmatch(text):
+        if recovery:
+            reader.problem(whole, "a grade is about the whole reaction: leave out `after recovery:`")
+            return None
         return Requirement(
             whole.text, whole.span, "grade", reader.piece(line, begin + grade.start(1), grade[1]), recovery
         )
@@ -183,6 +202,12 @@ def _condition(
         until = reader.piece(line, begin + last.end(), text[last.end() :])
         text, shown, form = text[: last.start()], shown[: last.start()], "always"
     if within := _WITHIN.search(shown):
+        if within[1] is not None and int(within[1]) == 0:
+            reader.problem(
+                reader.piece(line, begin + within.start(), within[0]),
+                "nothing can happen within 0 scans: give it at least 1",
+            )
+            return None
         rest = text[within.end() :]
         if rest.strip():
             reader.problem(reader.piece(line, begin + within.end(), rest), "nothing but `until ...` comes after `within ...`")  # fmt: skip
@@ -190,9 +215,9 @@ def _condition(
         scans = None if within[1] is None else int(within[1])
         time = None if within[2] is None else reader.piece(line, begin + within.start(2), within[2])
         text, shown, form = text[: within.start()], shown[: within.start()], "within"
-    if stays := _STAYS.search(shown):
-        text = f"{text[: stays.start()]}=    {text[stays.end() :]}"
-        form = "always" if form == "end" else form
+    stays = _STAYS.search(shown)
+    if stays and form == "end":
+        form = "always"
     if modal := _MODAL.match(shown):
         if form == "within":
             reader.problem(whole, f"`{modal[1].lower()}` has no `within`: {_HOW}")
@@ -200,4 +225,7 @@ def _condition(
         form, start = modal[1].lower(), modal.end()
     forms: dict[str, Form] = {"end": "end", "within": "within", "always": "always", "never": "never"}
     about = reader.piece(line, begin + start, text[start:])
+    if stays:
+        shift, compared = _compared(text[start : stays.start()], text[stays.end() :])
+        about = reader.piece(line, begin + start - shift, compared)
     return Requirement(whole.text, whole.span, forms[form], about, recovery, scans, time, until)

@@ -67,12 +67,23 @@ CASES = [
     Case("battery-error", "never NOT motor", "failed", 6, "motor=FALSE"),
     Case("battery-error", "CIO 100.01 AND CIO101 = 100", "passed", 30, "CIO100.01=TRUE CIO101=16#0064"),
     Case("battery-error", "lamp stays TRUE", "passed", 30, "lamp=TRUE"),
+    Case("battery-error", "motor OR lamp stays TRUE", "passed", 30, "motor=FALSE lamp=TRUE"),
+    Case("battery-error", "motor OR lamp stays FALSE", "failed", 1, "motor=TRUE lamp=TRUE"),
+    Case("battery-error", "never motor OR lamp stays FALSE", "passed", 30),
+    Case("battery-error", "lamp stays TRUE AND lamp", "passed", 30, "lamp=TRUE"),
+    Case("battery-error", "NOT lamp stays TRUE OR TRUE", "failed", 1, "lamp=TRUE"),
+    Case("battery-error", "(lamp stays TRUE) OR motor", "passed", 30),
     # until
     Case("battery-error", "motor until wait.Q", "not_checked", None, reason="invalid"),
     Case("battery-error", "motor until Main.wait.Q", "passed", 6, "motor=FALSE Main.wait.Q=TRUE"),
     Case("battery-error", "motor stays TRUE until reset", "failed", 6, "motor=FALSE reset=FALSE"),
     Case("battery-error", "NOT motor within 6 scans until reset", "passed", 30, "motor=FALSE reset=FALSE"),
     Case("battery-error", "blink within 30 scans until reset", "failed", None),
+    Case("battery-error", "motor until battery", "passed", 1, "motor=TRUE battery=TRUE"),
+    Case("battery-error", "NOT motor until lamp OR TRUE", "failed", 1),
+    Case("battery-error", "motor until lamp", "passed", 1, "motor=TRUE lamp=TRUE"),
+    Case("battery-error", "NOT motor until lamp", "passed", 1, "motor=TRUE lamp=TRUE"),
+    Case("battery-error", "after recovery: motor stays FALSE until NOT reset", "failed", 1, "motor=TRUE reset=FALSE"),
     # recovery: without a latch, with one
     Case("battery-error", "after recovery: motor stays FALSE until reset", "failed", 1, "motor=TRUE reset=FALSE"),
     Case("battery-error", "after recovery: NOT lamp within 1 scan", "passed", 1, "lamp=FALSE"),
@@ -137,7 +148,16 @@ def test_an_output_that_goes_on_again_by_itself_is_a_finding(make: MakeObserved)
     assert found("", "inner-board-error", make).recovery == 0  # nothing was switched off: nothing to try
 
 
-@pytest.mark.parametrize("line", ["motor may restart", "after recovery: motor within 2 scans", "after recovery: motor"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "motor may restart",
+        "after recovery: motor within 2 scans",
+        "after recovery: motor",
+        "after recovery: always motor",
+        "after recovery: never NOT motor",
+    ],
+)
 def test_a_requirement_that_allows_a_restart(line: str) -> None:
     reaction = found(f"all: {line}", "battery-error", MAKES["native"])
     (restart,) = reaction.restarts
@@ -196,6 +216,8 @@ def test_without_details_every_instance_is_meant() -> None:
         ("battery-error:\n  lamp AND mtoor", (2, 12), "Did you mean `motor`"),
         ("battery-error:\n  after recovery: NOT lmp until reset", (2, 23), "Did you mean `lamp`"),
         ("battery-error: lamp until rset", (1, 27), "Did you mean `reset`"),
+        ("battery-error: lamp OR mtoor stays FALSE", (1, 24), "Did you mean `motor`"),
+        ("battery-error:\n  lamp OR motor  stays mtoor OR lamp", (2, 24), "Did you mean `motor`"),
         ("battery-error: speed", (1, 16), "it must be BOOL"),
         ("battery-error: motor := FALSE", (1, 22), "Compare with `=`"),
         ("battery-error: at least fine", (1, 25), "there are acted, decided"),

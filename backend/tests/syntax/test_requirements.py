@@ -38,6 +38,8 @@ def test_the_golden_file_says_what_it_said() -> None:
         ('battery-error in Running, , "x": lamp', (1, 18), "states are written as"),
         ("battery-error:\n  lamp within 3 scans now", (2, 23), "nothing but `until ...`"),
         ("battery-error:\n  always lamp within 3 scans", (2, 3), "`always` has no `within`"),
+        ("battery-error:\n  lamp within 0 scans", (2, 8), "at least 1"),
+        ("battery-error:\n  after recovery: at least acted", (2, 3), "about the whole reaction"),
         ("battery-error:\n  after recovery:", (2, 3), "there is no condition"),
     ],
 )

@@ -47,6 +47,8 @@ class _Open:
     made: Made
     holds: Callable[[int], Value]
     ends: Callable[[int], Value] | None
+    over: bool = False
+    """`until` was TRUE before scan 1 already: then it does not spare that scan."""
     met: bool = False
     """of `within ... until`: it came true in time, and has to stay so."""
     done: RequiredResult | None = None
@@ -65,6 +67,8 @@ class Watch:
                   None if made.until is None else self._evaluator.valued(made.until.local))
             for made in every if made.condition is not None and made.source.form != "may_restart"
         ]  # fmt: skip
+        for each in self._open:
+            each.over = each.made.source.form != "within" and each.ends is not None and _is_true(each.ends)
 
     def after(self, scan: int) -> None:
         """The image as it is after a scan."""
@@ -98,7 +102,7 @@ class Watch:
         source = each.made.source
         if source.form == "end" and scan < self._window:
             return
-        if each.ends is not None and (source.form != "within" or each.met) and each.ends(0):
+        if each.ends is not None and (source.form != "within" or each.met) and each.ends(0) and not each.over:
             each.done = self._decided(each, "passed", scan, "until came")
             return
         holds = bool(each.holds(0)) != (source.form == "never")
@@ -112,6 +116,9 @@ class Watch:
             each.done = self._decided(each, "passed" if holds else "failed", scan)
         elif not holds:
             each.done = self._decided(each, "failed", scan)
+        elif each.over and each.ends is not None and each.ends(0):
+            each.done = self._decided(each, "passed", scan, "until came")
+        each.over = False
 
     def _at_the_end(self, each: _Open, scan: int, ended: str) -> RequiredResult:
         source = each.made.source
@@ -166,11 +173,20 @@ def allows(every: Iterable[Made], leaf: Leaf, program: Program, memory: bytearra
     for made in recovering:
         assert made.condition is not None
         on, without = (_value(made.condition, program, each) for each in (memory, off))
-        if (made.source.form == "may_restart" and on != without) or (
-            made.source.form in ("within", "end") and on and not without
+        if (
+            (made.source.form == "may_restart" and on != without)
+            or (made.source.form in ("within", "end", "always") and on and not without)
+            or (made.source.form == "never" and without and not on)
         ):
             return made.source.text
     return ""
+
+
+def _is_true(holds: Callable[[int], Value]) -> bool:
+    try:
+        return bool(holds(0))
+    except NoValue:
+        return False
 
 
 def _value(condition: Condition, program: Program, memory: bytearray) -> Value:
