@@ -118,13 +118,16 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Missed:
-    """An error that the program misses in one state: open until somebody accepts that, for this state."""
+    """An error that the program misses in one state, or to which it does not react as required: open until somebody accepts
+    that, for this state."""
 
     error: RecordError
     state: str
     """Empty: raised on the PLC itself, wherever that was."""
     verdict: Verdict
     accepted: RecordAccepted | None
+    unmet: int = 0
+    """It is about requirements: so much is not as it is required, unexpected restarts counted. Nobody can accept that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,11 +191,18 @@ class TestRecord:
             for cell in self._swept.get(error.id, {}).values()
             if cell.verdict in FINDINGS
         ]
+        required = [
+            Missed(error, cell.state, cell.verdict, None, cell.unmet)
+            for cell in self._swept.get(error.id, {}).values()
+            if cell.verdict is not None and cell.unmet
+        ]
         # What was seen on the PLC itself is said once more only where no state has it: who accepts does so for a state.
         seen = None if error.reaction is None else error.reaction.verdict
         if seen in FINDINGS and all(each.verdict != seen for each in found):
             found.append(Missed(error, "", seen, None))
-        return found
+        if error.reaction is not None and error.reaction.unmet:
+            required.append(Missed(error, "", error.reaction.verdict, None, len(error.reaction.unmet)))
+        return [*found, *required]
 
     def tested(self, error: RecordError) -> bool:
         """Whether it was raised at all."""

@@ -22,10 +22,10 @@ def to_csv(record: TestRecord) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\r\n")
     writer.writerow(COLUMNS)
-    open_in: dict[str, list[str]] = {}
+    open_in: dict[str, dict[str, None]] = {}
     for missed in record.missed:
         if missed.accepted is None:
-            open_in.setdefault(missed.error.id, []).append(missed.state or "on the PLC itself")
+            open_in.setdefault(missed.error.id, {})[missed.state or "on the PLC itself"] = None
     for error in record.errors:
         writer.writerow(map(_harmless, _row(record, error, open_in.get(error.id, ()))))
     return _BOM + text.getvalue()

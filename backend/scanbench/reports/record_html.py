@@ -88,7 +88,7 @@ class _Document:
         word = self._word("finding_open" if one is None else "finding_accepted")
         return tr(
             f'<th scope="row">{escape(error.name)}</th>', td(error.code, "mono"), td(self._page.plain(error.severity)),
-            td(missed.state or self._page.plain("on_plc")), f"<td>{self._verdict(missed.verdict)}</td>",
+            td(missed.state or self._page.plain("on_plc")), f"<td>{self._verdict(missed.verdict)}{self._unmet(missed.unmet)}</td>",
             f"<td>{word}</td>", f"<td>{accepted}</td>",
         )  # fmt: skip
 
@@ -190,8 +190,10 @@ class _Document:
         scans = "" if cell.scans is None else f' <span class="faint">{cell.scans}</span>'
         missed = error is not None and cell.verdict in FINDINGS and error.accepted_in(cell.state) is not None
         accepted = f'<br><span class="faint">{self._word("finding_accepted")}</span>' if missed else ""
-        unmet = f'<br><span class="verdict failed">{self._word("unmet", count=cell.unmet)}</span>' if cell.unmet else ""
-        return f"<td>{self._verdict(cell.verdict)}{scans}{accepted}{unmet}</td>"
+        return f"<td>{self._verdict(cell.verdict)}{scans}{accepted}{self._unmet(cell.unmet)}</td>"
+
+    def _unmet(self, count: int) -> str:
+        return f'<br><span class="verdict failed">{self._word("unmet", count=count)}</span>' if count else ""
 
     def _required(self) -> str:
         """What the project requires, of the errors that were raised on the PLC itself."""

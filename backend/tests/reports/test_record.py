@@ -19,8 +19,10 @@ from scanbench.faults.reaction.reaction import (
     Difference,
     Line,
     Obstacle,
+    OutputRestart,
     Reaction,
     Reader,
+    RequiredResult,
     Unreached,
     Verdict,
 )
@@ -164,6 +166,38 @@ def test_what_is_open_is_so_in_every_form() -> None:
     assert [(cell.get("Error"), cell.get("State"), cell.get("Accepted")) for cell in cells] == [
         ("fal", "Running", "true"), ("battery-error", "Running", None), ("fal", "Running", None), ("fal", "Stopped", None),
     ]  # fmt: skip
+
+
+def test_what_is_not_as_required_is_an_open_finding() -> None:
+    cells = (
+        RecordCell("fal", "Running", "acted", 1, required=2, unmet=2),
+        RecordCell("fal", "Stopped", "never_read", unmet=1),
+    )
+    sweep = RecordSweep(NOON, "Ada", "line-1", "done", 200, ("Running", "Stopped"), cells)
+    accepted = [("fal", RecordAccepted(state, "not on this line", "Eva", NOON)) for state in ("Running", "Stopped")]
+    seen = Reaction(
+        "acted", 200, required=(RequiredResult("motor = FALSE", 2, "failed"),), restarts=(OutputRestart("motor", 1),)
+    )
+    row = ErrorRow(
+        "battery-error", "x", "nonfatal", "cleared", "00F7", "", NOON, NOON, 7, 9, "Ada", "simulator", 1,
+        RowReaction("done", seen), 3,
+    )  # fmt: skip
+    record = make_record(HEAD, model(), [row], sweeps=[sweep], accepted=accepted)
+    assert {(each.error.id, each.state, each.unmet, each.accepted is not None) for each in record.missed} == {
+        ("battery-error", "", 2, False), ("fal", "Running", 2, False),
+        ("fal", "Stopped", 1, False), ("fal", "Stopped", 0, True),
+    }  # fmt: skip
+    assert (record.summary.open, record.summary.accepted) == (3, 1)
+    again = from_xml(to_xml(record))
+    assert isinstance(again, TestRecord)
+    assert again.missed == record.missed
+    page = to_html(record)
+    assert WORDS["en"]["no_findings"] not in page
+    rows = etree.fromstring(page, etree.HTMLParser()).find(".//table/tbody")
+    assert rows is not None
+    told = {(row[3].text, "".join(map(str, row[4].itertext()))) for row in rows}
+    assert ("Running", "acted2 not as required") in told
+    assert '"Running, Stopped"' in to_csv(record)  # open in
 
 
 def test_people_read_names_and_details_in_words() -> None:
