@@ -104,6 +104,25 @@ def choose(error: ErrorEntry, given: Mapping[str, str], layout: Layout) -> Chose
     return Chosen(error, tuple(decided), code & error.code_limit, tuple(contents), tuple(marks))
 
 
+def code_text_with(error: ErrorEntry, given: Mapping[str, str]) -> str:
+    """The code of an error with these details, as the vendor writes it. Without details, and with ones that do not fit, it is the
+    kind's own."""
+    code = error.code
+    for detail in error.details if given else ():
+        text = given.get(detail.name)
+        word = None if text is None else _whole_word(detail, text)
+        if word is not None:
+            text = word_text(detail, word)
+            if detail.choice(text) is None:
+                continue  # several choices of one word add nothing
+        found = _decide(error, detail, text)
+        if isinstance(found, Refusal):
+            return error.code_text
+        address, number, _ = found
+        code += number if address.add_to_code else 0
+    return error.show(code & error.code_limit)
+
+
 def word_text(detail: ErrorDetail, word: int) -> str:
     """What a List whose choices are bits of one word says when this is the word: the choice, or the word itself."""
     return next((each.id for each in detail.addresses if 1 << _bit_in_word(each) == word), f"16#{word:04X}")

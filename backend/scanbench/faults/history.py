@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Literal
 
-from scanbench.faults.details import Chosen, choose
+from scanbench.faults.details import Chosen, choose, code_text_with
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Origin, instances_in
 from scanbench.faults.reaction.reaction import WORST_FIRST, Reaction, Verdict
@@ -357,9 +357,10 @@ def _told(model: Model, error: ErrorEntry, row: ErrorRow) -> ErrorRow:
 def _never(error: ErrorEntry, version: int, instance: str = "") -> ErrorRow:
     """A row of what was never raised; of a kind whose instances are not told apart it is its only one."""
     known = instance or ("" if error.identifying else error.id)
-    details = ", ".join(f"{name}={value}" for name, value in named_reference(instance).details)
+    given = named_reference(instance).details
+    details, code = ", ".join(f"{name}={value}" for name, value in given), code_text_with(error, dict(given))
     return ErrorRow(
-        error.id, error.name, error.severity, code=error.code_text, details=details, program_version=version, instance=known
+        error.id, error.name, error.severity, code=code, details=details, program_version=version, instance=known
     )  # fmt: skip
 
 

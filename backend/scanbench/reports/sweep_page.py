@@ -7,7 +7,6 @@ from urllib.parse import quote
 from scanbench.faults.reaction.reaction import Difference, Outcome, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
-from scanbench.plcmodel.catalogue import ErrorEntry
 from scanbench.reports.page import Page, Words, table, td, th, tr
 from scanbench.reports.reason import reason_of
 from scanbench.reports.required_words import OUTCOMES, evidence, restarted
@@ -59,7 +58,7 @@ def _matrix(result: SweepResult) -> Iterator[str]:
     rows = (
         tr(
             f'<th scope="row">{escape(entry.name)} <code class="faint">{escape(error)}</code></th>',
-            f"<td><code>{entry.code_text}</code></td>", td(entry.severity),
+            f"<td><code>{result.code(error)}</code></td>", td(entry.severity),
             *(_in_matrix(cell) for cell in result.cells if cell.error == error),
         )
         for error, entry in {cell.error: result.entry(cell) for cell in result.cells}.items()
@@ -82,7 +81,7 @@ def _findings(result: SweepResult, required: Required) -> Iterator[str]:
     if not found:
         yield "<p>Every error that leaves the program running did what is required.</p>\n"
         return
-    yield _table(("Error", "State", "Verdict", "Why"), (_finding(result.entry(cell), cell) for cell in found))
+    yield _table(("Error", "State", "Verdict", "Why"), (_finding(result, cell) for cell in found))
 
 
 def _is_met(cell: Cell, required: Required) -> bool:
@@ -90,8 +89,9 @@ def _is_met(cell: Cell, required: Required) -> bool:
     return reaction is not None and not reaction.unmet and required.met(cell.error, reaction.verdict, cell.point)
 
 
-def _finding(entry: ErrorEntry, cell: Cell) -> str:
-    about = f'<code class="faint">{entry.code_text} {escape(entry.flag_text)}</code>'
+def _finding(result: SweepResult, cell: Cell) -> str:
+    entry = result.entry(cell)
+    about = f'<code class="faint">{result.code(cell.error)} {escape(entry.flag_text)}</code>'
     return (
         f'<tr id="{_anchor(cell)}"><th scope="row">{escape(entry.name)}<br>{about}</th>{td(cell.point)}'
         f"<td>{_verdict(verdict_of(cell))}</td>{td(reason(cell))}</tr>\n"

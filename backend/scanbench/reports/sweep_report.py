@@ -7,11 +7,12 @@ from typing import cast, get_args
 
 from lxml import etree
 
+from scanbench.faults.details import code_text_with
 from scanbench.faults.reaction.compare import Outcome, SweepChange
 from scanbench.faults.reaction.reaction import Reaction, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
-from scanbench.faults.reference import error_of
+from scanbench.faults.reference import error_of, named_reference
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
 from scanbench.plcmodel.document import xml_text
 from scanbench.reports import record_words
@@ -50,6 +51,11 @@ class SweepResult:
     def entry(self, cell: Cell) -> ErrorEntry:
         """The error of a cell."""
         return next(each for each in self.errors if each.id == error_of(cell.error))
+
+    def code(self, error: str) -> str:
+        """The code of an error, with the details that it was raised with."""
+        ref = named_reference(error)
+        return code_text_with(next(each for each in self.errors if each.id == ref.id), dict(ref.details))
 
     def counts(self) -> dict[str, int]:
         """How often there was which verdict, in words."""
@@ -94,7 +100,7 @@ def sweep_text(result: SweepResult) -> list[str]:
         entry, reaction = result.entry(cell), cell.reaction
         scans = "" if reaction is None or reaction.first_effect is None else str(reaction.first_effect)
         verdict = WORDS[verdict_of(cell)]
-        rows.append((cell.error, entry.code_text, entry.severity, cell.point, verdict, scans, reason(cell)))
+        rows.append((cell.error, result.code(cell.error), entry.severity, cell.point, verdict, scans, reason(cell)))
     head = f"{result.project} on {result.model}: {count(len(result.errors), 'error')}, {count(len(result.states), 'state')}"
     counts = ", ".join(f"{number} {word}" for word, number in result.counts().items())
     return [f"{head}, {result.window} scans each", "", *table(rows), "", counts, *_required_text(result)]
@@ -165,14 +171,15 @@ def sweep_json(result: SweepResult) -> dict[str, object]:
             for verdict in get_args(Verdict)
             if (number := sum(verdict_of(cell) == verdict for cell in result.cells))
         },
-        "results": [_cell_json(result.entry(cell), cell) for cell in result.cells],
+        "results": [_cell_json(result, cell) for cell in result.cells],
     }
 
 
-def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
-    reaction = cell.reaction
+def _cell_json(result: SweepResult, cell: Cell) -> dict[str, object]:
+    entry, reaction = result.entry(cell), cell.reaction
     about: dict[str, object] = {
-        "id": cell.error, "error": entry.id, "name": entry.name, "code": entry.code_text, "severity": entry.severity, "state": cell.point,
+        "id": cell.error, "error": entry.id, "name": entry.name, "code": result.code(cell.error),
+        "severity": entry.severity, "state": cell.point,
         "verdict": verdict_of(cell), "scans": None, "first_read": None, "window": 0, "readers": [], "reads": [],
         "differences": [], "difference_count": 0, "handler_lines": [], "note": cell.note, "basis": "", "carried": [],
         "decided_by": [], "displayed": [], "unreached": [], "required": [], "restarts": [], "recovery": 0, "reason": reason(cell),
@@ -247,7 +254,7 @@ def sweep_junit(result: SweepResult, severities: Sequence[Severity], required: R
     suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{result.project} on {result.model}"), **totals})
     for cell in result.cells:
         entry = result.entry(cell)
-        name = f"{cell.error} ({entry.code_text})"
+        name = f"{cell.error} ({result.code(cell.error)})"
         case = etree.SubElement(
             suite, "testcase", {"classname": xml_text(f"{result.model}.{cell.point}"), "name": name}
         )

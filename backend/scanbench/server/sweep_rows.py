@@ -4,10 +4,11 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import get_args
 
+from scanbench.faults.details import code_text_with
 from scanbench.faults.history import key_for
 from scanbench.faults.reaction.compare import Outcome, outcome
 from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Verdict
-from scanbench.faults.reference import error_of, find_error
+from scanbench.faults.reference import error_of, find_error, named_reference
 from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
@@ -37,15 +38,26 @@ def rows_of(model: Model, wanted: Sequence[str] | None) -> tuple[SweptError, ...
     return tuple(found)
 
 
-def rows_planned(known: Sequence[SweptError], planned: Sequence[str]) -> tuple[SweptError, ...]:
+def rows_planned(model: Model, known: Sequence[SweptError], planned: Sequence[str]) -> tuple[SweptError, ...]:
     """The rows of what is raised: with details as rows of their own."""
     by_id = {error_of(each.id): each for each in reversed(known)}
     names = {error_of(each.id): each.name.removesuffix(f" ({each.id.partition(':')[2]})") for each in known}
     return tuple(
-        replace(by_id[error_of(text)], id=text, name=_named(names[error_of(text)], text.partition(":")[2]))
+        replace(
+            by_id[error_of(text)],
+            id=text,
+            name=_named(names[error_of(text)], text.partition(":")[2]),
+            code=_code(model, text) or by_id[error_of(text)].code,
+        )
         for text in planned
         if error_of(text) in by_id
     )
+
+
+def _code(model: Model, text: str) -> str:
+    ref = named_reference(text)
+    error = model.error(ref.id)
+    return "" if error is None else code_text_with(error, dict(ref.details))
 
 
 def _named(name: str, details: str) -> str:

@@ -14,6 +14,8 @@ from scanbench.faults.reaction.compare import SweepChange, compare
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction
 from scanbench.faults.reference import parse_reference
 from scanbench.jobs.client import WORK_S, Gone, Job, Make
+from scanbench.jobs.starting import model_of
+from scanbench.plcmodel.user_errors import model_for
 from scanbench.reports.reaction_json import from_json
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
@@ -64,6 +66,7 @@ class _Running:
     began: int
     spent: float
     """Seconds of earlier times."""
+    sources: Sources
     cancelled: str = ""
     task: "asyncio.Task[None] | None" = None
     now: str = ""
@@ -312,7 +315,7 @@ class Sweeps:
         return [StartPoint(name, str(path)) for name, path in files.items()]
 
     def _run(self, row: SweepRow, points: Sequence[StartPoint], sources: Sources, done: Sequence[CellRow]) -> None:
-        running = self._running[row.id] = _Running(row, Job(self._cache), monotonic_ns(), row.seconds)
+        running = self._running[row.id] = _Running(row, Job(self._cache), monotonic_ns(), row.seconds, sources)
         errors, pairs = tuple(each.id for each in row.errors), tuple((cell.error, cell.state) for cell in done)
         running.task = asyncio.get_running_loop().create_task(
             self._follow(running, lambda ref: RunSweep(ref, sources, tuple(points), errors, row.window, pairs))
@@ -369,12 +372,15 @@ class Sweeps:
     async def _keep(self, running: _Running) -> None:
         planned, running.planned = running.planned, ()
         if planned:
-            plan = partial(self._store.sweeps.plan, running.row.id, rows_planned(running.row.errors, planned))
-            running.row = await asyncio.to_thread(plan)
+            running.row = await asyncio.to_thread(self._plan, running, planned)
         fresh, running.fresh = running.fresh, []
         if fresh:
             await asyncio.to_thread(self._store.sweeps.add_cells, running.row.id, fresh)
         await self._tell(await self.row(running.row.id), running.now, fresh)
+
+    def _plan(self, running: _Running, planned: Sequence[str]) -> SweepRow:
+        model = model_for(model_of(running.sources), running.sources.files)
+        return self._store.sweeps.plan(running.row.id, rows_planned(model, running.row.errors, planned))
 
     async def _tell(self, row: SweepRow, now: str, cells: Sequence[CellRow]) -> None:
         accepted = await self._accepted(row.project) if cells else {}

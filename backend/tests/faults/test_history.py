@@ -1,5 +1,6 @@
 """The history of one PLC over several versions of its program, with what is known of reactions."""
 
+from dataclasses import replace
 from datetime import UTC, datetime
 
 from scanbench.faults.history import ErrorRow, History, RowReaction
@@ -7,6 +8,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Raised
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
+from scanbench.plcmodel.hardware import Fitted
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
 from scanbench.runtime.write import Write
 from tests.runtime.bench import model
@@ -46,6 +48,13 @@ def test_a_new_version_begins_with_rows_of_its_own() -> None:
     old = {each.id: each for each in history.rows_of(1, model())}
     assert (old["battery-error"].status, old["battery-error"].count) == ("cleared", 1)
     assert history.versions == [1, 2]
+
+
+def test_a_row_has_the_code_of_its_instance_before_it_is_raised() -> None:
+    fitted = (Fitted("special-io-unit", 5), Fitted("fal", 41))
+    rows = History(replace(model(), fitted=fitted), 1).rows
+    codes = {each.key: each.code for each in rows if each.id in ("special-io-unit-error", "fal", "fals")}
+    assert codes == {"special-io-unit-error:unit=5": "0305", "fal:number=41": "4129", "fals": "C100"}
 
 
 def test_what_is_present_is_present_in_the_new_version_too() -> None:

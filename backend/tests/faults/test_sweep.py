@@ -180,6 +180,19 @@ def test_json_is_read_again_and_names_readers_and_variables() -> None:
     assert verdicts == ["never_read", "acted", "no_effect", "stopped"]
 
 
+def test_a_cell_has_the_code_of_its_details() -> None:
+    unit = "special-io-unit-error"
+    entry = next(each for each in model().errors() if each.id == unit)
+    cells = tuple(Cell(error, "Here", Reaction("never_read", 30)) for error in (unit, f"{unit}:unit=5"))
+    made = SweepResult("line", "CJ1M-CPU63", 30, (("Here", 10),), (entry,), cells)
+    results = sweep_json(made)["results"]
+    assert isinstance(results, list)
+    assert [each["code"] for each in results] == ["0300", "0305"]
+    assert f"{unit}:unit=5  0305 " in "\n".join(sweep_text(made))
+    assert f'name="{unit}:unit=5 (0305)"' in sweep_junit(made, ("nonfatal",))
+    assert sweep_page(made, "today").count("<code>0305</code>") == 1
+
+
 @pytest.mark.parametrize(
     ("told", "why"),
     [

@@ -189,6 +189,8 @@ def test_details_that_the_program_tells_apart_have_rows_of_their_own(server: Ser
         whole = server.http.get(f"/api/sweeps/{begun['id']}").json()
         names = {error["id"]: error["name"] for error in whole["errors"]}
         assert names[f"{ERROR}:unit=3"] == "Special I/O Unit error (unit=3)"
+        codes = {error["id"]: error["code"] for error in whole["errors"]}
+        assert codes == {"battery-error": "00F7", f"{ERROR}:unit=3": "0303", f"{ERROR}:unit=5": "0305"}
         found = {cell["error"]: cell["verdict"] for cell in whole["cells"]}
         assert found == {
             "battery-error": "never_read", f"{ERROR}:unit=3": "acted", f"{ERROR}:unit=5": "stored",
