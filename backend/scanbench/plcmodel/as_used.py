@@ -13,7 +13,8 @@ from threading import Lock
 from scanbench.plcmodel.model import Instruction, Model
 
 _KEPT = 32
-_COMMENT = re.compile(r"\(\*.*?\*\)|//[^\n]*", re.DOTALL)
+_COMMENT = re.compile(r"'(?:\$.|[^$'\n])*'|\"(?:\$.|[^$\"\n])*\"|//[^\n]*|\(\*.*?\*\)|/\*.*?\*/", re.DOTALL)
+"""Strings too: what looks like a comment in one is none."""
 
 _lock = Lock()
 _made: OrderedDict[tuple[int, bool, bool], tuple[Model, Model]] = OrderedDict()
@@ -58,7 +59,7 @@ def _calls(text: str, name: str, parameter: str | None) -> bool:
     """Whether the text calls it: in any way (''), with this parameter, or with any (None)."""
     if name.lower() not in text.lower():
         return False
-    plain = _COMMENT.sub(" ", text)
+    plain = _COMMENT.sub(lambda found: found[0] if found[0][0] in "'\"" else " ", text)
     for found in re.finditer(rf"(?<![\w.]){name}\s*\(", plain, re.IGNORECASE):
         inside = _inside(plain, found.end())
         if parameter == "" or (parameter is None and inside.strip()):

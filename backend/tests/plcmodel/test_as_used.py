@@ -13,12 +13,17 @@ SAYING = (
     "FAL(N := ABS(x), s := 'A;)B');",
     "ok := fal(EN := TRUE, N := 7, S := said);",
     "MSG(3, 'x');",
+    "url := 'http://plc'; FAL(N := 7, S := 'HOT');",
+    "s := 'a (* b'; FAL(N := 7, S := 'HOT'); t := '*)';",
+    's := "it$" //"; FAL(N := 7, S := \'HOT\');',
+    "FAL(N := 7, (* ' *) S := 'HOT');",
 )
 SILENT = (
     "FAL(7);",
     "IF FAL(7) THEN S := 5; END_IF;",
     "(* FAL(7, S := 'HOT') *) FAL(7);",
     "// MSG(1, 'x')\nFAL(7);",
+    "/* MSG(1, 'x') */ FAL(7);",
     "FAL(N := Pick(S := 3));",
     "box.MSG(3);",
     "VAR msg : Printer; END_VAR msg(3);",
