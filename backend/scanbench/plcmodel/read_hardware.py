@@ -73,6 +73,11 @@ class _Reader:
         except json.JSONDecodeError as error:
             self._say(error.lineno, f"this is no JSON text: {error.msg}")
             return ()
+        except ValueError:  # Python reads no numbers of more digits than sys.get_int_max_str_digits
+            long = re.search(r"\d{1000,}", self._text)
+            line = 1 if long is None else self._text.count("\n", 0, long.start()) + 1
+            self._say(line, "a number is too long: write a whole number of a few digits")
+            return ()
         except RecursionError:
             self._say(1, "this is no hardware configuration: it is nested too deep")
             return ()
