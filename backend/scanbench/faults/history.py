@@ -9,8 +9,8 @@ from scanbench.faults.details import Chosen, choose, code_text_with
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Origin, instances_in
 from scanbench.faults.reaction.reaction import WORST_FIRST, Reaction, Verdict
-from scanbench.faults.reference import ErrorRef, covers, named_reference, natural
-from scanbench.plcmodel.hardware import fitted_instances, is_fitted, name_of
+from scanbench.faults.reference import ErrorRef, named_reference, natural
+from scanbench.plcmodel.hardware import FittedKind, fitted_instances, fitted_kind
 from scanbench.plcmodel.model import ErrorEntry, Model
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry, Refusal, Swapped
@@ -118,7 +118,8 @@ class History:
         self._model = model
         self._layout = _layout(model)
         self._version = version
-        self._swept: Mapping[int, Mapping[str, list[tuple[ErrorRef, Swept]]]] = {}
+        self._swept: Mapping[int, Mapping[str, list[ErrorRef]]] = {}
+        self._worst: Mapping[int, Mapping[str, Swept]] = {}
         self._raised_by_version: dict[int, dict[str, ErrorRow]] = {}
         for row in kept:
             self._raised_by_version.setdefault(row.program_version, {})[row.key] = row
@@ -152,13 +153,21 @@ class History:
 
     def take_sweeps(self, swept: Mapping[int, Mapping[str, Swept]]) -> None:
         """What sweeps found out, by version and error, which may have details."""
-        self._swept = {version: self._by_kind(found) for version, found in swept.items()}
+        by_kind = {version: self._by_kind(found) for version, found in swept.items()}
+        self._swept = {
+            version: {id: [ref for ref, _ in cells] for id, cells in kinds.items()}
+            for version, kinds in by_kind.items()
+        }
+        self._worst = {
+            version: worst(
+                (key, each) for cells in kinds.values() for ref, each in cells for key in self._rows_with(ref)
+            )
+            for version, kinds in by_kind.items()
+        }
 
     def with_sweep(self, row: ErrorRow) -> ErrorRow:
         """The row with what a sweep of its version found out; of several cells the worst."""
-        cells = self._swept.get(row.program_version, {}).get(row.id, ())
-        meant = ((row.key, swept) for ref, swept in cells if covers(row.key, ref))
-        swept = worst(meant).get(row.key)
+        swept = self._worst.get(row.program_version, {}).get(row.key)
         return row if swept == row.swept else replace(row, swept=swept)
 
     # ---- what happens ---------------------------------------------------------------------------------------------
@@ -256,6 +265,11 @@ class History:
             by_kind.setdefault(ref.id, []).append((ref, swept))
         return by_kind
 
+    def _rows_with(self, ref: ErrorRef) -> set[str]:
+        """The rows that a cell tells something about: the one of its instance, and the one of a kind without instances."""
+        error = self._model.error(ref.id)
+        return {ref.id, str(ref)} | ({str(_identified(error, ref))} if error is not None else set())
+
     def _recovered(self, command: Recover) -> list[str]:
         if command.ids is None:
             return self._present
@@ -300,7 +314,7 @@ class History:
             status="generated", code=chosen.code_text, details=str(chosen), generated_at=at, recovered_at=None,
             generated_scan=scan, recovered_scan=None, by=by, origin=origin, count=row.count + 1, reaction=reaction,
         )  # fmt: skip
-        self._now[key] = _told(self._model, error, raised)
+        self._now[key] = _told(fitted_kind(self._model.fitted, error), raised)
         return [self._now[key]]
 
     def _cleared(self, keys: Iterable[str], at: datetime, scan: int) -> list[ErrorRow]:
@@ -328,29 +342,31 @@ def _rows_of_kind(
     model: Model,
     error: ErrorEntry,
     raised: Mapping[str, ErrorRow],
-    swept: Sequence[tuple[ErrorRef, Swept]],
+    swept: Sequence[ErrorRef],
     version: int,
 ) -> list[ErrorRow]:
     """A row for each instance that is fitted, was raised or swept, in the order of their numbers; else one for the kind."""
     names = {each.name for each in error.identifying}
-    told = (ErrorRef(error.id, tuple(each for each in ref.details if each[0] in names)) for ref, _ in swept)
+    told = (_identified(error, ref) for ref in swept)
     known = {*raised, *(str(ref) for ref in told if ref.details or not names)}
     fitted = fitted_instances(model.fitted, error)
     known |= {str(ErrorRef(error.id, details)) for details in fitted or ()}
     rows = [raised.get(key) or _never(error, version, key) for key in sorted(known, key=natural)]
-    return [_told(model, error, row) for row in rows or [_never(error, version)]]
+    kind = fitted_kind(model.fitted, error)
+    return [_told(kind, row) for row in rows or [_never(error, version)]]
 
 
-def _told(model: Model, error: ErrorEntry, row: ErrorRow) -> ErrorRow:
+def _identified(error: ErrorEntry, ref: ErrorRef) -> ErrorRef:
+    """With just the details that tell it apart from others of its kind."""
+    names = {each.name for each in error.identifying}
+    return ErrorRef(error.id, tuple(each for each in ref.details if each[0] in names))
+
+
+def _told(kind: FittedKind, row: ErrorRow) -> ErrorRow:
     """The row as the model of its version tells it."""
-    details = named_reference(row.key).details
-    there = (
-        is_fitted(model.fitted, error, details)
-        if details or not error.identifying
-        else fitted_instances(model.fitted, error) != ()
-    )
+    error, details = kind.error, named_reference(row.key).details
     return replace(
-        row, name=error.name, severity=error.severity, fitted=there, label=name_of(model.fitted, error, details)
+        row, name=error.name, severity=error.severity, fitted=kind.has(details), label=kind.name(details)
     )  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 Without the file nothing is known about what is fitted, and every error of the model can be raised.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 
@@ -57,16 +57,41 @@ def can_be_absent(error: ErrorEntry) -> bool:
     return any(each.absent for each in error.identifying)
 
 
-def name_of(fitted: tuple[Fitted, ...] | None, error: ErrorEntry, details: Details) -> str:
-    """What people call the unit or the number of an error instance; empty where nobody says."""
-    counted = [each for each in error.identifying if each.hardware]
-    given = dict(details)
+@dataclass(frozen=True, slots=True)
+class FittedKind:
+    """Which instances of one kind of error are fitted, and what people call them: made once for all rows of the kind."""
+
+    error: ErrorEntry
+    instances: frozenset[Details] | None
+    """None: nothing is known, all can be raised."""
+    names: Mapping[tuple[str, ...], str]
+    """By the values of the details that hardware counts; empty for a part that is there once."""
+
+    def has(self, details: Details) -> bool:
+        """Whether this instance is fitted; without details, whether any is."""
+        if self.instances is None:
+            return True
+        return details in self.instances if details or not self.error.identifying else bool(self.instances)
+
+    def name(self, details: Details) -> str:
+        """What people call the unit or the number of an instance; empty where nobody says."""
+        given = dict(details)
+        return self.names.get(tuple(given.get(each.name, "") for each in _counted(self.error)), "")
+
+
+def fitted_kind(fitted: tuple[Fitted, ...] | None, error: ErrorEntry) -> FittedKind:
+    """What is fitted of a kind of error."""
+    instances, counted = fitted_instances(fitted, error), _counted(error)
+    names: dict[tuple[str, ...], str] = {}
     for each in fitted or ():
-        if error.hardware and each.kind == error.hardware:
-            return each.name
-        if counted and all(given.get(detail.name, "") == (_value(detail, each) or "-") for detail in counted):
-            return each.name
-    return ""
+        values = [_value(detail, each) for detail in counted]
+        if counted or each.kind == error.hardware:
+            names.setdefault(tuple(value or "-" for value in values), each.name)
+    return FittedKind(error, None if instances is None else frozenset(instances), names)
+
+
+def _counted(error: ErrorEntry) -> list[ErrorDetail]:
+    return [] if error.hardware else [each for each in error.identifying if each.hardware]
 
 
 def _value(detail: ErrorDetail, of: Fitted) -> str | None:

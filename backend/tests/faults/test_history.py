@@ -1,9 +1,11 @@
 """The history of one PLC over several versions of its program, with what is known of reactions."""
 
+import sys
 from dataclasses import replace
 from datetime import UTC, datetime
+from types import FrameType
 
-from scanbench.faults.history import ErrorRow, History, RowReaction
+from scanbench.faults.history import ErrorRow, History, RowReaction, Swept
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Raised
 from scanbench.faults.reaction.reaction import Reaction
@@ -143,3 +145,30 @@ def test_the_past_may_be_of_a_different_version() -> None:
     then = {each.id: each for each in history.as_of({}, datetime(2026, 11, 21, 13, tzinfo=UTC), 1)}
     assert (then["battery-error"].status, then["fal"].status) == ("cleared", "never")
     assert row(history, "fal").status == "generated"  # nothing was changed
+
+
+def calls_of(numbers: int) -> int:
+    """Function calls to read the rows of a project with so many FAL numbers, all of them swept."""
+    fitted = tuple(Fitted("fal", number, name=f"text {number}") for number in range(1, numbers + 1))
+    history = History(replace(model(), fitted=fitted), 1)
+    calls = 0
+
+    def count(frame: FrameType, event: str, argument: object) -> None:
+        nonlocal calls
+        calls += event == "call"
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        history.take_sweeps({1: {f"fal:number={each.number}": Swept("acted", each.number) for each in fitted}})
+        rows = [history.with_sweep(row) for row in history.rows]
+    finally:
+        sys.setprofile(before)
+    told = [(row.key, row.label, row.fitted, row.swept) for row in rows if row.id == "fal"]
+    assert told == [(f"fal:number={n}", f"text {n}", True, Swept("acted", n)) for n in range(1, numbers + 1)]
+    return calls
+
+
+def test_reading_the_rows_takes_as_long_as_there_are_rows() -> None:
+    none, some, more = map(calls_of, (1, 101, 301))
+    assert more - none < 4 * (some - none)

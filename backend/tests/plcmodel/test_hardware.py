@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.plcmodel.hardware import Fitted, fitted_instances, name_of
+from scanbench.plcmodel.hardware import Fitted, fitted_instances, fitted_kind
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.read_hardware import ranges, read_hardware, write_hardware
 from scanbench.plcmodel.user_errors import device_of, extended
@@ -50,7 +50,7 @@ def test_the_errors_of_what_is_fitted() -> None:
     }
     fal = known.error("fal")
     assert fal is not None
-    assert name_of(known.fitted, fal, (("number", "42"),)) == "pump overpressure"
+    assert fitted_kind(known.fitted, fal).name((("number", "42"),)) == "pump overpressure"
     assert device_of(known) == model("CJ1M-CPU13")
 
 
@@ -79,7 +79,10 @@ def test_a_board_is_fitted_or_not() -> None:
         ('{"kind": "fal", "number": 1, "text": ""}', 3, "text is unknown; there are kind, number, rack, slot, name"),
         ('{"kind": "fal", "number": 1, "rack": 1}', 3, "a fal is in no slot"),
         ("{", 4, "this is no JSON text"),
+        (f'{{"kind": "fal", "number": {"9" * 5000}}}', 3, "a number is too long"),
+        ("[" * 100_000, 1, "it is nested too deep"),
     ],
+    ids=lambda value: str(value)[:60],
 )  # fmt: skip
 def test_what_is_wrong_is_told_at_its_line(items: str, line: int, words: str) -> None:
     found, problems = read_hardware(model("CJ1M-CPU13"), f'{{"version": 1, "fitted": [\n\n{items}\n]}}')
