@@ -3,6 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 
 from scanbench.host.zygote import CHECK
@@ -32,16 +33,18 @@ class Checker:
         """The process that checks; none before the first check."""
         return self._job.pids
 
-    async def check(self, sources: Mapping[str, str], model: Model) -> CheckOutcome:
-        """All problems of these sources, and what they declare. `Unavailable` when the process does not answer."""
+    async def check(self, sources: Mapping[str, str], model: Model, numbers: bool = False) -> CheckOutcome:
+        """All problems of these sources, and what they declare; with `numbers` those that the program raises errors with.
+        `Unavailable` when the process does not answer."""
         wanted = Sources(model.name, dict(sources), INTERVAL_NS, 0)
         async with self._turn:  # a program that its process dies of is nobody else's trouble
-            return await self._checked(wanted)
+            return await self._checked(wanted, numbers)
 
-    async def _checked(self, wanted: Sources) -> CheckOutcome:
+    async def _checked(self, wanted: Sources, numbers: bool) -> CheckOutcome:
         for _ in range(2):
             try:
-                return (await self._job.ask(lambda ref: Check(ref, wanted), Checked, self.deadline_s)).outcome
+                question = partial(Check, sources=wanted, numbers=numbers)
+                return (await self._job.ask(question, Checked, self.deadline_s)).outcome
             except Slow as error:
                 raise Unavailable(
                     f"the process that checks programs has not answered within {self.deadline_s:g} s, and was started again: "

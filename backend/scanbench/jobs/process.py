@@ -18,6 +18,7 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
+from scanbench.faults.raised_numbers import RaisedNumber, raised_numbers
 from scanbench.faults.reaction.choices import Choices
 from scanbench.faults.reaction.required_rules import problems_of, rules_of
 from scanbench.faults.reaction.steps import Point
@@ -130,7 +131,14 @@ class Job:
         sources = ask.sources
         found = self._checks.diagnose(sources.files, model_of(sources), sources.interval_ns)
         required = self._required(sources, found)
-        return Checked(ask.ref, CheckOutcome((*found.problems, *required), found.pous, found.checks))
+        numbers = self._numbers(sources) if ask.numbers else None
+        return Checked(ask.ref, CheckOutcome((*found.problems, *required), found.pous, found.checks, numbers))
+
+    def _numbers(self, sources: Sources) -> tuple[RaisedNumber, ...] | None:
+        """Those that the program raises errors with, whatever is wrong with what is fitted."""
+        files = check.program_files(sources.files)
+        program = self._checks.check(files, model_of(sources), sources.interval_ns).program
+        return None if program is None else raised_numbers(program)
 
     def _required(self, sources: Sources, found: check.Checked) -> list[Problem]:
         """What is wrong with the requirements of a project; their names need the whole program."""

@@ -112,11 +112,11 @@ class Projects:
 
     # ---- check and build ------------------------------------------------------------------------------------------
 
-    async def check(self, id: int, edited: Mapping[str, str]) -> CheckOutcome:
-        """Checks the project with texts that are not saved yet."""
+    async def check(self, id: int, edited: Mapping[str, str], numbers: bool = False) -> CheckOutcome:
+        """Checks the project with texts that are not saved yet; with `numbers` those that its program raises errors with."""
         project = await self.get(id)
         sources = await self.sources(id) | dict(edited)
-        return await self._checker.check(sources, self.model(project.model))
+        return await self._checker.check(sources, self.model(project.model), numbers)
 
     async def declared(self, sources: Sources) -> CheckOutcome:
         """What sources declare that were built before."""

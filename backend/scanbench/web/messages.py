@@ -12,6 +12,7 @@ from scanbench.check.build import PouInfo
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
+from scanbench.faults.raised_numbers import RaisedNumber
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.migrate_image import Lost
 from scanbench.web.messages_base import Id, Scan, Version, Wire
@@ -106,6 +107,7 @@ class CheckRequest(Wire):
     """Texts being edited, not yet saved; the other files of the project are taken as stored."""
 
     files: dict[str, str]
+    numbers: bool = Field(default=False, description="also find the numbers that the program raises errors with")
 
 
 class EmbeddedCheck(Wire):
@@ -126,6 +128,10 @@ class CheckResult(Wire):
     problems: list[Problem]
     pous: tuple[PouInfo, ...]
     checks: list[EmbeddedCheck] = Field(description="none while there are errors")
+    numbers: tuple[RaisedNumber, ...] | None = Field(
+        default=None,
+        description="constants in calls of FAL, FALS and their like; null where nobody asked, or the program has errors",
+    )
 
 
 class ProgramText(Wire):

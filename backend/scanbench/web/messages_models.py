@@ -32,10 +32,22 @@ class ModelSummary(Wire):
     verified_facts: int = Field(description="how many of them were looked up on a page")
 
 
+class HardwareKind(Wire):
+    """What a project can say is fitted, in `hardware.json`; `rack` and `slot` are also the places of units."""
+
+    kind: str
+    lowest: int
+    highest: int
+
+
 class ModelInfo(ModelSummary):
     areas: list[Area]
     code_word: str | None = Field(description="address of the error code word, e.g. A400")
     hardware: bool = Field(default=False, description="the project says what is fitted (hardware.json)")
+    fits: list[HardwareKind] = Field(
+        default_factory=list,
+        description="the kinds of hardware that the model has, with their lowest and highest numbers",
+    )
     code_words: list[str] = Field(
         description="the words of the error code, the low one first; two where it has 32 bits"
     )

@@ -3,6 +3,7 @@
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.plcmodel.facts import share
+from scanbench.plcmodel.read_hardware import ranges
 from scanbench.problems import Problem
 from scanbench.program.sites import CheckSite
 from scanbench.public import iso
@@ -61,6 +62,7 @@ def check_result(found: CheckOutcome) -> wire.CheckResult:
         problems=list(map(problem, found.problems)),
         pous=found.pous,
         checks=list(map(embedded_check, found.checks)),
+        numbers=found.numbers,
     )  # fmt: skip
 
 
@@ -230,6 +232,10 @@ def model_info(model: plc.Model) -> messages_models.ModelInfo:
         else [model.format(word.area, word.byte + at, None, 16) for at in range(0, word.bits // 8, 2)],
         status_words=list(model.status_words),
         hardware=model.fitted is not None,
+        fits=[
+            messages_models.HardwareKind(kind=kind, lowest=low, highest=high)
+            for kind, (low, high) in ranges(model).items()
+        ],
         catalogue=translate_errors.groups(model.catalogue, translate_errors.facts_by_error(model)),
     )
 

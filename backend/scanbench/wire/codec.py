@@ -25,6 +25,7 @@ from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
 from scanbench.faults.inject import INSTANCES, Generate, Recover
 from scanbench.faults.present import Active, Raised
 from scanbench.faults.preview import PreviewedWrite
+from scanbench.faults.raised_numbers import RaisedNumber
 from scanbench.faults.reaction.reaction import (
     Carried,
     Difference,
@@ -89,7 +90,7 @@ _CLASSES: dict[str, type] = {
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, OutputRestart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
-        events.CheckOutcome, Problem, PouInfo, CheckSite, job_protocol.Reacted,
+        events.CheckOutcome, Problem, PouInfo, CheckSite, RaisedNumber, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord, protocol.DeviceIs, protocol.WantDevice,
         GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,

@@ -11,6 +11,7 @@ from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
+from scanbench.faults.raised_numbers import RaisedNumber
 from scanbench.history.contract import Divergence
 from scanbench.problems import Problem, Severity
 from scanbench.program.sites import CheckSite
@@ -38,6 +39,8 @@ class CheckOutcome:
     pous: tuple[PouInfo, ...]
     checks: tuple[CheckSite, ...] = ()
     """Subrange checks that the compiler embedded, or proved needless; none while there are errors."""
+    numbers: tuple[RaisedNumber, ...] | None = None
+    """Those that the program raises errors with; None where nobody asked, or the program has errors."""
 
     @property
     def errors(self) -> int:

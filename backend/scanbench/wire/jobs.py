@@ -59,6 +59,8 @@ class Check:
 
     ref: int
     sources: Sources
+    numbers: bool = False
+    """Also the numbers that the program raises errors with: they take a program that is put together."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -225,3 +225,17 @@ def test_the_terminals_of_a_plc(server: Server) -> None:
         ("CIO0.02", "CIO0.02"),
         ("Main.start", "CIO0.03"),
     ]
+
+
+def test_the_numbers_that_a_program_raises_errors_with_are_found_when_asked_for(server: Server) -> None:
+    project = server.project(
+        "raising", "CJ1M-CPU13", main="PROGRAM Main\nFAL(N := 42, S := 'PUMP HOT');\nEND_PROGRAM\n"
+    )
+    address = f"/api/projects/{project}/check"
+    assert server.http.post(address, json={"files": {}}).json().get("numbers") is None
+    found = {"kind": "fal", "number": 42, "text": "PUMP HOT", "file": "main.st", "line": 2}
+    assert server.http.post(address, json={"files": {}, "numbers": True}).json()["numbers"] == [found]
+    broken = {"files": {"hardware.json": "{"}, "numbers": True}
+    assert server.http.post(address, json=broken).json()["numbers"] == [found]
+    edited = {"files": {"main.st": "PROGRAM Main\nFAL(;\nEND_PROGRAM\n"}, "numbers": True}
+    assert server.http.post(address, json=edited).json().get("numbers") is None

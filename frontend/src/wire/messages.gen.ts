@@ -3076,6 +3076,12 @@ export interface components {
             files: {
                 [key: string]: string;
             };
+            /**
+             * Numbers
+             * @description also find the numbers that the program raises errors with
+             * @default false
+             */
+            numbers: boolean;
         };
         /** CheckResult */
         CheckResult: {
@@ -3084,6 +3090,11 @@ export interface components {
              * @description none while there are errors
              */
             checks: components["schemas"]["EmbeddedCheck"][];
+            /**
+             * Numbers
+             * @description constants in calls of FAL, FALS and their like; null where nobody asked, or the program has errors
+             */
+            numbers?: components["schemas"]["RaisedNumber"][] | null;
             /** Pous */
             pous: components["schemas"]["Pou"][];
             /** Problems */
@@ -4582,6 +4593,18 @@ export interface components {
             line: number;
         };
         /**
+         * HardwareKind
+         * @description What a project can say is fitted, in `hardware.json`; `rack` and `slot` are also the places of units.
+         */
+        HardwareKind: {
+            /** Highest */
+            highest: number;
+            /** Kind */
+            kind: string;
+            /** Lowest */
+            lowest: number;
+        };
+        /**
          * Hello
          * @description First message after connecting, and after every reconnection: everything but the values.
          */
@@ -5038,6 +5061,11 @@ export interface components {
              * @description statements about the device, each with a source: `scanbench model facts`
              */
             fact_count: number;
+            /**
+             * Fits
+             * @description the kinds of hardware that the model has, with their lowest and highest numbers
+             */
+            fits?: components["schemas"]["HardwareKind"][];
             /**
              * Hardware
              * @description the project says what is fitted (hardware.json)
@@ -5774,6 +5802,28 @@ export interface components {
             message: string;
             /** Version */
             version: number;
+        };
+        /**
+         * RaisedNumber
+         * @description A number that the program raises an error with, and the first call that does.
+         */
+        RaisedNumber: {
+            /** File */
+            file: string;
+            /**
+             * Kind
+             * @description What it is in a hardware configuration: `fal`, `fals`.
+             */
+            kind: string;
+            /** Line */
+            line: number;
+            /** Number */
+            number: number;
+            /**
+             * Text
+             * @description The text that the program gives the error; empty where it gives none, or computes it.
+             */
+            text: string;
         };
         /**
          * Reaction

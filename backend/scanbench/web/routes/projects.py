@@ -66,7 +66,7 @@ async def on_delete_file(bench: Bench, request: Request, project: Id, path: str)
 @router.post("/{project}/check")
 async def on_check(bench: Bench, project: Id, edited: wire.CheckRequest) -> wire.CheckResult:
     """Checks the project with texts that are not saved yet; stores nothing."""
-    return translate.check_result(await bench.projects.check(project, edited.files))
+    return translate.check_result(await bench.projects.check(project, edited.files, edited.numbers))
 
 
 @router.post("/{project}/build")
