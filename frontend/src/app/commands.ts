@@ -65,6 +65,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "operator.new", run: () => askNewPanel(true) },
     { label: "cross.unused", run: () => void showUnused() },
     { label: "device.open", run: () => openPage("plcerrors") },
+    { label: "hardware.open", run: () => openPage("hardware") },
     { label: "rack.open", run: openRack },
     { label: "memory.open", run: () => openPage("memory") },
     { label: "versions.open", run: () => void openVersions() },

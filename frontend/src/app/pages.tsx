@@ -1,6 +1,7 @@
 /** Pages: panels in the centre, among the files, that show no file. */
 import type { ReactNode } from "react";
 import { DevicePage } from "../panels/errors/device/DevicePage";
+import { HardwarePage } from "../panels/errors/hardware/HardwarePage";
 import { RecordPage } from "../panels/errors/history/RecordPage";
 import { SweepPage } from "../panels/errors/sweep/SweepPage";
 import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
@@ -11,6 +12,7 @@ import { CrossPage } from "../panels/project/cross/CrossPage";
 import { VersionsPage } from "../panels/project/editor/VersionsPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
 import { MemoryPage } from "../panels/watch/memory/MemoryPage";
+import { useHardwareEdited } from "../store/errors/hardware";
 import { useRecordTitle } from "../store/errors/records";
 import { useSweepTitle } from "../store/errors/sweeps";
 import { isEdited, useUserErrors } from "../store/errors/userErrors";
@@ -28,6 +30,7 @@ interface Page {
 export const PAGES: Record<PageName, Page> = {
   sweep: { component: SweepPage, icon: "generated", useTitle: useSweepTitle },
   plcerrors: { component: DevicePage, icon: "warning", useTitle: () => t("device.title") },
+  hardware: { component: HardwarePage, icon: "plc", useTitle: useHardwareTitle },
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
@@ -38,6 +41,11 @@ export const PAGES: Record<PageName, Page> = {
   rack: { component: RackPage, icon: "plc", useTitle: () => t("rack.title") },
   usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },
 };
+
+function useHardwareTitle(): string {
+  const edited = useHardwareEdited();
+  return edited ? `${t("hardware.title")}, ${t("unsaved")}` : t("hardware.title");
+}
 
 function useUserErrorsTitle(): string {
   const edited = useUserErrors(isEdited);

@@ -184,8 +184,8 @@ export const rest = {
   deleteFile: async (project: number, path: string): Promise<void> => {
     await request("DELETE", filePath(project, path));
   },
-  check: (project: number, files: Record<string, string>) =>
-    json<CheckResult>("POST", `/projects/${project}/check`, { files }),
+  check: (project: number, files: Record<string, string>, numbers = false) =>
+    json<CheckResult>("POST", `/projects/${project}/check`, numbers ? { files, numbers } : { files }),
   /** `instances`: the PLCs that get the program; null is all of them. */
   build: (project: number, agreed: boolean, instances: readonly number[] | null = null, message = "") =>
     json<BuildResult>("POST", `/projects/${project}/build`, { agreed, instances, message }),

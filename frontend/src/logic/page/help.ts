@@ -28,6 +28,7 @@ const TOPICS: Readonly<Record<string, string>> = {
   errors: "error-simulator.md",
   explorer: "window.md#explorer",
   forces: "watch.md#forces",
+  hardware: "error-simulator.md#hardware-configuration",
   help: CONTENTS,
   history: "error-simulator.md#history-and-test-record",
   log: "window.md#events",

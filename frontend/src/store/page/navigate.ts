@@ -25,6 +25,7 @@ const PAGES = [
   "plcerrors",
   "record",
   "compare",
+  "hardware",
   "versions",
   "rack",
   "memory",

@@ -19,7 +19,7 @@ export function scheduleCheck(): void {
 
 /** Asks the compiler about the edited texts; an outdated answer is dropped. */
 export async function check(): Promise<void> {
-  const { project, open } = get();
+  const { project, open, wantsNumbers } = get();
   if (project === null) return;
   checkTurn += 1;
   const turn = checkTurn;
@@ -28,10 +28,12 @@ export async function check(): Promise<void> {
     const result = await rest.check(
       project,
       Object.fromEntries(dirty.map((document) => [document.path, document.text])),
+      wantsNumbers,
     );
     if (turn !== checkTurn || get().project !== project) return;
     const broken = result.problems.some((problem) => problem.severity === "error");
     set({ problems: result.problems, pous: result.pous, ...(broken ? {} : { checks: result.checks }) });
+    if (wantsNumbers && get().wantsNumbers) set({ numbers: result.numbers ?? null });
   } catch (error) {
     if (turn === checkTurn) set({ trouble: messageOf(error) });
   }

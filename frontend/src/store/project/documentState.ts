@@ -1,7 +1,16 @@
 /** What the page knows of the files of the project: `documents.ts` changes it. */
 
 import { create } from "zustand";
-import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../../wire/types";
+import type {
+  BuildResult,
+  EmbeddedCheck,
+  FileInfo,
+  FileText,
+  OnlineChange,
+  Pou,
+  Problem,
+  RaisedNumber,
+} from "../../wire/types";
 
 export interface Document {
   path: string;
@@ -37,6 +46,9 @@ interface Documents {
   problems: readonly Problem[];
   /** Subrange checks of the edited texts; the last good ones while there are errors. */
   checks: readonly EmbeddedCheck[];
+  /** The numbers that the program raises errors with, while somebody wants them; null while it has errors. */
+  numbers: readonly RaisedNumber[] | null;
+  wantsNumbers: boolean;
   build: BuildState;
   /** A build that waits for confirmation: variables of running PLCs would be reinitialized. */
   asking: BuildResult | null;
@@ -46,7 +58,7 @@ interface Documents {
   trouble: string | null;
 }
 
-export const nothing: Omit<Documents, "project"> = {
+export const nothing: Omit<Documents, "project" | "wantsNumbers"> = {
   files: [],
   open: {},
   active: null,
@@ -54,13 +66,14 @@ export const nothing: Omit<Documents, "project"> = {
   pous: [],
   problems: [],
   checks: [],
+  numbers: null,
   build: { phase: "idle" },
   asking: null,
   change: null,
   trouble: null,
 };
 
-export const useDocuments = create<Documents>(() => ({ project: null, ...nothing }));
+export const useDocuments = create<Documents>(() => ({ project: null, wantsNumbers: false, ...nothing }));
 
 /** A text is edited with line feeds, also one that was saved elsewhere with other line ends. */
 export const isDirty = (document: Document | undefined) =>

@@ -145,6 +145,7 @@ export const errors = {
   "errors.filters": "Filter: {filter}",
   "errors.generate.asks": "Generate {count}…",
   "errors.menu": "Error simulator: actions",
+  "errors.menu.hardware": "Hardware",
   "errors.menu.history": "History",
   "errors.menu.keep": "Keep this state…",
   "errors.menu.record": "Test record",

@@ -4,6 +4,7 @@ import { common } from "./common";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
+import { hardware } from "./hardware";
 import { operator } from "./operator";
 import { past } from "./past";
 import { plc } from "./plc";
@@ -23,6 +24,7 @@ export const english = {
   ...project,
   ...watch,
   ...errors,
+  ...hardware,
   ...sweep,
   ...userErrors,
   ...debug,

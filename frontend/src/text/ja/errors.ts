@@ -146,6 +146,7 @@ export const errors: Record<keyof typeof english, string> = {
   "errors.filters": "絞り込み: {filter}",
   "errors.generate.asks": "{count} 件発生…",
   "errors.menu": "異常シミュレータ: 操作",
+  "errors.menu.hardware": "ハードウェア",
   "errors.menu.history": "履歴",
   "errors.menu.keep": "この状態を保存…",
   "errors.menu.record": "試験成績書",

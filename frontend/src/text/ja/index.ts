@@ -5,6 +5,7 @@ import { common } from "./common";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
+import { hardware } from "./hardware";
 import { operator } from "./operator";
 import { past } from "./past";
 import { plc } from "./plc";
@@ -24,6 +25,7 @@ export const japanese: Record<TextKey, string> = {
   ...project,
   ...watch,
   ...errors,
+  ...hardware,
   ...sweep,
   ...userErrors,
   ...debug,

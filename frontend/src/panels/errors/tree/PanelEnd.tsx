@@ -38,6 +38,7 @@ export function PanelEnd() {
       { label: t("errors.menu.keep"), icon: "record", onSelect: () => keepState() },
       { label: t("sweep.tab.list"), icon: "handled", onSelect: showSweeps },
       { label: t("errors.menu.user"), icon: "plus", onSelect: () => openUserErrors() },
+      { label: t("errors.menu.hardware"), icon: "plc", onSelect: () => openPage("hardware") },
       { label: t("device.open"), icon: "warning", separated: true, onSelect: () => openPage("plcerrors") },
       { label: t("errors.menu.history"), icon: "list", onSelect: () => showPanel("history") },
       { label: t("errors.menu.record"), icon: "export", hint: t("record.newtab"), onSelect: openRecord },

@@ -13,7 +13,7 @@ import {
 import { useDebug } from "../../../store/debug/debug";
 import { openUserErrors } from "../../../store/errors/userErrors";
 import { openRack } from "../../../store/operator/rack";
-import { openFile } from "../../../store/page/navigate";
+import { openFile, openPage } from "../../../store/page/navigate";
 import { useBench } from "../../../store/plc/bench";
 import { isAway, loadMembers, useMembers } from "../../../store/plc/members";
 import { usePlc } from "../../../store/plc/plc";
@@ -276,7 +276,7 @@ function modelRows(model: ModelInfo, folding: Folding, openMenu: OpenMenu): Tree
     memory,
     ...(folding.isOpen("memory") ? model.areas.flatMap((area) => areaRows(area, folding, openMenu)) : []),
     plc,
-    ...(folding.isOpen("model") ? [...facts.map((fact) => factRow(fact)), userErrorsRow(model)] : []),
+    ...(folding.isOpen("model") ? [...facts.map((fact) => factRow(fact)), userErrorsRow(model), hardwareRow(model)] : []),
   ];
 }
 
@@ -292,6 +292,20 @@ function userErrorsRow(model: ModelInfo): TreeRow {
     name,
     meta: own > 0 ? own : undefined,
     onActivate: () => openUserErrors(),
+  };
+}
+
+/** Opens the page of what is fitted. */
+function hardwareRow(model: ModelInfo): TreeRow {
+  const name = t("hardware.title");
+  return {
+    key: "hardware",
+    level: 1,
+    icon: "plc",
+    label: name,
+    name,
+    meta: model.hardware ? undefined : t("hardware.unknown"),
+    onActivate: () => openPage("hardware"),
   };
 }
 
