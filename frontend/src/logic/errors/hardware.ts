@@ -72,7 +72,7 @@ export function withField(text: string, index: number, field: HardwareField, val
       : text;
   const told = JSON.stringify(value);
   if (found) return replaced(text, found.value.offset, endOf(found.value), told);
-  const rank = (name: string) => FIELDS.findIndex((known) => known === name);
+  const rank = (name: string) => (FIELDS as readonly string[]).indexOf(name);
   const before = all.findLast(({ name }) => rank(name) >= 0 && rank(name) < FIELDS.indexOf(field));
   if (before) return replaced(text, endOf(before.whole), endOf(before.whole), `, "${field}": ${told}`);
   return replaced(text, node.offset + 1, node.offset + 1, `"${field}": ${told}${all.length > 0 ? ", " : ""}`);

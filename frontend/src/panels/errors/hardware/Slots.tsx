@@ -56,7 +56,7 @@ export function Slots({ fitted, racks, slots, kinds }: Props) {
                 <MenuButton
                   key={slot}
                   label={`${place}: ${t("hardware.slot.empty")}`}
-                  className="hwslot empty"
+                  className="hwslot vacant"
                   items={() => items(rack, slot)}
                 >
                   <small className="faint num">{slot}</small>

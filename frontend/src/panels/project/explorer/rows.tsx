@@ -276,7 +276,9 @@ function modelRows(model: ModelInfo, folding: Folding, openMenu: OpenMenu): Tree
     memory,
     ...(folding.isOpen("memory") ? model.areas.flatMap((area) => areaRows(area, folding, openMenu)) : []),
     plc,
-    ...(folding.isOpen("model") ? [...facts.map((fact) => factRow(fact)), userErrorsRow(model), hardwareRow(model)] : []),
+    ...(folding.isOpen("model")
+      ? [...facts.map((fact) => factRow(fact)), userErrorsRow(model), hardwareRow(model)]
+      : []),
   ];
 }
 
