@@ -208,7 +208,8 @@ export const plc = {
   "restart.cold.hint": "all variables get their initial values",
   "restart.menu": "Restart",
   "restart.power": "Power cycle",
-  "restart.power.hint": "like the real device: retained areas are kept, forces and errors go; an error whose cause lasts comes back",
+  "restart.power.hint":
+    "like the real device: retained areas are kept, forces and errors go; an error whose cause lasts comes back",
   "restart.rollback": "Roll back the program",
   "restart.rollback.hint": "to version {version}, which ran before the last change",
   "restart.rollback.none": "no other program ran before this one",
