@@ -1,7 +1,7 @@
 """`scanbench errors`: the errors of a model, and what a program does about each of them."""
 
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
@@ -23,7 +23,7 @@ from scanbench.cli.inputs import (
 from scanbench.cli.interrupt import leaving
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
-from scanbench.cli.requirements import BadRequirements, read_requirements, wanted_of
+from scanbench.cli.requirements import BadRequirements, Grades, read_requirements, wanted_of
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.side_by_side import sweep_side_by_side
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state, while_present
@@ -35,11 +35,12 @@ from scanbench.faults.reaction.required import Required
 from scanbench.faults.reaction.required_rules import Rules, rules_of
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import Cell
-from scanbench.faults.reference import ErrorRef, error_of, find_error
+from scanbench.faults.reference import ErrorRef, error_of, find_error, named_reference
 from scanbench.jobs.starting import checked_program, model_of, point_in
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
+from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.public import iso
 from scanbench.recording.programs import cached, observed
@@ -177,27 +178,28 @@ def sweep_errors(
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
     program = _program(given, plc, as_json)
     chosen = _chosen(program.layout.model, only)
-    required, rules = _required(require, requirements, program, given)
+    required, rules, grades = _required(require, requirements, program, given)
     make = _engine(engine)
     points = _points(states, present, program, given, make)
-    programs = cached({_VERSION: program}, observed(make))
-    raised = rules.raised(Choices(program).expand(ErrorRef(each.id) for each in chosen))
-    cells, whole = _swept(points, raised, window, programs, rules)
+    asked = [each.id for each in chosen]
+    raised = rules.raised(Choices(program).expand(map(ErrorRef, asked)), asked)
+    _tell_unused(rules, grades, raised, points)
+    cells, whole = _swept(points, raised, window, cached({_VERSION: program}, observed(make)), rules)
     tried = {error_of(cell.error) for cell in cells}
     begun = tuple((name, Header(point.state).scan) for name, point in points.items())
-    result = SweepResult(
-        project.resolve().name, plc.name, window, begun, tuple(each for each in chosen if each.id in tried), cells
-    )
+    listed = tuple(each for each in chosen if each.id in tried)
+    result = SweepResult(project.resolve().name, plc.name, window, begun, listed, cells)
     severities = _severities(severity)
     unhandled = result.unhandled(severities, required)
     _tell(result, unhandled, as_json)
+    untried = whole and _tell_untried(rules, cells, asked)
     if junit is not None:
         write_text(junit, sweep_junit(result, severities, required))
     if html is not None:
         write_text(html, sweep_page(result, iso(wall_time()), required))
     if not whole:
         typer.echo(f"scanbench: interrupted after {len(tried)} of {count(len(chosen), 'error')}", err=True)
-    raise typer.Exit(1 if unhandled or rules.problems else 0 if whole else INTERRUPTED)
+    raise typer.Exit(1 if unhandled or rules.problems or untried else 0 if whole else INTERRUPTED)
 
 
 def _swept(
@@ -299,18 +301,40 @@ def _program_of(sources: Sources, program: Program) -> Callable[[Sources], Progr
     return get
 
 
-def _required(all: Require, path: Path | None, program: Program, sources: Sources) -> tuple[Required, Rules]:
+def _tell_unused(rules: Rules, grades: Grades | None, raised: Sequence[ErrorRef], points: Collection[str]) -> None:
+    """What is required of what this sweep does not try: a typing error, perhaps."""
+    for state, near in rules.unknown_states(points):
+        text = (
+            f"scanbench: {REQUIREMENTS} names the state `{state}`, which this sweep does not begin from.{perhaps(near)}"
+        )
+        typer.echo(text, err=True)
+    for row in () if grades is None else grades.unused(raised):
+        typer.echo(f"scanbench: --requirements names {row}, which this sweep does not raise", err=True)
+
+
+def _tell_untried(rules: Rules, cells: Iterable[Cell], asked: Collection[str]) -> bool:
+    """What is required of an error that could not be raised; whether there is any."""
+    problems = rules.untried([named_reference(each.error) for each in cells if each.reaction is not None], asked)
+    for problem in problems:
+        typer.echo(str(problem), err=True)
+    return bool(problems)
+
+
+def _required(
+    all: Require, path: Path | None, program: Program, sources: Sources
+) -> tuple[Required, Rules, Grades | None]:
     """The grades, and what else must happen. What a file says replaces what the project says; the grades of JSON come on top."""
     wanted = wanted_of(all.value)
     assert wanted is not None
     try:
-        told = None if path is None else read_requirements(path, program.layout.model)
+        told = None if path is None else read_requirements(path, program)
     except BadRequirements as why:
         usage(f"--requirements {path}: {why}")
     rules = Rules(program, told) if isinstance(told, RequirementsText) else rules_of(program, sources.files)
     for problem in rules.problems:
         typer.echo(str(problem), err=True)
-    return Required(wanted, told if isinstance(told, dict) else {}, rules.grade), rules
+    grades = told if isinstance(told, Grades) else None
+    return Required(wanted, None if grades is None else grades.of, rules.grade), rules, grades
 
 
 def _severities(asked: list[Severities]) -> tuple[Severity, ...]:

@@ -184,7 +184,8 @@ class Job:
             if isinstance(each, Refusal):
                 raise Refused(each.message, each.near)
         rules = rules_of(program, ask.sources.files)
-        errors = rules.raised(Choices(program).expand(each for each in asked if isinstance(each, ErrorRef)))
+        refs = [each for each in asked if isinstance(each, ErrorRef)]
+        errors = rules.raised(Choices(program).expand(refs), {each.id for each in refs})
         points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
         scans = {name: Header(point.state).scan for name, point in points.items()}
         programs = cached({ask.sources.version: program}, observed(self._flavours.observed))

@@ -31,7 +31,6 @@ from scanbench.wire.refused import Refused
 
 LOG_LINES = 2000
 """Of the log in a record, which people read; the record says how many came before."""
-"""Of a record, the last ones."""
 SWEEPS = 20
 """Of a record, the newest ones: it is a page to sign, no archive."""
 IMPORTED = 500

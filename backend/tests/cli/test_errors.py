@@ -162,6 +162,28 @@ def test_a_file_of_requirements_with_a_typing_error(project: Path, told: object,
     assert says in result.stderr
 
 
+def test_json_means_an_error_however_its_details_are_written(project: Path) -> None:
+    path = project.parent / "required.json"
+    told = {"special-io-unit-error:unit=00": "none", "special-io-unit-error:unit=77": "none"}
+    path.write_text(json.dumps(told), "utf-8")
+    call = ("errors", "sweep", str(project), "--only", "special-io-unit-error", "--window", "5")
+    assert scanbench(*call).returncode == 1
+    result = scanbench(*call, "--requirements", str(path))
+    assert result.returncode == 0, result.stdout
+    assert "--requirements names special-io-unit-error:unit=77, which this sweep does not raise" in result.stderr
+
+
+def test_what_is_required_of_hardware_that_is_not_there_is_no_silence(project: Path) -> None:
+    (project / "hardware.json").write_text('{"version": 1, "fitted": []}', "utf-8")
+    (project / "required.reactions").write_text(
+        "special-io-unit-error:unit=3 in Strat:\n  at least none\n  lamp\n", "utf-8"
+    )
+    result = scanbench("errors", "sweep", str(project), "--only", "special-io-unit-error", "--window", "5")
+    assert result.returncode == 1
+    assert "required.reactions:1:1: R001 `special-io-unit-error:unit=3` could be raised in no state" in result.stderr
+    assert "names the state `Strat`, which this sweep does not begin from. Did you mean `Start`?" in result.stderr
+
+
 def test_both_engines_say_the_same(project: Path) -> None:
     native, reference = (
         scanbench("errors", "sweep", str(project), *FEW, "--json", "--window", "30", "--engine", engine).stdout

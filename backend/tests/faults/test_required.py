@@ -170,6 +170,18 @@ def test_a_requirement_that_has_nothing_to_do_with_it_allows_none() -> None:
     assert not restart.allowed_by
 
 
+def test_a_state_is_written_in_any_case_and_a_misspelled_one_is_told() -> None:
+    there = found(
+        'battery-error in HERE: lamp\nbattery-error in "Hear", There: motor\n', "battery-error", MAKES["native"]
+    )
+    assert [(each.text, each.outcome) for each in there.required] == [("lamp", "passed"), ("motor", "not_checked")]
+    assert "Did you mean `Here`?" in there.required[1].note
+    assert rules("all in HERE, Hear, Jam: lamp").unknown_states(["Here"]) == [
+        ("Hear", ("Here",)),
+        ("Jam", ()),
+    ]
+
+
 def test_a_requirement_of_a_state_counts_there() -> None:
     text = 'battery-error in There: lamp\nbattery-error in "Not at all": motor\n'
     there = found(text, "battery-error", MAKES["native"], ("There",))
@@ -206,6 +218,34 @@ def test_without_details_every_instance_is_meant() -> None:
     both = [ref("special-io-unit-error"), ref("battery-error")]
     assert made.raised(both) == [both[0], ref("special-io-unit-error:unit=3"), both[1]]
     assert made.raised(both[1:]) == both[1:]
+
+
+@pytest.mark.parametrize("written", ["unit=03", "unit=16#3", "16#03", "unit=0_3"])
+def test_a_number_may_be_written_otherwise(written: str) -> None:
+    text = f"special-io-unit-error:{written}: lamp\nspecial-io-unit-error:{written}: at least none\n"
+    made, error = rules(text), ref("special-io-unit-error:unit=3")
+    assert [each.source.text for each in made.of(error, None) if each.condition] == ["lamp"]
+    assert made.grade(error, None) == "none"
+    assert made.raised([ref("special-io-unit-error")]) == [ref("special-io-unit-error"), error]
+    assert made.raised([error]) == [error]
+
+
+def test_the_default_is_not_raised_twice() -> None:
+    made = rules("special-io-unit-error:unit=0: lamp")
+    assert made.raised([ref("special-io-unit-error")]) == [ref("special-io-unit-error")]
+    assert [each.source.text for each in made.of(ref("special-io-unit-error"), None)] == ["lamp"]
+
+
+def test_what_could_not_be_raised_is_told() -> None:
+    text = (
+        "battery-error: lamp\nbasic-io-error: motor\nspecial-io-unit-error:unit=3: fan\nmemory-error: at least none\n"
+    )
+    made, battery = rules(text), ref("battery-error")
+    asked = ["battery-error", "special-io-unit-error", "memory-error"]
+    assert made.raised([battery], asked) == [battery, ref("special-io-unit-error:unit=3")]
+    (problem,) = made.untried([battery, ref("special-io-unit-error:unit=4")], asked)
+    assert (problem.code, problem.span.line) == ("R001", 3)
+    assert made.untried([battery, ref("special-io-unit-error:unit=3")], asked) == []
 
 
 @pytest.mark.parametrize(

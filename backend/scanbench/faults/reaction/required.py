@@ -1,11 +1,11 @@
 """What an error has to do at least, so that it is no finding."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Literal
 
 from scanbench.faults.reaction.reaction import Grade, Verdict, fulfils
-from scanbench.faults.reference import ErrorRef, error_of
+from scanbench.faults.reference import ErrorRef, named_reference
 
 Wanted = Grade | Literal["none"]
 """none: nothing is required."""
@@ -16,16 +16,17 @@ class Required:
     """A grade for all errors, and for some of them a different one."""
 
     all: Wanted = "decided"
-    own: Mapping[str, Wanted] = field(default_factory=dict)
-    """By error, with details or without."""
+    own: Callable[[ErrorRef], Wanted | None] | None = None
+    """What somebody says of one error; None: nothing."""
     file: Callable[[ErrorRef, str], Wanted | None] | None = None
     """What the project's own requirements say of an error in a state; None: nothing. `own` comes before it."""
 
     def of(self, error: str, state: str = "") -> Grade | None:
         """What is required of this one; None: nothing."""
-        wanted = self.own.get(error) or self.own.get(error_of(error))
+        ref = named_reference(error)
+        wanted = None if self.own is None else self.own(ref)
         if wanted is None and self.file is not None:
-            wanted = self.file(_read(error), state)
+            wanted = self.file(ref, state)
         wanted = self.all if wanted is None else wanted
         return None if wanted == "none" else wanted
 
@@ -33,13 +34,6 @@ class Required:
         """Whether the error did as much."""
         wanted = self.of(error, state)
         return wanted is None or fulfils(verdict, wanted)
-
-
-def _read(error: str) -> ErrorRef:
-    """What `str(ErrorRef)` wrote."""
-    id, _, rest = error.partition(":")
-    details = (part.partition("=") for part in rest.split(",")) if rest else ()
-    return ErrorRef(id, tuple((name, value) for name, _, value in details))
 
 
 REQUIRED = Required()

@@ -1,16 +1,16 @@
 """What a project requires of its errors (`required.reactions`), on one program: names looked up, conditions checked."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import get_args
 
 from scanbench.check.typed.condition import BadCondition, joined, parsed
 from scanbench.check.typed.local import Local, Locals
 from scanbench.faults.details import choose
 from scanbench.faults.reaction.reaction import Grade
-from scanbench.faults.reaction.required import Required, Wanted
+from scanbench.faults.reaction.required import Wanted
 from scanbench.faults.reference import ErrorRef, find_error, parse_reference
-from scanbench.plcmodel.model import ErrorEntry
 from scanbench.problems import Problem, Severity, Span
 from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
@@ -58,6 +58,12 @@ class _About:
     group: str
     states: tuple[str, ...]
     made: tuple[Made, ...]
+    span: Span
+
+    @property
+    def wants(self) -> bool:
+        """Whether it asks for anything."""
+        return any(made.grade != "none" for made in self.made)
 
     @property
     def rank(self) -> tuple[int, int]:
@@ -78,23 +84,42 @@ class Rules:
     def __bool__(self) -> bool:
         return bool(self._rules)
 
-    @property
-    def states(self) -> frozenset[str]:
-        """The states that rules name."""
-        return frozenset(state for rule in self._rules for state in rule.states)
+    def unknown_states(self, known: Collection[str]) -> list[tuple[str, tuple[str, ...]]]:
+        """The states that rules name and that are none of these, with names that were perhaps meant."""
+        named = dict.fromkeys(state for rule in self._rules for state in rule.states)
+        there = {each.casefold(): each for each in known}
+        return [
+            (state, tuple(there[each] for each in get_close_matches(state.casefold(), there)))
+            for state in named
+            if state.casefold() not in there
+        ]
 
-    def raised(self, errors: Sequence[ErrorRef]) -> list[ErrorRef]:
-        """What a sweep raises: these, and of the same errors those with details that rules name."""
-        found: list[ErrorRef] = []
+    def raised(self, errors: Sequence[ErrorRef], asked: Collection[str] = ()) -> list[ErrorRef]:
+        """What a sweep raises: these, and of the same errors those with details that rules name. Of what was asked for and
+        is not among them, as it is not fitted, what rules name: so it is seen that it cannot be raised."""
+        found: dict[ErrorRef, ErrorRef] = {}
+        """By all details: a rule may name what is raised anyway, as the default is."""
         for number, ref in enumerate(errors):
-            found.append(ref)
+            found.setdefault(self._whole(ref), ref)
             if all(later.id != ref.id for later in errors[number + 1 :]):
-                found += (
-                    rule.ref
-                    for rule in self._rules
-                    if rule.ref is not None and rule.ref.details and rule.ref.id == ref.id
-                )
-        return list(dict.fromkeys(found))
+                for rule in self._rules:
+                    if rule.ref is not None and rule.ref.details and rule.ref.id == ref.id:
+                        found.setdefault(self._whole(rule.ref), rule.ref)
+        there = {ref.id for ref in errors}
+        for rule in self._rules:
+            if rule.ref is not None and rule.wants and rule.ref.id in asked and rule.ref.id not in there:
+                found.setdefault(self._whole(rule.ref), rule.ref)
+        return list(found.values())
+
+    def untried(self, tried: Sequence[ErrorRef], asked: Collection[str]) -> list[Problem]:
+        """The rules about one of the errors that were asked for, when none of it could be tried."""
+        return [
+            Problem(CODE, f"`{rule.ref}` could be raised in no state, so nothing that is required of it is checked. Is it fitted?",
+                    rule.span, Severity.WARNING)
+            for rule in self._rules
+            if rule.ref is not None and rule.wants and rule.ref.id in asked
+            and not any(self._is_about(rule, ref) for ref in tried)
+        ]  # fmt: skip
 
     def of(self, ref: ErrorRef, state: str | None) -> tuple[Made, ...]:
         """What must happen when this error comes in this state (None: whichever it is); of grades the one that is most about it."""
@@ -107,10 +132,10 @@ class Rules:
 
     def elsewhere(self, ref: ErrorRef, states: Iterable[str]) -> tuple[Made, ...]:
         """What is required of it in states that are none of these."""
-        known = set(states)
+        known = {each.casefold() for each in states}
         return tuple(
             made for rule in self._rules
-            if rule.states and not known & set(rule.states) and self._is_about(rule, ref)
+            if rule.states and not any(each.casefold() in known for each in rule.states) and self._is_about(rule, ref)
             for made in rule.made
         )  # fmt: skip
 
@@ -124,30 +149,24 @@ class Rules:
             return False
         if rule.ref is None:
             return rule.group in ("all", entry.severity)
-        return rule.ref.id == ref.id and (not rule.ref.details or self._has(entry, ref, rule.ref))
+        return rule.ref.id == ref.id and set(rule.ref.details) <= set(self._whole(ref).details)
 
-    def _has(self, entry: ErrorEntry, ref: ErrorRef, wanted: ErrorRef) -> bool:
-        chosen = choose(entry, dict(ref.details), self.program.layout)
-        return not isinstance(chosen, Refusal) and set(wanted.details) <= set(chosen.details)
+    def _whole(self, ref: ErrorRef) -> ErrorRef:
+        """With all its details decided."""
+        return whole(self.program, ref)
 
     # ---- making them ----------------------------------------------------------------------------------------------
 
     def _rule(self, rule: Rule) -> _About | None:
         word, states = rule.error.text, rule.states
         if word.lower() in GROUPS:
-            return _About(None, word.lower(), states, tuple(map(self._made, rule.requirements)))
-        model = self.program.layout.model
-        ref = parse_reference(model, word)
-        entry = None if isinstance(ref, Refusal) else find_error(model, ref.id)
-        chosen = entry
-        if isinstance(ref, ErrorRef) and isinstance(entry, ErrorEntry) and ref.details:
-            chosen = choose(entry, dict(ref.details), self.program.layout)  # type: ignore[assignment]
-        if isinstance(ref, Refusal) or isinstance(chosen, Refusal):
-            why = ref if isinstance(ref, Refusal) else chosen
-            assert isinstance(why, Refusal)
-            self._problem(rule.error.span, f"{why.message}; or write one of {', '.join(GROUPS)}")
+            return _About(None, word.lower(), states, tuple(map(self._made, rule.requirements)), rule.error.span)
+        ref = parse_reference(self.program.layout.model, word)
+        ref = ref if isinstance(ref, Refusal) else settled(self.program, ref)
+        if isinstance(ref, Refusal):
+            self._problem(rule.error.span, f"{ref.message}; or write one of {', '.join(GROUPS)}")
             return None
-        return _About(ref, "", states, tuple(map(self._made, rule.requirements)))
+        return _About(ref, "", states, tuple(map(self._made, rule.requirements)), rule.error.span)
 
     def _made(self, source: Requirement) -> Made:
         if source.form == "grade":
@@ -210,6 +229,23 @@ class Rules:
         return message
 
 
+def settled(program: Program, ref: ErrorRef) -> ErrorRef | Refusal:
+    """With the details that were given, each written as everywhere: `unit=3`, not `unit=03`."""
+    entry = find_error(program.layout.model, ref.id)
+    chosen = entry if isinstance(entry, Refusal) else choose(entry, dict(ref.details), program.layout)
+    if isinstance(chosen, Refusal):
+        return chosen
+    given = {name for name, _ in ref.details}
+    return ErrorRef(ref.id, tuple(each for each in chosen.details if each[0] in given))
+
+
+def whole(program: Program, ref: ErrorRef) -> ErrorRef:
+    """With all its details, given or not; as it is where it is unknown."""
+    entry = program.layout.model.error(ref.id)
+    chosen = None if entry is None else choose(entry, dict(ref.details), program.layout)
+    return ref if chosen is None or isinstance(chosen, Refusal) else ErrorRef(ref.id, chosen.details)
+
+
 def rules_of(program: Program, sources: Mapping[str, str]) -> Rules:
     """The requirements of the sources of a program; none where there is no such file."""
     name = next((each for each in sources if is_requirements(each)), None)
@@ -228,13 +264,8 @@ def problems_of(program: Program | None, sources: Mapping[str, str]) -> list[Pro
     ]
 
 
-def required_with(required: Required, rules: Rules) -> Required:
-    """The same, with the grades of the file in between: over those for all, under those for one."""
-    return Required(required.all, required.own, rules.grade)
-
-
 def _in(rule: _About, state: str | None) -> bool:
-    return not rule.states or (state is not None and state in rule.states)
+    return not rule.states or (state is not None and state.casefold() in map(str.casefold, rule.states))
 
 
 def _shown(node: tree.Expression, text: str) -> Iterator[str]:

@@ -9,10 +9,12 @@ from scanbench.faults.reaction.required_rules import Rules
 from scanbench.faults.reaction.required_watch import not_checked
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reference import ErrorRef
+from scanbench.problems import perhaps
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Programs
 
 AUTHOR = "sweep"
+_ELSEWHERE = "it is about a state that this sweep does not begin from"
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +67,8 @@ class Sweeper:
         if isinstance(found, Refusal):
             return Cell(str(ref), name, None, found.message)
         if rules is not None and name == next(iter(self._points)):
-            note = "it is about a state that this sweep does not begin from"
+            near = dict.fromkeys(each for _, names in rules.unknown_states(self._points) for each in names)
+            note = f"it is about a state that this sweep does not begin from.{perhaps(near)}" if near else _ELSEWHERE
             elsewhere = not_checked(rules.elsewhere(ref, self._points), "other_state", note)
             found = replace(found, required=(*found.required, *elsewhere))
         return Cell(str(ref), name, found)
