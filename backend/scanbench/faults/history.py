@@ -38,6 +38,11 @@ class RowReaction:
         """Scans until the first effect."""
         return None if self.found is None else self.found.first_effect
 
+    @property
+    def unmet(self) -> int:
+        """How much is not as it is required, unexpected restarts counted."""
+        return 0 if self.found is None else len(self.found.unmet)
+
 
 @dataclass(frozen=True, slots=True)
 class Swept:
@@ -45,10 +50,12 @@ class Swept:
 
     verdict: Verdict
     scans: int | None
+    unmet: int = 0
+    """So much was not as it is required there, unexpected restarts counted."""
 
 
 def worst(found: Iterable[tuple[str, Swept]]) -> dict[str, Swept]:
-    """Of what was found in several states the worst, by error; of several as bad the slowest."""
+    """Of what was found in several states the worst, by error: what is not as required first; of several as bad the slowest."""
     kept: dict[str, Swept] = {}
     for id, swept in found:
         if id not in kept or _badness(swept) < _badness(kept[id]):
@@ -56,8 +63,8 @@ def worst(found: Iterable[tuple[str, Swept]]) -> dict[str, Swept]:
     return kept
 
 
-def _badness(swept: Swept) -> tuple[int, int]:
-    return WORST_FIRST.index(swept.verdict), -(swept.scans or 0)
+def _badness(swept: Swept) -> tuple[int, int, int]:
+    return -swept.unmet, WORST_FIRST.index(swept.verdict), -(swept.scans or 0)
 
 
 @dataclass(frozen=True, slots=True)

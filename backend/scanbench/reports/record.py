@@ -114,6 +114,8 @@ class Finding:
     scans: int | None
     where: Literal["plc", "sweep", ""]
     """Empty: it was not tested, or nothing is known of what the program did."""
+    unmet: int = 0
+    """So much was not as it is required."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,12 +174,12 @@ class TestRecord:
     def finding(self, error: RecordError) -> Finding:
         """What is known of an error."""
         if error.reaction is not None:
-            return Finding(error.reaction.verdict, error.reaction.first_effect, "plc")
+            return Finding(error.reaction.verdict, error.reaction.first_effect, "plc", len(error.reaction.unmet))
         cells = self._swept.get(error.id, {}).values()
         if not cells:
             return Finding(None, None, "")
         worst = min(cells, key=lambda cell: WORST_FIRST.index(cell.verdict) if cell.verdict else 0)
-        return Finding(worst.verdict, worst.scans, "sweep")
+        return Finding(worst.verdict, worst.scans, "sweep", max(cell.unmet for cell in cells))
 
     @property
     def missed(self) -> list[Missed]:

@@ -164,7 +164,11 @@ class Sweeps:
     async def _verdicts(self, id: int) -> list[tuple[str, Swept]]:
         cells = await asyncio.to_thread(self._store.sweeps.cells, id)
         found = ((cell, VERDICTS.get(cell.verdict or "")) for cell in cells)
-        return [(cell.error, Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None]
+        return [
+            (cell.error, Swept(verdict, cell.first_effect, cell.unmet))
+            for cell, verdict in found
+            if verdict is not None
+        ]
 
     async def show(self, sessions: Sequence[Session]) -> None:
         """Tells PLCs of one project what its sweeps found out. A look at the past is at a time in which they were not."""
@@ -263,6 +267,8 @@ class Sweeps:
         """Accepts a finding of this project, for later sweeps too."""
         whole = await self.whole(id)
         cell = next((each for each in whole.cells if (each.error, each.state) == (error, state)), None)
+        if cell is not None and cell.unmet and cell.verdict not in FINDINGS:
+            raise Refused(f"what is required of {error} from {state} failed: change the program or required.reactions")
         if cell is None or cell.verdict not in FINDINGS:
             raise Refused(f"{error} from {state} is no finding of this sweep: there is nothing to accept")
         made = await asyncio.to_thread(

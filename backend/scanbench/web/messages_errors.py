@@ -94,6 +94,7 @@ class ReactionState(Wire):
     state: Literal["recording", "done", "failed"]
     verdict: Verdict | None
     scans: int | None = Field(description="scans until the first effect, from 1")
+    unmet: int = Field(default=0, description="so much is not as it is required, unexpected restarts counted")
     message: str
 
 

@@ -41,6 +41,7 @@ class RecordError(Wire):
     verdict: Verdict | None = Field(description="of the PLC itself, else of sweeps")
     verdict_from: Literal["plc", "sweep", ""]
     scans: int | None = Field(description="until the first effect, from 1")
+    unmet: int = Field(default=0, description="so much is not as it is required, unexpected restarts counted")
     reaction: Reaction | None = Field(description="on the PLC itself; of its differences the outputs")
     reaction_note: str
     accepted: tuple[RecordAccepted, ...]

@@ -13,12 +13,14 @@ def in_short(of: RowReaction | None) -> wire.ReactionState | None:
     """A reaction in a row of the history."""
     if of is None:
         return None
-    return wire.ReactionState(state=of.state, verdict=of.verdict, scans=of.scans, message=of.message)
+    return wire.ReactionState(state=of.state, verdict=of.verdict, scans=of.scans, unmet=of.unmet, message=of.message)
 
 
 def swept(of: Swept | None) -> wire.ReactionState | None:
     """What a sweep found out, in a row of the history."""
-    return None if of is None else wire.ReactionState(state="done", verdict=of.verdict, scans=of.scans, message="")
+    if of is None:
+        return None
+    return wire.ReactionState(state="done", verdict=of.verdict, scans=of.scans, unmet=of.unmet, message="")
 
 
 Facts = Mapping[str, Sequence[plc.Fact]]

@@ -29,7 +29,7 @@ def _error(of: kept.TestRecord, error: kept.RecordError) -> wire.RecordError:
         recovered_at=_moment(error.recovered_at), generated_scan=error.generated_scan,
         recovered_scan=error.recovered_scan, by=error.by, origin=error.origin, count=error.count,
         verdict=finding.verdict, verdict_from=finding.where, scans=finding.scans,
-        reaction=error.reaction,
+        unmet=finding.unmet, reaction=error.reaction,
         reaction_note=error.reaction_note,
         accepted=error.accepted,
     )  # fmt: skip

@@ -5,7 +5,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from types import FrameType
 
-from scanbench.faults.history import ErrorRow, History, RowReaction, Swept
+from scanbench.faults.history import ErrorRow, History, RowReaction, Swept, worst
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Raised
 from scanbench.faults.reaction.reaction import Reaction
@@ -145,6 +145,11 @@ def test_the_past_may_be_of_a_different_version() -> None:
     then = {each.id: each for each in history.as_of({}, datetime(2026, 11, 21, 13, tzinfo=UTC), 1)}
     assert (then["battery-error"].status, then["fal"].status) == ("cleared", "never")
     assert row(history, "fal").status == "generated"  # nothing was changed
+
+
+def test_what_is_not_as_required_is_the_worst_that_a_sweep_found() -> None:
+    found = worst([("a", Swept("acted", 1, unmet=1)), ("a", Swept("never_read", None)), ("b", Swept("acted", 1))])
+    assert found == {"a": Swept("acted", 1, unmet=1), "b": Swept("acted", 1)}
 
 
 def calls_of(numbers: int) -> int:

@@ -188,6 +188,7 @@ def test_what_is_not_as_required_is_an_open_finding() -> None:
         ("fal", "Stopped", 1, False), ("fal", "Stopped", 0, True),
     }  # fmt: skip
     assert (record.summary.open, record.summary.accepted) == (3, 1)
+    assert [record.finding(find(record, id)).unmet for id in ("fal", "battery-error", "memory-error")] == [2, 2, 0]
     again = from_xml(to_xml(record))
     assert isinstance(again, TestRecord)
     assert again.missed == record.missed

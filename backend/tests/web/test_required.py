@@ -20,7 +20,7 @@ def test_what_a_project_requires_is_checked_in_sweeps_and_raises(server: Server)
     (problem,) = checked["problems"]
     assert (problem["file"], problem["line"], problem["column"]) == ("required.reactions", 4, 11)
     assert (problem["code"], problem["severity"]) == ("R001", "warning")
-    text = REQUIRED.partition("nonfatal")[0]
+    text = REQUIRED.partition("nonfatal")[0] + "basic-io-error: Main.lamp = FALSE\n"
     assert server.http.put(path, json={"text": text, "version": 1}).status_code == 200
     assert server.http.post(f"/api/projects/{project}/build", json={}).json()["ok"]
 
@@ -35,12 +35,18 @@ def test_what_a_project_requires_is_checked_in_sweeps_and_raises(server: Server)
     assert (cells["battery-error"]["required"], cells["battery-error"]["unmet"]) == (1, 1)
     live = {each["error"]: each for message in messages for each in message["cells"]}
     assert live["battery-error"]["unmet"] == 1
+    rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}
+    assert [rows[each]["swept"]["unmet"] for each in errors] == [1, 1]
     cell = {"error": "battery-error", "state": whole["states"][0]}
     (result,) = server.http.post(f"/api/sweeps/{sweep}/reaction", json=cell).json()["required"]
     assert (result["outcome"], result["scan"], result["values"]) == (
         "failed", 2, [{"path": "Main.lamp", "value": "FALSE"}],
     )  # fmt: skip
 
+    red = {"error": "basic-io-error", "state": whole["states"][0], "reason": "no"}
+    assert cells["basic-io-error"]["verdict"] == "acted"
+    refused = server.http.post(f"/api/sweeps/{sweep}/accept", json=red)
+    assert "change the program or required.reactions" in refused.text
     plc = connect(server.address, user="Ann").plc(instance)
     plc.raise_error("battery-error")
     plc.run(scans=210)
@@ -51,6 +57,10 @@ def test_what_a_project_requires_is_checked_in_sweeps_and_raises(server: Server)
     assert [each["outcome"] for each in told if isinstance(each, dict)] == ["failed"]
     record = server.http.get(f"/api/instances/{instance}/record?format=xml").text
     assert 'Text="Main.lamp within 2 scans"' in record
+    (row,) = [
+        row for row in server.http.get(f"/api/instances/{instance}/errors").json() if row["id"] == "battery-error"
+    ]
+    assert row["reaction"]["unmet"] == 1
 
 
 def _known(server: Server, instance: int) -> bool:

@@ -103,9 +103,10 @@ export const CLEARED: Partial<ErrorHistoryRow> = {
   recovered_scan: 1300,
 };
 
-export const verdict = (verdict: ReactionState["verdict"], scans: number | null = null): ReactionState => ({
+export const verdict = (verdict: ReactionState["verdict"], scans: number | null = null, unmet = 0): ReactionState => ({
   state: "done",
   verdict,
   scans,
+  unmet,
   message: "",
 });

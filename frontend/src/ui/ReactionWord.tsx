@@ -9,8 +9,8 @@ interface Props {
   title?: string;
 }
 
-/** The verdict in short, or that the reaction is still being computed. */
-export function ReactionWord({ reaction: { state, verdict, message }, title = message }: Props) {
+/** The verdict in short, or that the reaction is still being computed. What is not as required comes before the verdict. */
+export function ReactionWord({ reaction: { state, verdict, unmet, message }, title = message }: Props) {
   if (state === "recording")
     return (
       <StateWord
@@ -21,6 +21,11 @@ export function ReactionWord({ reaction: { state, verdict, message }, title = me
       />
     );
   const known = state === "failed" ? null : verdict;
+  if (known && unmet > 0) {
+    const word = unmet === 1 ? t("sweep.unmet.one") : t("sweep.unmet", { count: unmet });
+    const about = `${t(`verdict.${known}`)}: ${word}`;
+    return <StateWord tone="unmet" icon="error" word={word} title={[about, title].filter(Boolean).join(" · ")} />;
+  }
   return (
     <StateWord
       tone={known ?? "stale"}

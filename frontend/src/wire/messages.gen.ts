@@ -5922,6 +5922,12 @@ export interface components {
              * @enum {string}
              */
             state: "recording" | "done" | "failed";
+            /**
+             * Unmet
+             * @description so much is not as it is required, unexpected restarts counted
+             * @default 0
+             */
+            unmet: number;
             /** Verdict */
             verdict: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
         };
@@ -6048,6 +6054,12 @@ export interface components {
              * @enum {string}
              */
             status: "never" | "generated" | "cleared";
+            /**
+             * Unmet
+             * @description so much is not as it is required, unexpected restarts counted
+             * @default 0
+             */
+            unmet: number;
             /**
              * Verdict
              * @description of the PLC itself, else of sweeps

@@ -28,6 +28,7 @@ const done = (verdict: "acted" | "never_read", scans: number | null = null): His
   state: "done",
   verdict,
   scans,
+  unmet: 0,
   message: "",
 });
 

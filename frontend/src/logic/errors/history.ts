@@ -129,6 +129,7 @@ export function recordLines(record: TestRecord): HistoryLine[] {
 
 function reactionIn(error: TestRecord["errors"][number]): ErrorHistoryRow["reaction"] {
   const message = error.reaction_note || error.reaction?.note || "";
-  if (error.verdict !== null) return { state: "done", verdict: error.verdict, scans: error.scans, message };
-  return message ? { state: "failed", verdict: null, scans: null, message } : null;
+  const { verdict, scans, unmet } = error;
+  if (verdict !== null) return { state: "done", verdict, scans, unmet, message };
+  return message ? { state: "failed", verdict: null, scans: null, unmet: 0, message } : null;
 }

@@ -209,6 +209,13 @@ test("an error that only a sweep raised says so, beside the count of those that 
   expect(textOf(line(BASIC.name))).not.toContain(t("errors.status.never"));
 });
 
+test("an error to which the program does not react as required is not shown as acted", async () => {
+  const { server } = await openSimulator();
+  server.say({ type: "errors", rows: [row(BASIC, { swept: verdict("acted", 1, 2) })] });
+  await shows(BASIC.name, t("sweep.unmet", { count: 2 }));
+  expect(textOf(line(BASIC.name))).not.toContain(t("verdict.acted"));
+});
+
 test("the reaction is shown in the tree and in words; its readers are links; a finding says what to do next", async () => {
   const { server, user, places } = await openSimulator((server) => {
     const unread: Reaction = {
