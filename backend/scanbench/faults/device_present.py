@@ -29,11 +29,26 @@ def present(memory: Memory, log: Sequence[DeviceRecord]) -> Iterator[DeviceError
         if not here:
             unknown.append(errors[0])
     for error, reading, code in sorted(found, key=lambda each: (each[0].priority, each[2] or 0)):
-        yield _error(memory, error, reading, code)
+        others = [each for each, _, _ in found if each is not error] if code != memory.code else []
+        yield _error(memory, error, _without_shared(error, reading, others), code)
     for error in unknown:
         yield DeviceError(
             "", f"An error with the flag {error.flag_text}", error.severity, "", error.flag_text, (), "", "", False, False
         )  # fmt: skip
+
+
+def _without_shared(error: ErrorEntry, reading: _Reading, others: Sequence[ErrorEntry]) -> _Reading:
+    """What is in words of its own: a word that details of other present errors are in, too, is about the error whose code is shown."""
+    taken = {word for other in others for detail in other.details for word in _words(detail)}
+    shared = {detail.name for detail in error.details if not taken.isdisjoint(_words(detail))}
+    return {name: value for name, value in reading.items() if name not in shared}
+
+
+def _words(detail: ErrorDetail) -> Iterator[tuple[str, int, int]]:
+    """Where its number or text is; a bit is nobody else's."""
+    for each in detail.addresses:
+        if each.location is not None and each.kind not in ("Bit", "BitArray"):
+            yield each.location.area.name, each.location.byte, each.shift
 
 
 def _by_flag(memory: Memory) -> Iterator[tuple[Location, list[ErrorEntry]]]:

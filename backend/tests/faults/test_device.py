@@ -88,6 +88,18 @@ def test_units_that_the_memory_shows_together_are_an_error_each() -> None:
     ]
 
 
+def test_a_word_that_several_errors_write_is_a_detail_of_the_one_with_the_code() -> None:
+    """SD5 and SD6 say which module the error in SD0 is about; what else is present only has its bit."""
+    resource = plc(SOURCE, model_name="Q03UD")
+    fuse = (("module", "2"), ("io-number", "20"), ("module-bit", "4"))
+    module = (("module", "1"), ("io-number", "10"), ("module-bit", "7"))
+    done(resource, Generate("Ada", (ErrorRef("unit-verify-error", module), ErrorRef("fuse-break", fuse))))
+    assert {name: value(resource, name) for name in ("SD0", "SD5", "SD6")} == {"SD0": 1300, "SD5": 2, "SD6": 0x20}
+    assert shown(resource) == [
+        ("fuse-break", "1300", dict(fuse)), ("unit-verify-error", "2000", {"module-bit": "7"}),
+    ]  # fmt: skip
+
+
 def test_a_flag_that_nothing_explains_is_shown_all_the_same() -> None:
     resource = plc(SOURCE, model_name="NJ501-1300")
     write_word(resource, "_MC_ErrSta", 1 << 5)
