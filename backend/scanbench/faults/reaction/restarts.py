@@ -20,28 +20,40 @@ class Outputs:
         """`start` is the state before the first scan."""
         self._variables = variables
         self._places = np.array(sorted(set(_places(variables))), np.int64)
-        first = self._take(start)
-        self._with, self._without = [first], [first]
+        self._now = self._take(start)
+        self._scans = 0
+        bits = 8 * len(self._places)
+        self._differed = np.zeros(bits, np.bool_)
+        self._last_on, self._last_on_without = np.full(bits, -1, np.int32), np.full(bits, -1, np.int32)
+        """By bit the last scan in which it was on, with the error and without; -1: in none."""
+        self._longest_off = np.zeros(bits, np.int32)
+        """Without the error, in a row of scans that an on ended."""
+        self._see(self._now, self._now)
 
     def add(self, without: Words, value: Words) -> None:
         """The states after a scan."""
-        self._without.append(self._take(without))
-        self._with.append(self._take(value))
+        self._now = self._take(value)
+        self._see(self._take(without), self._now)
+
+    def _see(self, without: _Bytes, value: _Bytes) -> None:
+        """Nothing is kept of a scan but this: a window may have a hundred thousand."""
+        bits = np.unpackbits(without, bitorder="little"), np.unpackbits(value, bitorder="little")
+        self._differed |= bits[0] != bits[1]
+        on = np.flatnonzero(bits[0])
+        self._longest_off[on] = np.maximum(self._longest_off[on], self._scans - 1 - self._last_on_without[on])
+        self._last_on_without[on] = self._scans
+        self._last_on[np.flatnonzero(bits[1])] = self._scans
+        self._scans += 1
 
     def switched_off(self) -> list[Leaf]:
         """What was on, and then off until now, for longer than it ever is without the error."""
-        value, without = np.stack(self._with), np.stack(self._without)
-        columns = np.flatnonzero((value != without).any(0))
-        if not len(columns):
-            return []
-        value, without = _bits(value[:, columns]), _bits(without[:, columns])
-        likely = np.flatnonzero(value.any(0) & (value[-1] == 0) & without.any(0) & (value != without).any(0))
+        off = self._scans - 1 - self._last_on
+        longest = np.maximum(self._longest_off, self._scans - 1 - self._last_on_without)
+        was_on = (self._last_on >= 0) & (off > 0) & self._differed
         found: dict[str, Leaf] = {}
-        for bit in likely.tolist():
-            off = int(np.argmax(value[::-1, bit]))
-            if without[-off:, bit].any() and off > _longest_off(without[:, bit]):
-                for leaf in self._leaves(int(self._places[columns[bit >> 3]]), bit & 7):
-                    found.setdefault(leaf.name, leaf)
+        for bit in np.flatnonzero(was_on & (self._last_on_without > self._last_on) & (off > longest)).tolist():
+            for leaf in self._leaves(int(self._places[bit >> 3]), bit & 7):
+                found.setdefault(leaf.name, leaf)
         return list(found.values())
 
     def _leaves(self, place: int, bit: int) -> Iterator[Leaf]:
@@ -53,7 +65,7 @@ class Outputs:
         index = int(np.searchsorted(self._places, leaf.offset + at))
         if index >= len(self._places) or self._places[index] != leaf.offset + at:
             return 0
-        return int(self._with[-1][index]) & leaf.bits
+        return int(self._now[index]) & leaf.bits
 
     def _take(self, state: Words) -> _Bytes:
         return state.view(np.uint8)[self._places]
@@ -67,13 +79,3 @@ def is_on(leaf: Leaf, memory: bytearray) -> bool:
 def _places(variables: Variables) -> Iterator[int]:
     for base, first, last in variables.outputs:
         yield from range(base + 2 * first, base + 2 * last)
-
-
-def _bits(states: _Bytes) -> _Bytes:
-    return np.unpackbits(states, axis=1, bitorder="little")
-
-
-def _longest_off(column: _Bytes) -> int:
-    """In a row of scans."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([1], column, [1])).astype(np.int8)))
-    return int((edges[1::2] - edges[::2]).max(initial=0))
