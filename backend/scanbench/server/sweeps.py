@@ -378,15 +378,11 @@ class Sweeps:
     async def _keep(self, running: _Running) -> None:
         planned, running.planned = running.planned, ()
         if planned:
-            running.row = await asyncio.to_thread(self._plan, running, planned)
+            running.row = await asyncio.to_thread(_plan, self._store, running, planned)
         fresh, running.fresh = running.fresh, []
         if fresh:
             await asyncio.to_thread(self._store.sweeps.add_cells, running.row.id, fresh)
         await self._tell(await self.row(running.row.id), running.now, fresh)
-
-    def _plan(self, running: _Running, planned: Sequence[str]) -> SweepRow:
-        model = model_for(model_of(running.sources), running.sources.files)
-        return self._store.sweeps.plan(running.row.id, rows_planned(model, running.row.errors, planned))
 
     async def _tell(self, row: SweepRow, now: str, cells: Sequence[CellRow]) -> None:
         accepted = await self._accepted(row.project) if cells else {}
@@ -397,3 +393,9 @@ class Sweeps:
         """What a sweep tries now."""
         running = self._running.get(id)
         return "" if running is None else running.now
+
+
+def _plan(store: Store, running: _Running, planned: Sequence[str]) -> SweepRow:
+    """Keeps what the sweep raises as its rows."""
+    model = model_for(model_of(running.sources), running.sources.files)
+    return store.sweeps.plan(running.row.id, rows_planned(model, running.row.errors, planned))
