@@ -12,6 +12,7 @@ from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
+from scanbench.web.messages_projects import ProjectArchive, ProjectTemplate
 from scanbench.web.reach import Bench
 from scanbench.wire.refused import Refused
 
@@ -28,19 +29,18 @@ async def on_pack(bench: Bench, project: Id) -> Response:
 
 
 @router.get("/templates")
-async def on_templates() -> list[wire.ProjectTemplate]:
+async def on_templates() -> list[ProjectTemplate]:
     """What a new project can begin with: templates, and the samples."""
     return [
-        wire.ProjectTemplate(id=each.id, name=each.name, model=each.model, files=list(each.files))
-        for each in templates()
+        ProjectTemplate(id=each.id, name=each.name, model=each.model, files=list(each.files)) for each in templates()
     ]
 
 
 @router.post("/archives")
-async def on_look(request: Request) -> wire.ProjectArchive:
+async def on_look(request: Request) -> ProjectArchive:
     """What a zip file has of a project, of Scanbench, TwinCAT or plain files; keeps nothing. The body is the file."""
     found = await asyncio.to_thread(unpack, await _body(request))
-    return wire.ProjectArchive(
+    return ProjectArchive(
         name=found.name, model=found.model, files=[*found.files, *found.panels], left_out=list(found.left_out)
     )
 

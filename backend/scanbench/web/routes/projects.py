@@ -8,6 +8,7 @@ from scanbench.web import messages as wire
 from scanbench.web import messages_versions, translate
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Version
+from scanbench.web.messages_projects import NewProject
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api/projects", tags=["projects"])
@@ -21,7 +22,7 @@ async def on_projects(bench: Bench) -> list[wire.Project]:
 
 
 @router.post("", status_code=201)
-async def on_new_project(bench: Bench, request: Request, new: wire.NewProject) -> wire.Project:
+async def on_new_project(bench: Bench, request: Request, new: NewProject) -> wire.Project:
     """A project on a model: empty, or with the files of a template, which are not built yet."""
     name = new.name.strip()
     if new.template:

@@ -1,0 +1,28 @@
+"""What goes over the wire about new projects: what they begin with, and archives that they come from."""
+
+from pydantic import Field
+
+from scanbench.web.messages_base import Wire
+
+
+class NewProject(Wire):
+    name: str = Field(min_length=1, max_length=100)
+    model: str = "GENERIC-IEC"
+    watch: list[str] = Field(default_factory=list, max_length=1000, description="what a fresh watch list begins with")
+    template: str = Field(default="", max_length=100, description="`id` of a template; empty: without files")
+
+
+class ProjectTemplate(Wire):
+    """What a new project can begin with."""
+
+    id: str
+    name: str
+    model: str = Field(description="that its program is written for")
+    files: list[str]
+
+
+class ProjectArchive(Wire):
+    name: str = Field(description="as its project file says; empty without one")
+    model: str = Field(description="the same")
+    files: list[str]
+    left_out: list[str] = Field(description="no programs, or not compiled by their TwinCAT project")
