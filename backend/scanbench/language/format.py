@@ -72,11 +72,16 @@ def formatted(name: str, text: str) -> str | None:
         return None
     lines = leveled(text, tokens, blocks(tokens, len(text)), file.file.pous)
     made = joined(lines, text)
-    return made if keeps(lines, made, name) else None
+    return made if keeps(text, lines, made, name) else None
 
 
-def keeps(lines: list[Line], made: str, name: str) -> bool:
-    """Whatever goes wrong, nothing may change but blanks, and the case of keywords and type names."""
+def keeps(text: str, lines: list[Line], made: str, name: str) -> bool:
+    """Whatever goes wrong, nothing may change but blanks, and the case of keywords and type names.
+
+    Characters that are no token, as while somebody types, are in no line.
+    """
+    if "".join(text.split()).upper() != "".join(made.split()).upper():
+        return False
     before = [_told(item) for line in lines for item in line.items]
     return before == [_told(item) for item in _items(made, tokenize(Source(name, made))[0])]
 

@@ -50,7 +50,11 @@ def typed(reading: Reading, file: str, position: int, ch: str) -> list[Change]:
         return []
     lines = leveled(stretch, part.tokens, part.blocks, chunk.file.pous)
     made = joined(lines, stretch, _step(lines))
-    if "\r" in stretch or not keeps(lines, made, file) or not any(each.number == _row(stretch, at) for each in lines):
+    if (
+        "\r" in stretch
+        or not keeps(stretch, lines, made, file)
+        or not any(each.number == _row(stretch, at) for each in lines)
+    ):
         return []
     last = _row(stretch, at)
     first = last if ch not in "\n;" else _first_of_group(lines, last)

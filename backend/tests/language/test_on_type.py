@@ -1,7 +1,7 @@
 """The layout of what is being typed, key by key."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from scanbench.language.format import formatted
@@ -138,6 +138,7 @@ def test_random_programs_are_stored_in_the_layout_in_which_they_are_typed() -> N
 
 @settings(max_examples=amount(400, 30))
 @given(st.text(alphabet="aE_NDIF;:=(*)/'\n\r ,\t{}", max_size=60), st.integers(0, 60), st.sampled_from("\n;F"))
+@example("}", 1, ";")
 def test_nothing_but_blanks_and_case_ever_changes(text: str, caret: int, key: str) -> None:
     typist = Typist(text)
     typist.caret = min(caret, len(text))
