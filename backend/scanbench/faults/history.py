@@ -10,7 +10,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.present import Active, Origin, instances_in
 from scanbench.faults.reaction.reaction import WORST_FIRST, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef, named_reference, natural
-from scanbench.plcmodel.hardware import FittedKind, fitted_instances, fitted_kind
+from scanbench.plcmodel.hardware import FittedKind, fitted_kind
 from scanbench.plcmodel.model import ErrorEntry, Model
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry, Refusal, Swapped
@@ -356,10 +356,9 @@ def _rows_of_kind(
     names = {each.name for each in error.identifying}
     told = (_identified(error, ref) for ref in swept)
     known = {*raised, *(str(ref) for ref in told if ref.details or not names)}
-    fitted = fitted_instances(model.fitted, error)
-    known |= {str(ErrorRef(error.id, details)) for details in fitted or ()}
-    rows = [raised.get(key) or _never(error, version, key) for key in sorted(known, key=natural)]
     kind = fitted_kind(model.fitted, error)
+    known |= {str(ErrorRef(error.id, details)) for details in kind.instances or ()}
+    rows = [raised.get(key) or _never(error, version, key) for key in sorted(known, key=natural)]
     return [_told(kind, row) for row in rows or [_never(error, version)]]
 
 

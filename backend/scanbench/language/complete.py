@@ -270,7 +270,7 @@ def call_around(text: str, position: int) -> tuple[str, int] | None:
 
 
 def formals(reading: Reading, body: Body, around: Around, callee: str) -> list[tuple[Member, Record]]:
-    """The parameters of what is called, in order, each with its owner."""
+    """The parameters of what is called that a program may name, in order, each with its owner."""
     type = type_of(reading, body, around, callee)
     if isinstance(type, Reference):
         type = type.target
@@ -281,7 +281,11 @@ def formals(reading: Reading, body: Body, around: Around, callee: str) -> list[t
         if pou is None:
             return []
         found = [(pou.frame.members[key], pou.frame) for key in pou.parameters]
-    return [(member, owner) for member, owner in found if member.section in PARAMETERS and not member.hidden]
+    return [
+        (member, owner)
+        for member, owner in found
+        if member.section in PARAMETERS and not member.hidden and not member.name.startswith("__")
+    ]
 
 
 def _function(reading: Reading, around: Around, callee: str) -> Pou | None:

@@ -59,7 +59,7 @@ def _calls(text: str, name: str, parameter: str | None) -> bool:
     """Whether the text calls it: in any way (''), with this parameter, or with any (None)."""
     if name.lower() not in text.lower():
         return False
-    plain = _COMMENT.sub(lambda found: found[0] if found[0][0] in "'\"" else " ", text)
+    plain = _COMMENT.sub(lambda found: "''" if found[0][0] in "'\"" else " ", text)
     for found in re.finditer(rf"(?<![\w.]){name}\s*\(", plain, re.IGNORECASE):
         inside = _inside(plain, found.end())
         if parameter == "" or (parameter is None and inside.strip()):
@@ -70,16 +70,11 @@ def _calls(text: str, name: str, parameter: str | None) -> bool:
 
 
 def _inside(text: str, start: int) -> str:
-    """What is between the parentheses of a call, without that between others."""
-    depth, at, quoted, kept = 1, start, "", []
+    """What is between the parentheses of a call, without that between others; strings are empty."""
+    depth, at, kept = 1, start, []
     while at < len(text) and depth:
         character = text[at]
-        if quoted:
-            quoted = "" if character == quoted else quoted
-        elif character in "'\"":
-            quoted = character
-        else:
-            depth += {"(": 1, ")": -1}.get(character, 0)
+        depth += {"(": 1, ")": -1}.get(character, 0)
         if depth == 1 or (depth == 2 and character == "("):
             kept.append(character)
         at += 1

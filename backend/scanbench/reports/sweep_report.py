@@ -1,15 +1,15 @@
 """A sweep for people and machines: a table, JSON, JUnit. The HTML page is `sweep_page.py`'s."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import cast, get_args
 
 from lxml import etree
 
 from scanbench.faults.details import code_text_with
-from scanbench.faults.reaction.compare import Outcome, SweepChange
-from scanbench.faults.reaction.reaction import Reaction, Verdict
+from scanbench.faults.reaction.compare import Outcome, SweepChange, judged
+from scanbench.faults.reaction.reaction import OutputRestart, Reaction, RequiredResult, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.faults.reference import error_of, named_reference
@@ -25,6 +25,7 @@ from scanbench.reports.required_words import (
     restarted,
     unexpected,
 )
+from scanbench.typed import BadValue, make_kept
 
 WORDS: Mapping[Verdict | None, str] = {
     verdict: record_words.WORDS["en"][verdict or "not_raised"] for verdict in (*get_args(Verdict), None)
@@ -130,11 +131,13 @@ def _required_text(result: SweepResult) -> list[str]:
 
 def compare_text(changes: Sequence[SweepChange]) -> list[str]:
     """A line for each that is not as before, and a summary."""
-    rows = [("ERROR", "STATE", "BEFORE", "AFTER", "CHANGE", "DIFFERS NO LONGER")]
+    rows = [("ERROR", "STATE", "BEFORE", "AFTER", "CHANGE", "NOT AS REQUIRED ANY MORE, DIFFERS NO LONGER")]
     for each in changes:
         if each.change != "same":
             before, after = _outcome(each.before, each.scans_before), _outcome(each.after, each.scans_after)
-            rows.append((each.error, each.state, before, after, each.change, ", ".join(some(each.lost))))
+            rows.append(
+                (each.error, each.state, before, after, each.change, ", ".join(some((*each.unmet, *each.lost))))
+            )
     counted = Counter(each.change for each in changes)
     summary = ", ".join(f"{number} {kind}" for kind, number in counted.most_common()) or "nothing to compare"
     return [*(table(rows) if len(rows) > 1 else []), *([""] if len(rows) > 1 else []), summary]
@@ -226,7 +229,25 @@ def _outcome_in(number: int, told: object) -> Outcome:
     if scans is not None and (not isinstance(scans, int) or isinstance(scans, bool)):
         raise ValueError(f"{where} has the scans {scans!r}, which is no whole number")
     outputs, others = _differed(told)
-    return Outcome(error, state, cast("Verdict | None", verdict), scans, outputs, others)
+    required = _judged_in(where, told, outputs or ())
+    return Outcome(error, state, cast("Verdict | None", verdict), scans, outputs, others, required)
+
+
+def _judged_in(where: str, told: Mapping[str, object], outputs: Iterable[str]) -> dict[str, bool]:
+    """What was required and looked at; nothing where a sweep was made before there was that."""
+    try:
+        return judged(
+            [make_kept(RequiredResult, each) for each in _objects(told.get("required"))],
+            [make_kept(OutputRestart, each) for each in _objects(told.get("restarts"))],
+            recovery if isinstance(recovery := told.get("recovery"), int) else 0,
+            outputs,
+        )
+    except BadValue as why:
+        raise ValueError(f"{where}: {why}") from why
+
+
+def _objects(told: object) -> list[Mapping[str, object]]:
+    return [each for each in told if isinstance(each, dict)] if isinstance(told, list) else []
 
 
 def _differed(told: Mapping[str, object]) -> tuple[frozenset[str] | None, frozenset[str] | None]:

@@ -305,11 +305,12 @@ class SweepChange(Wire):
     scans_before: int | None
     scans_after: int | None
     change: Literal["same", "better", "worse", "fewer", "slower", "faster", "new", "gone"] = Field(
-        description="worse: the grade, or an output differs no longer; fewer: only some other variable does not"
+        description="worse: what is required, the grade, or an output differs no longer; fewer: only some other variable does not"
     )
     lost: list[str] = Field(
         default_factory=list, description="what differs no longer because of the error, outputs first"
     )
+    unmet: list[str] = Field(default_factory=list, description="what was as required before, and is not any more")
 
 
 class SweepComparison(Wire):

@@ -49,6 +49,7 @@ def comparison(found: Comparison) -> wire.SweepComparison:
                     "error": each.error, "name": names.get(each.error, each.error), "state": each.state,
                     "before": each.before, "after": each.after, "scans_before": each.scans_before,
                     "scans_after": each.scans_after, "change": each.change, "lost": list(each.lost),
+                    "unmet": list(each.unmet),
                 }
             )
             for each in found.changes

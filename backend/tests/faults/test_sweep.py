@@ -9,8 +9,8 @@ from lxml import etree
 
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.inject import Generate
-from scanbench.faults.reaction.compare import Change, Outcome, SweepChange, compare
-from scanbench.faults.reaction.reaction import Reaction, Verdict
+from scanbench.faults.reaction.compare import Change, Outcome, SweepChange, compare, judged
+from scanbench.faults.reaction.reaction import OutputRestart, Reaction, Verdict, went_on
 from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.reference import ErrorRef
 from scanbench.reports.sweep_page import sweep_page
@@ -140,8 +140,32 @@ def test_what_differs_no_longer_is_named(
 ) -> None:
     old = Outcome("e", "s", "acted", 1, frozenset({"motor"}), frozenset({"count"}))
     known = [None if each is None else frozenset(each) for each in (outputs, others)]
-    (change,) = compare([old], [Outcome("e", "s", "acted", 1, *known)])
+    (change,) = compare([old], [Outcome("e", "s", "acted", 1, known[0], known[1])])
     assert (change.change, change.lost) == (kind, lost)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "kind", "unmet"),
+    [
+        ({"motor off": True}, {"motor off": False}, "worse", ("motor off",)),
+        ({"motor off": False}, {"motor off": True}, "better", ()),
+        ({"motor off": False, "lamp": True}, {"motor off": True, "lamp": False}, "worse", ("lamp",)),
+        ({}, {"motor off": False}, "same", ()),  # nobody asked before
+        ({"motor off": True}, {}, "same", ()),
+    ],
+)
+def test_what_is_not_as_required_any_more_is_worse(
+    before: dict[str, bool], after: dict[str, bool], kind: Change, unmet: tuple[str, ...]
+) -> None:
+    old, new = (Outcome("e", "s", "acted", 1, required=each) for each in (before, after))
+    (change,) = compare([old], [new])
+    assert (change.change, change.unmet) == (kind, unmet)
+
+
+def test_an_output_that_goes_on_again_by_itself_is_looked_at_after_a_recovery_only() -> None:
+    on = OutputRestart("motor", 3)
+    assert judged([], [on], 30, ["motor", "fan"]) == {went_on("motor"): False, went_on("fan"): True}
+    assert judged([], [], 0, ["motor"]) == {}
 
 
 def test_what_only_one_sweep_has() -> None:

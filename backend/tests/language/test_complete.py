@@ -96,6 +96,13 @@ def test_a_function_of_a_namespace_that_is_used_shows_its_parameters() -> None:
     assert found.label == "Half(of_what : INT)"
 
 
+def test_an_instruction_of_the_vendor_shows_what_a_program_may_give() -> None:
+    reading, position = marked("PROGRAM Main\nFAL(|1);\nEND_PROGRAM", "CJ1M-CPU63")
+    found = signature_at(reading, FILE, position)
+    assert found is not None
+    assert found.label == "FAL(N : LINT, M : LINT, M1 : LINT)"
+
+
 def test_outside_of_a_pou_whole_pous_are_offered() -> None:
     assert offered("|")[:2] == ["PROGRAM", "FUNCTION_BLOCK"]
 

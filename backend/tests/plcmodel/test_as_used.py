@@ -17,6 +17,7 @@ SAYING = (
     "s := 'a (* b'; FAL(N := 7, S := 'HOT'); t := '*)';",
     's := "it$" //"; FAL(N := 7, S := \'HOT\');',
     "FAL(N := 7, (* ' *) S := 'HOT');",
+    "FAL(N := LEN('it$'s ('), S := 'HOT');",
 )
 SILENT = (
     "FAL(7);",

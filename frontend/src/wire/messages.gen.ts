@@ -6752,7 +6752,7 @@ export interface components {
             before: ("acted" | "decided" | "displayed" | "stored" | "no_effect" | "not_reached" | "never_read" | "stopped" | "reacted" | "stored_only") | null;
             /**
              * Change
-             * @description worse: the grade, or an output differs no longer; fewer: only some other variable does not
+             * @description worse: what is required, the grade, or an output differs no longer; fewer: only some other variable does not
              * @enum {string}
              */
             change: "same" | "better" | "worse" | "fewer" | "slower" | "faster" | "new" | "gone";
@@ -6771,6 +6771,11 @@ export interface components {
             scans_before: number | null;
             /** State */
             state: string;
+            /**
+             * Unmet
+             * @description what was as required before, and is not any more
+             */
+            unmet?: string[];
         };
         /** SweepComparison */
         SweepComparison: {

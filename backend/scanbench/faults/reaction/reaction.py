@@ -162,6 +162,11 @@ class OutputRestart(Public):
     """The requirement that allows it; empty: none does, it is a finding."""
 
 
+def went_on(path: str) -> str:
+    """What is wrong with an output that nothing allows to go on."""
+    return f"{path} went on again by itself"
+
+
 @dataclass(frozen=True, slots=True)
 class Reaction(Public):
     """What became of one error, raised alone or in a run as it was."""
@@ -201,7 +206,7 @@ class Reaction(Public):
         """What is not as the project requires it, each in a line."""
         return (
             *(each.text for each in self.required if each.is_finding),
-            *(f"{each.path} went on again by itself" for each in self.restarts if not each.allowed_by),
+            *(went_on(each.path) for each in self.restarts if not each.allowed_by),
         )
 
     @property

@@ -8,6 +8,10 @@ export function nameIn(byId: ReadonlyMap<string, ErrorInfo>, error: Named): stri
   return byId.get(error.id)?.name ?? error.name;
 }
 
+/** Tells present errors apart: several units of a kind may be there. */
+export const deviceKey = ({ id, flag, code, details }: DeviceError) =>
+  [id, flag, code, ...details.map(({ value }) => value)].join(" ");
+
 /** The details with the texts of the catalogue: `Rack number 1`. */
 export function detailsIn(error: ErrorInfo | undefined, details: readonly DeviceDetail[]): string {
   return details.map((detail) => detailIn(error, detail)).join(", ");

@@ -1,6 +1,7 @@
 import { useEffect, useState } from "react";
-import { bindCell, sortKey } from "../../store/plc/values";
-import { useWatches, watch } from "../../store/plc/watches";
+import { follow } from "../../store/plc/follow";
+import { sortKey } from "../../store/plc/values";
+import { useWatches } from "../../store/plc/watches";
 import type { PlcSymbol } from "../../wire/types";
 
 export interface Reading {
@@ -22,8 +23,7 @@ export function useReading(path: string): Reading {
   const refused = useWatches(({ refusals }) => refusals.get(path)?.message ?? null);
   useEffect(() => {
     if (path === "") return;
-    const release = watch([path]);
-    const unbind = bindCell(path, "default", (reading) => {
+    const unfollow = follow(path, "default", (reading) => {
       const key = sortKey(path);
       const number = isNumber(path) && key !== null && typeof key !== "string" ? Number(key) : null;
       set((before) =>
@@ -33,8 +33,7 @@ export function useReading(path: string): Reading {
       );
     });
     return () => {
-      unbind();
-      release();
+      unfollow();
       set(NOTHING);
     };
   }, [path]);

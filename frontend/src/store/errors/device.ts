@@ -1,6 +1,7 @@
 /** The device's own view of its errors, as a tool reads it from the PLC's memory, and what a tool does about them. */
 
 import { create } from "zustand";
+import { deviceKey } from "../../logic/errors/device";
 import { send } from "../../wire/send";
 import type { DeviceErrors } from "../../wire/types";
 import { onInstanceChange } from "../plc/reset";
@@ -18,7 +19,14 @@ const set = useDevice.setState;
 
 onInstanceChange(() => set(nothing));
 
-export const onDevice = (found: DeviceErrors | null) => set({ found });
+/** What was done is told until an error comes that was not there: then it is not true any more. */
+export const onDevice = (found: DeviceErrors | null) =>
+  set(({ found: before, outcome }) => ({ found, outcome: came(before, found) || found?.past ? null : outcome }));
+
+function came(before: DeviceErrors | null, found: DeviceErrors | null): boolean {
+  const known = new Set(before?.errors.map(deviceKey));
+  return found?.errors.some((error) => !known.has(deviceKey(error))) ?? false;
+}
 
 /** Clears errors as a tool does it on the device: the most serious one, or all that it lets go. */
 export const clearErrors = (what: "current" | "all") => report(send({ type: "clear_errors", what }));

@@ -235,6 +235,19 @@ async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInf
   return ok;
 }
 
+// What was ticked and is not fitted any more would be raised although nothing shows it as ticked.
+usePlc.subscribe((now, before) => {
+  if (now.instances === before.instances) return;
+  const { checked } = get();
+  const left = [...checked].filter((key) => isFitted(now, key) || !isFitted(before, key));
+  if (left.length < checked.size) set({ checked: new Set(left) });
+});
+
+const isFitted = (
+  { instances, errors }: Pick<ReturnType<typeof usePlc.getState>, "instances" | "errors">,
+  key: string,
+) => (instances.get(key) ?? errors.get(key))?.fitted !== false;
+
 // A message is shown as long as it is true: somebody else may have raised or recovered the errors since.
 usePlc.subscribe((now, before) => {
   const { told } = get();

@@ -205,6 +205,7 @@ export const sweep = {
   "sweep.underway": "Sweep {share}",
   "sweep.underway.hint": "Error sweep by {by}: {done} of {total} runs",
   "sweep.unmet": "{count} unmet",
+  "sweep.unmet.now": "Not as required any more: {required}",
   "sweep.unmet.one": "1 unmet",
   "sweep.waiting": "Waiting",
   "sweep.while": "{error}, while {state}",

@@ -201,6 +201,7 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.underway": "スイープ {share}",
   "sweep.underway.hint": "{by} の異常スイープ: {total} 回中 {done} 回",
   "sweep.unmet": "違反 {count} 件",
+  "sweep.unmet.now": "要求を満たさなくなったもの: {required}",
   "sweep.unmet.one": "違反 1 件",
   "sweep.waiting": "待機中",
   "sweep.while": "{error}（{state}）",

@@ -94,6 +94,17 @@ test("a tool clears, the simulator recovers what it raised, and a refusal is tol
   expect(server.sentOf("recover")).toMatchObject([{ ids: [BATTERY.id] }]);
 });
 
+test("what was done is told until an error comes", async () => {
+  const { server, user } = await openDevice({ errors: [FLAT] });
+  await user.click(button(t("device.clearall")));
+  await screen.findByRole("status");
+  server.say({ type: "device", found: NOTHING });
+  await screen.findByText(t("device.present.none"));
+  screen.getByRole("status");
+  server.say({ type: "device", found: { ...NOTHING, errors: [FLAT] } });
+  await waitFor(() => expect(screen.queryByRole("status")).toBeNull());
+});
+
 test("of several units of a kind one is recovered", async () => {
   const unit = (number: number): DeviceError => ({
     ...FLAT,

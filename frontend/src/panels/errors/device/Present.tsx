@@ -1,4 +1,4 @@
-import { detailsIn, nameIn } from "../../../logic/errors/device";
+import { detailsIn, deviceKey, nameIn } from "../../../logic/errors/device";
 import { keyOf, rowOf } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { recoverPresent } from "../../../store/errors/device";
@@ -34,10 +34,7 @@ export function Present({ errors }: { errors: readonly DeviceError[] }) {
           </thead>
           <tbody>
             {errors.map((error) => (
-              <Line
-                key={`${error.id} ${error.flag} ${error.code} ${error.details.map((each) => each.value)}`}
-                error={error}
-              />
+              <Line key={deviceKey(error)} error={error} />
             ))}
           </tbody>
         </table>

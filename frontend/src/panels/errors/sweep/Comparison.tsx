@@ -111,14 +111,18 @@ function Line({ row, name }: { row: SweepChange; name: string }) {
         <Outcome verdict={row.after} scans={row.scans_after} missing={row.change === "gone"} />
       </span>
       <span role="cell">
-        <StateWord
-          {...LOOK[row.change]}
-          word={t(`sweep.change.${row.change}`)}
-          title={row.lost?.length ? t("sweep.lost", { paths: row.lost.join(", ") }) : undefined}
-        />
+        <StateWord {...LOOK[row.change]} word={t(`sweep.change.${row.change}`)} title={why(row)} />
       </span>
     </div>
   );
+}
+
+function why({ unmet = [], lost = [] }: SweepChange): string | undefined {
+  const said = [
+    unmet.length > 0 && t("sweep.unmet.now", { required: unmet.join(", ") }),
+    lost.length > 0 && t("sweep.lost", { paths: lost.join(", ") }),
+  ];
+  return said.filter(Boolean).join("\n") || undefined;
 }
 
 function Outcome({ verdict, scans, missing }: { verdict: Verdict | null; scans: number | null; missing: boolean }) {

@@ -209,6 +209,17 @@ test("an error that only a sweep raised says so, beside the count of those that 
   expect(textOf(line(BASIC.name))).not.toContain(t("errors.status.never"));
 });
 
+test("a ticked error that is not fitted any more is not raised with the others", async () => {
+  const { server, user } = await openSimulator();
+  await user.click(tick(BASIC.name));
+  await user.click(tick(BATTERY.name));
+  await waitFor(() => button(t("errors.generate.asks", { count: 2 })));
+  server.say({ type: "errors", rows: [row(BASIC, { fitted: false })] });
+  await waitFor(() => button(t("errors.generate")));
+  await user.click(button(t("errors.generate")));
+  expect(server.sentOf("generate")).toMatchObject([{ errors: [{ id: BATTERY.id }] }]);
+});
+
 test("an error to which the program does not react as required is not shown as acted", async () => {
   const { server } = await openSimulator();
   server.say({ type: "errors", rows: [row(BASIC, { swept: verdict("acted", 1, 2) })] });

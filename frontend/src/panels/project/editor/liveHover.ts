@@ -1,6 +1,5 @@
 /** The value in the hover goes on as the program does: value frames write it, for as long as the hover is open. */
-import { bindCell } from "../../../store/plc/values";
-import { watch } from "../../../store/plc/watches";
+import { follow } from "../../../store/plc/follow";
 
 /** Monaco draws the hover a moment after it was told what belongs there. */
 const DRAWN_WITHIN = 2_000;
@@ -18,8 +17,7 @@ export function liveHover(head: string, path: string): () => void {
     if (line && text !== null) valueIn(line, head).textContent = text;
     return line !== null;
   };
-  const unwatch = watch([path]);
-  const unbind = bindCell(path, "default", (reading) => {
+  const unfollow = follow(path, "default", (reading) => {
     if (reading.text === "") return; // not known yet
     text = reading.text;
     show();
@@ -30,8 +28,7 @@ export function liveHover(head: string, path: string): () => void {
   stop = () => {
     stop = () => undefined;
     clearInterval(timer);
-    unbind();
-    unwatch();
+    unfollow();
   };
   return stop;
 }

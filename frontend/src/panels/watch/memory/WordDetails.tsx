@@ -2,8 +2,8 @@ import { useEffect, useRef, useState } from "react";
 import { inAll, type WholeArea } from "../../../logic/watch/memory";
 import { showWriter } from "../../../store/past/writer";
 import { useBench } from "../../../store/plc/bench";
-import { bindCell, sortKey } from "../../../store/plc/values";
-import { watch } from "../../../store/plc/watches";
+import { follow } from "../../../store/plc/follow";
+import { sortKey } from "../../../store/plc/values";
 import { useForces } from "../../../store/watch/forces";
 import { useMemory, wordIn } from "../../../store/watch/memory";
 import { addToWatch } from "../../../store/watch/watchlist";
@@ -71,18 +71,15 @@ function useReadOnly(area: string): boolean {
 
 function Values({ address }: { address: string }) {
   const [value, setValue] = useState<bigint | null>(null);
-  useEffect(() => {
+  useEffect(
     // The grid watches only what is visible, and the selected word may not be.
-    const release = watch([address]);
-    const unbind = bindCell(address, "hex", () => {
-      const key = sortKey(address);
-      setValue(key === null || typeof key === "string" ? null : BigInt(key));
-    });
-    return () => {
-      unbind();
-      release();
-    };
-  }, [address]);
+    () =>
+      follow(address, "hex", () => {
+        const key = sortKey(address);
+        setValue(key === null || typeof key === "string" ? null : BigInt(key));
+      }),
+    [address],
+  );
   if (value === null) return null;
   return (
     <dl className="memvalues">
@@ -98,16 +95,13 @@ function Values({ address }: { address: string }) {
 
 function Variable({ symbol: { path, type, address } }: { symbol: PlcSymbol }) {
   const text = useRef<HTMLSpanElement>(null);
-  useEffect(() => {
-    const release = watch([path]);
-    const unbind = bindCell(path, "default", (reading) => {
-      if (text.current) text.current.textContent = reading.text;
-    });
-    return () => {
-      unbind();
-      release();
-    };
-  }, [path]);
+  useEffect(
+    () =>
+      follow(path, "default", (reading) => {
+        if (text.current) text.current.textContent = reading.text;
+      }),
+    [path],
+  );
   return (
     <li>
       <span className="mono">{path}</span>
