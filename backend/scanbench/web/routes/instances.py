@@ -192,14 +192,14 @@ async def on_socket(bench: SocketBench, socket: WebSocket, instance: Id) -> None
     """Live values, events and commands."""
     try:
         session = bench.session(instance)
-        described = await _instance(bench, session)
+        project = await bench.projects.get(session.project_id)
     except NotFound as error:
         await socket.close(1008, str(error))
         return
     client = Client(socket, session, user_of(socket), bench.projects.drafts, bench.people)
     bench.looks.came(session)
     try:
-        await client.serve(described, bench.verifications.of(session))
+        await client.serve(project, bench.verifications.of)
     finally:
         bench.looks.left(session)
 

@@ -7,7 +7,7 @@ as it has taken everything else.
 import asyncio
 import json
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 
 from fastapi import WebSocket, WebSocketDisconnect
@@ -16,6 +16,7 @@ from pydantic import TypeAdapter, ValidationError
 from scanbench.server.drafts import Drafts
 from scanbench.server.people import People
 from scanbench.session.session import Session
+from scanbench.store.records import ProjectRow
 from scanbench.web import messages as wire
 from scanbench.web import messages_client as client
 from scanbench.web import messages_commands as commands
@@ -124,16 +125,18 @@ class Client:
 
     # ---- the socket -----------------------------------------------------------------------------------------------
 
-    async def serve(self, instance: wire.Instance, verifications: Iterable[events.VerificationStatus]) -> None:
+    async def serve(
+        self, project: ProjectRow, verifications: Callable[[Session], Iterable[events.VerificationStatus]]
+    ) -> None:
         """Speaks with the browser until it goes."""
         await self._socket.accept()
         colour = await self._people.colour(self._session.project_id, self.user.name)
         self._id = self._session.join(self)
         self._person = self._people.come(self._session.project_id, self._session.id, self, colour)
-        hello = wire.Hello(
+        hello = wire.Hello(  # looked at only now: of what changed before, this browser has been told nothing
             you=translate.user(self.user),
             users=list(map(translate.user, self._session.users)),
-            instance=instance,
+            instance=translate.instance(self._session, project),
             errors=list(map(translate.error_row, self._session.errors.rows)),
             log=self._session.log.lines,
             forces=self._session.forces.all,
@@ -143,7 +146,7 @@ class Client:
             timeline=self._session.log.timeline,
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
             coverage=self._session.debugging.coverage,
-            verifications=list(map(translate_verify.info, verifications)),
+            verifications=list(map(translate_verify.info, verifications(self._session))),
             disturbances=self._session.errors.disturbances,
         )
         self._texts.first(_text(hello))
