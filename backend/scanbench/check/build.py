@@ -18,6 +18,7 @@ from scanbench.check.body.context import Body, Effects
 from scanbench.check.body.generic import is_generic
 from scanbench.check.body.notes import Looks
 from scanbench.check.body.pou_body import pou_body
+from scanbench.check.borrowed import check_borrowed
 from scanbench.check.context import Mark, Rejected, Report
 from scanbench.check.declare.class_rules import check_classes, check_instances
 from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods, key_of
@@ -179,7 +180,7 @@ class Checker:
     system: System = field(init=False)
     plant: Plant = field(init=False)
     stimuli: Stimuli = field(default_factory=Stimuli)
-    declared: Mark = (0, 0, 0, 0, 0, 0)
+    declared: Mark = (0, 0, 0, 0, 0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
     """Members, size and alignment of the frame of each POU, before its body adds temporaries."""
@@ -237,6 +238,7 @@ class Checker:
         self.stimuli.check(self.report, self.declarations, self.pous, self.globals, self.parsed)
         common = self._common()
         self._check_library(common)
+        check_borrowed(self.report, self.pous.dispatchers.values())
         self.plant.check(self.parsed)
         order = self._order(common)
         self.report.join(order)

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from functools import lru_cache
 from heapq import nlargest
 from itertools import pairwise
+from typing import NamedTuple
 
 from scanbench.check.uses import Symbol, Use
 from scanbench.problems import Problem, Severity, Span, perhaps
@@ -18,8 +19,17 @@ class Rejected(Exception):
     """A construct was reported as wrong; whoever checks the next one catches it."""
 
 
-Mark = tuple[int, int, int, int, int, int]
+Mark = tuple[int, int, int, int, int, int, int]
 """Lengths of the lists of a report."""
+
+
+class Borrowed(NamedTuple):
+    """Memory that the program may only read is passed to an in-out."""
+
+    reader: Symbol
+    """The in-out."""
+    problem: Problem
+    """What is wrong if anything writes to it."""
 
 
 @dataclass(slots=True)
@@ -35,21 +45,22 @@ class Report:
     """Of the variables that are assigned, or that something else may write: spans end where those of their uses end."""
     lent: list[Span] = field(default_factory=list)
     """Of what is written, what may be read there, too: it is passed to an in-out, bound to a reference, or counted by a FOR."""
+    borrowed: list[Borrowed] = field(default_factory=list)
     parts: dict[Pou, "Report"] = field(default_factory=dict)
     """What was met in the body of each POU; its sites are numbered from 1 there."""
 
     @contextmanager
     def apart(self) -> Iterator["Report"]:
         """What is met meanwhile goes into a report of its own, for `parts`."""
-        names = self.uses, self.written, self.lent
+        names = self.uses, self.written, self.lent, self.borrowed
         before, inner = (self.problems, self.traps, self.checks), Report()
         self.problems, self.traps, self.checks = inner.problems, inner.traps, inner.checks
-        self.uses, self.written, self.lent = inner.uses, inner.written, inner.lent
+        self.uses, self.written, self.lent, self.borrowed = inner.uses, inner.written, inner.lent, inner.borrowed
         try:
             yield inner
         finally:
             self.problems, self.traps, self.checks = before
-            self.uses, self.written, self.lent = names
+            self.uses, self.written, self.lent, self.borrowed = names
 
     def join(self, order: Iterable[Pou]) -> None:
         """Takes over the parts of these POUs, whose sites then count from the end of what is there."""
@@ -92,13 +103,14 @@ class Report:
 
     def mark(self) -> Mark:
         """Where the lists end now, for `undo`."""
-        return len(self.problems), len(self.traps), len(self.checks), len(self.uses), len(self.written), len(self.lent)
+        found = len(self.problems), len(self.traps), len(self.checks)
+        return *found, len(self.uses), len(self.written), len(self.lent), len(self.borrowed)
 
     def undo(self, mark: Mark) -> None:
         """Forgets what was reported since, before the same is checked once more."""
-        problems, traps, checks, uses, written, lent = mark
+        problems, traps, checks, uses, written, lent, borrowed = mark
         del self.problems[problems:], self.traps[traps:], self.checks[checks:]
-        del self.uses[uses:], self.written[written:], self.lent[lent:]
+        del self.uses[uses:], self.written[written:], self.lent[lent:], self.borrowed[borrowed:]
 
     def needless(self, number: int, why: str) -> None:
         """What was to be checked there needs no check."""

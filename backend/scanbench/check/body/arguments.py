@@ -134,7 +134,7 @@ def invoke(body: Body, node: tree.Call, callee: Pou, name: str, this: Place | No
     bound = Bindings()
     for member in members:
         if not member.hidden:
-            _bind(body, member, given.get(member.name.upper()), bound, node.span, name)
+            _bind(body, member, callee.frame, given.get(member.name.upper()), bound, node.span, name)
     if eno is not None and "ENO" in callee.parameters:
         bound.places["ENO"] = eno
     if this is not None:
@@ -161,11 +161,13 @@ def as_value(body: Body, made: Invocation, span: Span) -> Expr:
     return Sequence(tuple(made.statements(span, result)), Load(result))
 
 
-def _bind(body: Body, member: Member, argument: tree.Argument | None, bound: Bindings, span: Span, callee: str) -> None:
+def _bind(
+    body: Body, member: Member, owner: Record, argument: tree.Argument | None, bound: Bindings, span: Span, callee: str
+) -> None:
     key = member.name.upper()
     value = argument.value if argument else None
     if member.section is Section.IN_OUT:
-        bound.places[key] = in_out(body, member, value, span, bound.before)
+        bound.places[key] = in_out(body, member, owner, value, span, bound.before)
     elif member.section is Section.INPUT:
         # what may be left out has a default, or is a text
         needed = is_system(member.span) and not any(member.initial) and not isinstance(member.type, StringType)
@@ -214,8 +216,10 @@ def _input(body: Body, member: Member, value: tree.Expression | None, span: Span
     return Sequence((SetBytes(place, data, span),), Load(place))
 
 
-def in_out(body: Body, member: Member, value: tree.Expression | None, span: Span, before: list[Stmt]) -> Place:
-    """What an in-out is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
+def in_out(
+    body: Body, member: Member, owner: Record, value: tree.Expression | None, span: Span, before: list[Stmt]
+) -> Place:
+    """What an in-out of `owner` is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
     if value is None:
         what = "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
         raise body.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
@@ -223,8 +227,9 @@ def in_out(body: Body, member: Member, value: tree.Expression | None, span: Span
         return _constant_in_out(body, member, value, before)
     if not isinstance(value, VARIABLES):
         raise body.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
-    how = f" To read it through `{member.name}`, declare that in a VAR_IN_OUT CONSTANT."
-    place = targets.target(body, value, how)
+    how = f" Something may write to `{member.name}`: to read through it, declare that in a VAR_IN_OUT CONSTANT."
+    reader = None if member.copied else variable_symbol(member, owner)  # a copy is written back
+    place = targets.target(body, value, how, reader)
     body.report.lent.append(targets.variable(value).span)
     return _bindable(body, member, place, value)
 

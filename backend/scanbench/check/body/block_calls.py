@@ -105,7 +105,7 @@ def _block_statements(body: Body, node: tree.Call, instance: Place, callee: Pou,
     for each in formals:
         if each.section is Section.IN_OUT and not each.hidden:
             argument = given.get(each.name.upper())
-            target = in_out(body, each, argument.value if argument else None, node.span, before)
+            target = in_out(body, each, record, argument.value if argument else None, node.span, before)
             bound[each.name.upper()] = target
             slot = actual_of(record, each) if each.copied else each
             if not each.copied or _rebinds(body, node, record, each, target, before):

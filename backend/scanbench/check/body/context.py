@@ -11,6 +11,7 @@ from typing import Protocol, TypeAlias
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
+from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr, Place, Pou
 from scanbench.program.sites import TrapKind
@@ -65,8 +66,10 @@ class Effects(Protocol):
     def repeats(self, value: Expr) -> bool:
         """Whether a value may be read several times as it is, because nothing changes it meanwhile."""
 
-    def assignable(self, body: "Body", place: Place, member: Member | None, span: Span, how: str = "") -> None:
-        """Refuses what cannot be assigned."""
+    def assignable(
+        self, body: "Body", place: Place, member: Member | None, span: Span, how: str = "", reader: Symbol | None = None
+    ) -> None:
+        """Refuses what cannot be assigned; `reader` is the in-out that it is passed to, which perhaps only reads it."""
 
     def library(self, body: "Body", name: str, args: tuple[Expr, ...]) -> Expr | None:
         """A call of a FUNCTION of the ST library, if there is one of that name."""

@@ -4,6 +4,7 @@ from scanbench.check.body import targets
 from scanbench.check.body.context import Body
 from scanbench.check.declare.names import LIBRARY
 from scanbench.check.declare.scopes import place_of
+from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Base, CallFunction, Expr, Place
 from scanbench.program.types import Member, Section, Type
@@ -26,8 +27,10 @@ class PouEffects:
     def repeats(self, value: Expr) -> bool:
         return False
 
-    def assignable(self, body: Body, place: Place, member: Member | None, span: Span, how: str = "") -> None:
-        targets.assignable(body, place, member, span, how)
+    def assignable(
+        self, body: Body, place: Place, member: Member | None, span: Span, how: str = "", reader: Symbol | None = None
+    ) -> None:
+        targets.assignable(body, place, member, span, how, reader)
 
     def library(self, body: Body, name: str, args: tuple[Expr, ...]) -> Expr | None:
         functions = body.pous.functions

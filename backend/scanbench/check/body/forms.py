@@ -7,7 +7,7 @@ from scanbench.check.body.elements import array_bounds
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.references import reference_type
 from scanbench.check.body.subrange_checks import as_written
-from scanbench.check.body.targets import writable
+from scanbench.check.body.targets import note_written, writable
 from scanbench.check.uses import Symbol
 from scanbench.program.program import Base, Const, Expr, Load, RefOf, Violates
 from scanbench.program.shown import shown
@@ -82,6 +82,7 @@ def refer(body: Body, node: tree.Expression, pointer: bool = False) -> RefOf:
         )
     if isinstance(place.type, OpenArray):
         raise body.report.reject("T013", "An ARRAY[*] cannot be referred to; refer to an element.", node.span)
+    note_written(body, node, may_read=True)
     how = " What is referred to could be written: pass its value, or pass it to a VAR_IN_OUT CONSTANT."
     writable(body, place, node.span, how)
     return RefOf(place, reference_type(place.type, pointer))

@@ -1,23 +1,26 @@
 """Places that may be written."""
 
 from scanbench.check.body.context import Body, Found
-from scanbench.problems import Span
+from scanbench.check.context import Borrowed
+from scanbench.check.uses import Symbol
+from scanbench.problems import Problem, Span
 from scanbench.program.own_variables import SYSTEM
 from scanbench.program.program import Place
 from scanbench.program.types import Member, OpenArray, Section
 from scanbench.syntax import tree
 
 
-def target(body: Body, node: tree.Expression, how: str = "") -> Place:
-    """A place that may be written; `how` is told of one that may only be read: how to read it."""
-    return declared_target(body, node, how)[0]
+def target(body: Body, node: tree.Expression, how: str = "", reader: Symbol | None = None) -> Place:
+    """A place that may be written; `how` is told of one that may only be read: how to read it. `reader` is the in-out that
+    it is passed to: then it may only be read as well, unless anything writes to the in-out."""
+    return declared_target(body, node, how, reader)[0]
 
 
-def declared_target(body: Body, node: tree.Expression, how: str = "") -> Found:
+def declared_target(body: Body, node: tree.Expression, how: str = "", reader: Symbol | None = None) -> Found:
     """The same, and the declared variable that it is, or is inside of."""
     place, member = body.place(node)
     note_written(body, node)
-    body.effects.assignable(body, place, member, node.span, how)
+    body.effects.assignable(body, place, member, node.span, how, reader)
     return place, member
 
 
@@ -39,7 +42,9 @@ def variable(node: tree.Expression) -> tree.Expression:
     return node
 
 
-def assignable(body: Body, place: Place, member: Member | None, span: Span, how: str = "") -> None:
+def assignable(
+    body: Body, place: Place, member: Member | None, span: Span, how: str = "", reader: Symbol | None = None
+) -> None:
     """Refuses what cannot be assigned: constants, outputs of others, memory that the model protects."""
     if member is not None:
         if member.constant and member.section is Section.IN_OUT and isinstance(member.type, OpenArray):
@@ -53,7 +58,7 @@ def assignable(body: Body, place: Place, member: Member | None, span: Span, how:
             body.report.warn("W001", f"`{member.name}` is an input; the next call overwrites this.", span)
         if member.section is Section.OUTPUT and not own and not _own(body, member):
             raise body.report.reject("T003", f"`{member.name}` is an output; only its block writes it.", span)
-    writable(body, place, span, how)
+    writable(body, place, span, how, reader)
 
 
 def _own(body: Body, member: Member) -> bool:
@@ -62,8 +67,9 @@ def _own(body: Body, member: Member) -> bool:
     return instance is not None and instance.members.get(member.name.upper()) is member
 
 
-def writable(body: Body, place: Place, span: Span, how: str = "") -> None:
-    """Refuses memory that the model protects from the program; `how` says how to read it there."""
+def writable(body: Body, place: Place, span: Span, how: str = "", reader: Symbol | None = None) -> None:
+    """Refuses memory that the model protects from the program; `how` says how to read it there. What is passed to an in-out,
+    the `reader`, is looked at when all bodies are known."""
     if place.variable != "@":
         return
     model = body.declarations.model
@@ -75,6 +81,8 @@ def writable(body: Body, place: Place, span: Span, how: str = "") -> None:
             if word is not None:
                 bits, byte = (16, 2 * word) if bit is None else (1, byte)
                 where = model.format(area, byte, bit, bits)
-                raise body.report.reject(
-                    "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.{how}", span
-                )
+                message = f"{where} is read-only for the program on a {model.name}; it can only be read.{how}"
+                if reader is None:
+                    raise body.report.reject("T011", message, span)
+                body.report.borrowed.append(Borrowed(reader, Problem("T011", message, span)))
+                return

@@ -1,6 +1,7 @@
 """What a typed text may do: look at the program, and nothing else."""
 
 from scanbench.check.body.context import Body
+from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Convert, Expr, Load, Place
 from scanbench.program.types import Member, Type
@@ -22,7 +23,9 @@ class Looking:
     def repeats(self, value: Expr) -> bool:
         return isinstance(value.operand if isinstance(value, Convert) else value, Load)
 
-    def assignable(self, body: Body, place: Place, member: Member | None, span: Span, how: str = "") -> None:
+    def assignable(
+        self, body: Body, place: Place, member: Member | None, span: Span, how: str = "", reader: Symbol | None = None
+    ) -> None:
         # what a tool may write, whoever stores the value looks at
         if member is not None and member.constant:
             raise body.report.reject("T003", f"`{member.name}` is a CONSTANT and cannot be assigned.", span)
