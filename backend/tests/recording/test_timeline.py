@@ -402,7 +402,8 @@ def test_a_condition_does_not_hold_up_the_way_into_the_past(
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Resource, "rerun", counted)
         assert timeline.goto(90) is None
-    assert runs == [90]
+    assert len(runs) == 1  # from the last checkpoint in one go: how many are kept depends on the machine
+    assert timeline.resource.header.scan == 90
     timeline.close()
 
 

@@ -7,16 +7,19 @@ CORRECTED = PROGRAM.replace("    ;\n", "    lamp := TRUE;\n")
 
 
 def finished(browser: Browser, sweep: int) -> Message:
-    """The end of a sweep, as everybody is told."""
-    found: list[Message] = []
+    """The end of a sweep, as everybody is told: waited for as long as it goes on."""
+    told: list[Message] = []
+    known = 0
 
-    def here() -> bool:
-        told = [message["sweep"] for message in browser.messages if message["type"] == "sweep"]
-        found[:] = [each for each in told if each["id"] == sweep and each["status"] != "running"]
-        return bool(found)
+    def goes_on() -> bool:
+        every = [message["sweep"] for message in browser.messages if message["type"] == "sweep"]
+        told[:] = [each for each in every if each["id"] == sweep]
+        return len(told) > known or any(each["status"] != "running" for each in told)
 
-    browser.wait(here)
-    return found[-1]
+    while not told or told[-1]["status"] == "running":
+        browser.wait(goes_on)
+        known = len(told)
+    return told[-1]
 
 
 def verdicts(server: Server, sweep: int, state: str) -> dict[str, str | None]:
