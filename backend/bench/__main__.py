@@ -10,7 +10,20 @@ import sys
 
 from bench.run import PROGRAMS, BenchError, Result, run_bench
 
-SUBJECTS = ("instances", "lsp", "pace", "goto", "watch", "debugging", "trace", "verify", "reverse", "sweep", "events")
+SUBJECTS = (
+    "instances",
+    "lsp",
+    "pace",
+    "goto",
+    "watch",
+    "debugging",
+    "trace",
+    "verify",
+    "reverse",
+    "sweep",
+    "events",
+    "pou",
+)
 BUILDING = (
     ("cold", "text to first scan, cold", "ms"),
     ("cached", "text to first scan, from the disk cache", "ms"),

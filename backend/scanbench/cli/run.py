@@ -19,7 +19,7 @@ from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.engines.native.emit_body import TooLarge
-from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.engine import NativeEngine, engine_for
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.engines.observe import MakeObserved
 from scanbench.engines.pair import Differs, PairEngine
@@ -95,7 +95,7 @@ def run(
             progress(scans, lambda: _scans(begun), lambda: f"{_scans(begun):,} of {scans:,} scans"),
         ):
             result = run_headless(
-                program, scans, ENGINES[engine], commands, every, lambda plc: sample(plc, shown),
+                program, scans, _engine(engine, scans), commands, every, lambda plc: sample(plc, shown),
                 detect=Detection(), agenda=Joined(Schedule(OBSERVED[engine]), DisturbanceSchedule()), recording=recording, until=condition,
                 interrupt=interrupt, on_begin=begun.append,
             )  # fmt: skip
@@ -107,6 +107,10 @@ def run(
         _differ(difference, problems, as_json)
     report_json(result, shown, problems, hash) if as_json else report_text(result, shown, hash)
     _end(result, commands, until, interrupt.asked)
+
+
+def _engine(choice: EngineChoice, scans: int) -> Callable[[Program, bytearray], Engine]:
+    return leaving(engine_for(scans)) if choice is EngineChoice.NATIVE else ENGINES[choice]
 
 
 def _differ(difference: Differs, problems: list[dict[str, str | int]], as_json: bool) -> NoReturn:

@@ -51,6 +51,8 @@ class Unit:
     """Bytes of temporaries, up to now."""
     signatures: dict[Pou, Signature] = field(default_factory=dict)
     flavour: Flavour = RUN
+    pieces: int = 0
+    """Pieces of divided bodies, up to now."""
 
     def reserve(self, pou: Pou, name: str, size: int) -> None:
         """Memory for the temporaries of the POU's statements."""
@@ -130,10 +132,18 @@ class Body:
         """Debugged code: what is known of the run of this body."""
         self.idle = ""
         """Debugged code: whether the loop around has not run a round yet."""
+        self.divided = inlining.divided(pou) and unit.flavour is RUN
+        """Whether lists of statements are emitted in pieces."""
         self._swallowed = 0
         self._scalar = scalar
         self._pieces = pieces
         self._run = run
+
+    def inside(self, text: FunctionText) -> "Body":
+        """What a piece of this body is emitted in."""
+        piece = Body(self.unit, self.pou, text, self._scalar, self._pieces, self._run)
+        piece.divided = False
+        return piece
 
     def swallow(self, callee: Pou) -> str:
         """The attribute of a call: a body takes up so much of the standard library, and no more."""

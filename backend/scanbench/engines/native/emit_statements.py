@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import assert_never
 
-from scanbench.engines.native import emit_calls, emit_loops, walk
+from scanbench.engines.native import emit_calls, emit_loops, emit_pieces, walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import canonical, load_at, move, put
@@ -39,6 +39,14 @@ WIDEST_RANGE = 64
 
 def run(body: Body, statements: tuple[Stmt, ...]) -> None:
     """Emits the statements in order."""
+    if not body.divided:
+        _one_by_one(body, statements)
+        return
+    for group, apart in emit_pieces.pieces(statements):
+        (emit_pieces.call if apart else _one_by_one)(body, group)
+
+
+def _one_by_one(body: Body, statements: tuple[Stmt, ...]) -> None:
     flavour = body.unit.flavour
     for statement in statements:
         with flavour.statement(body, statement):

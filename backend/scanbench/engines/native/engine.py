@@ -1,13 +1,13 @@
 """The native engine: a program compiled to machine code, which runs many scans in one call without Python's lock."""
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from time import monotonic_ns
 
 from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
-from scanbench.engines.native import jit
-from scanbench.engines.native.compiler import FAST, Compiler
+from scanbench.engines.native import inlining, jit
+from scanbench.engines.native.compiler import FAST, QUICK, Compiler
 from scanbench.engines.native.condition_code import link_condition
 from scanbench.engines.native.emit_loop import (
     ASKED,
@@ -28,6 +28,20 @@ _SLICE_NS = 20_000_000
 """Without a pace, Python gets a look about this often: else a signal (Ctrl-C) would wait for the last scan."""
 _FIRST_SLICE = 64
 """Scans, before it is known how long one takes."""
+
+
+_SOON = 10_000
+"""Scans up to which optimising a large program takes longer than it gains."""
+
+
+def engine_for(scans: int) -> Callable[[Program, bytearray], "NativeEngine"]:
+    """Makes the engine for a run of so many scans: a large program begins soon where they are few."""
+
+    def make(program: Program, memory: bytearray) -> NativeEngine:
+        soon = scans <= _SOON and any(map(inlining.divided, program.pous))
+        return NativeEngine(program, memory, QUICK if soon else FAST)
+
+    return make
 
 
 class _Control(ctypes.Structure):

@@ -13,6 +13,13 @@ COPY, MOST_COPIED = 10, 600
 below, a chain of functions would take quadratic time."""
 MOST_SWALLOWED = 1500
 """Statements of the standard library that become part of one body. What has a thousand timers calls the others."""
+DIVIDED, PIECE = 2000, 500
+"""Statements from which on a body is compiled in pieces, and those of a piece."""
+
+
+def divided(pou: Pou) -> bool:
+    """Whether its body is compiled in pieces."""
+    return size(pou.body) > DIVIDED
 
 
 def attribute(pou: Pou) -> str:

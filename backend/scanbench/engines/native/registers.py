@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
-from scanbench.engines.native import walk
+from scanbench.engines.native import inlining, walk
 from scanbench.engines.native.emit_types import stored
 from scanbench.program.program import Base, Expr, Place, Pou
 from scanbench.program.types import Elementary, Member, Section, StringType
@@ -89,8 +89,10 @@ def registers(pou: Pou, looks: Iterable[Expr] = ()) -> dict[int, str]:
     """Frame offsets of the variables that nothing refers to or sees a part of, with their LLVM types. `looks` are
     evaluated in the POU's body besides.
 
-    A slot that only this POU follows is a register too.
+    A slot that only this POU follows is a register too. Of a divided POU none is: its pieces share them.
     """
+    if inlining.divided(pou):
+        return {}
     members = [each for each in pou.frame.members.values() if each.storage]
     free = {each.offset: _register_type(each) for each in members}
     seen_there = [each for expr in looks for each in walk.of_expression(expr)]

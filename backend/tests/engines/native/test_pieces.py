@@ -1,0 +1,87 @@
+"""Large bodies in pieces: the same bytes as in one, and no function that LLVM takes long for."""
+
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from scanbench.check.build import check_sources
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native import inlining
+from scanbench.engines.native.compiler import QUICK
+from scanbench.engines.native.emit_program import emit_program
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.program.layout import Layout
+from tests.amounts import amount, some
+from tests.caseformat import Case, first_difference, read_cases, run_case
+from tests.engines.native.plc import MODEL
+from tests.engines.native.program_text import program_text
+
+CASES = [each for path in sorted((Path(__file__).parents[2] / "cases").glob("*.case")) for each in read_cases(path)]
+SCANS = 4
+BUDGET = 300
+
+
+def divide(patch: pytest.MonkeyPatch) -> None:
+    """From here on nearly every body is a large one."""
+    patch.setattr(inlining, "DIVIDED", 2)
+    patch.setattr(inlining, "PIECE", 2)
+
+
+@pytest.mark.parametrize("case", some(CASES, 12, 5), ids=[case.name for case in some(CASES, 12, 5)])
+def test_cases_in_pieces(case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
+    divide(monkeypatch)
+    run_case(case, [NativeEngine])
+
+
+@settings(max_examples=amount(120, 10))
+@given(st.integers(0, (1 << 32) - 1))
+def test_the_engines_agree_in_pieces(seed: int) -> None:
+    source = program_text(Random(seed))
+    program = check_sources({"random.st": source}, MODEL, 1_000_000).program
+    assume(program is not None)
+    assert program is not None
+    image = bytearray(program.initial_image)
+    image[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = BUDGET.to_bytes(8, "little")
+    memories = bytearray(image), bytearray(image)
+    with pytest.MonkeyPatch.context() as patch:
+        divide(patch)
+        engines = ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1], QUICK)
+    for scan in range(SCANS):
+        stops = [engine.run(1) for engine in engines]
+        assert stops[0] == stops[1], f"scan {scan} of\n{source}"
+        assert first_difference(program, *memories) == "", f"scan {scan} of\n{source}"
+
+
+def text_of(body: str) -> str:
+    source = f"PROGRAM Main\nVAR a, b, i : DINT; END_VAR\n{body}\nEND_PROGRAM\n"
+    program = check_sources({"large.st": source}, MODEL, 1_000_000).program
+    assert program is not None
+    return emit_program(program)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "a := b + i;\n" * 3_000,
+        "IF a > 3 THEN\n" + "a := b + i;\n" * 3_000 + "ELSE\n" + "b := a + i;\n" * 3_000 + "END_IF;",
+        "FOR i := 1 TO 3 DO\n"
+        + "a := b + i;\nIF a > 7 THEN EXIT; END_IF;\n" * 1_500
+        + "b := i;\n" * 1_500
+        + "END_FOR;",
+    ],
+    ids=["a list", "lists in an IF", "a list in a FOR"],
+)
+def test_no_function_is_large(body: str) -> None:
+    text = text_of(body)
+    sizes = [function.count("\n") for function in text.split("\ndefine ")]
+    assert len(sizes) > 5
+    assert max(sizes) < 20 * inlining.PIECE or "EXIT" in body, sizes
+
+
+def test_what_returns_stays_where_it_is() -> None:
+    """A RETURN leaves the POU, not a piece of it."""
+    text = text_of("a := b + i;\nIF a > 7 THEN RETURN; END_IF;\n" * 1_500)
+    assert "piece" not in text
