@@ -1,7 +1,7 @@
 """`scanbench errors`: the errors of a model, and what a program does about each of them."""
 
 import json
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
@@ -30,17 +30,16 @@ from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_st
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.reaction.choices import Choices
 from scanbench.faults.reaction.compare import Outcome, compare
-from scanbench.faults.reaction.reaction import WINDOW
+from scanbench.faults.reaction.reaction import UNTRIED, WINDOW
 from scanbench.faults.reaction.required import Required
 from scanbench.faults.reaction.required_rules import Rules, rules_of
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import Cell
-from scanbench.faults.reference import ErrorRef, error_of, find_error, named_reference
+from scanbench.faults.reference import ErrorRef, error_of, find_error
 from scanbench.jobs.starting import checked_program, model_of, point_in
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
-from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.public import iso
 from scanbench.recording.programs import cached, observed
@@ -183,23 +182,22 @@ def sweep_errors(
     points = _points(states, present, program, given, make)
     asked = [each.id for each in chosen]
     raised = rules.raised(Choices(program).expand(map(ErrorRef, asked)), asked)
-    _tell_unused(rules, grades, raised, points)
+    _tell_unused(grades, raised)
     cells, whole = _swept(points, raised, window, cached({_VERSION: program}, observed(make)), rules)
     tried = {error_of(cell.error) for cell in cells}
     begun = tuple((name, Header(point.state).scan) for name, point in points.items())
     listed = tuple(each for each in chosen if each.id in tried)
-    result = SweepResult(project.resolve().name, plc.name, window, begun, listed, cells)
+    result = SweepResult(project.resolve().name, plc.name, window, begun, listed, cells, tuple(rules.problems))
     severities = _severities(severity)
     unhandled = result.unhandled(severities, required)
     _tell(result, unhandled, as_json)
-    untried = whole and _tell_untried(rules, cells, asked)
     if junit is not None:
         write_text(junit, sweep_junit(result, severities, required))
     if html is not None:
         write_text(html, sweep_page(result, iso(wall_time()), required))
     if not whole:
         typer.echo(f"scanbench: interrupted after {len(tried)} of {count(len(chosen), 'error')}", err=True)
-    raise typer.Exit(1 if unhandled or rules.problems or untried else 0 if whole else INTERRUPTED)
+    raise typer.Exit(1 if unhandled or rules.problems else 0 if whole else INTERRUPTED)
 
 
 def _swept(
@@ -226,6 +224,13 @@ def _tell(result: SweepResult, unhandled: Sequence[Cell], as_json: bool) -> None
     if untried:
         some = f"{untried} of {count(len(result.cells), 'case')}"
         typer.echo(f"scanbench: {some}: the error could not be raised, so nothing is known of it there", err=True)
+    missing = [each for cell in result.cells for each in cell.required if each.reason in UNTRIED and each.is_finding]
+    if missing:
+        each = "each" if len(missing) > 1 else "that"
+        typer.echo(
+            f"scanbench: {count(len(missing), 'requirement')} of {REQUIREMENTS} could not be tried: {each} is a finding",
+            err=True,
+        )
     if unhandled and not as_json:
         typer.echo(
             f"scanbench: {count(len(unhandled), 'finding')}: the error did less than is required (see --require), or not "
@@ -301,23 +306,10 @@ def _program_of(sources: Sources, program: Program) -> Callable[[Sources], Progr
     return get
 
 
-def _tell_unused(rules: Rules, grades: Grades | None, raised: Sequence[ErrorRef], points: Collection[str]) -> None:
+def _tell_unused(grades: Grades | None, raised: Sequence[ErrorRef]) -> None:
     """What is required of what this sweep does not try: a typing error, perhaps."""
-    for state, near in rules.unknown_states(points):
-        text = (
-            f"scanbench: {REQUIREMENTS} names the state `{state}`, which this sweep does not begin from.{perhaps(near)}"
-        )
-        typer.echo(text, err=True)
     for row in () if grades is None else grades.unused(raised):
         typer.echo(f"scanbench: --requirements names {row}, which this sweep does not raise", err=True)
-
-
-def _tell_untried(rules: Rules, cells: Iterable[Cell], asked: Collection[str]) -> bool:
-    """What is required of an error that could not be raised; whether there is any."""
-    problems = rules.untried([named_reference(each.error) for each in cells if each.reaction is not None], asked)
-    for problem in problems:
-        typer.echo(str(problem), err=True)
-    return bool(problems)
 
 
 def _required(

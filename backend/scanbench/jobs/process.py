@@ -189,10 +189,10 @@ class Job:
         points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
         scans = {name: Header(point.state).scan for name, point in points.items()}
         programs = cached({ask.sources.version: program}, observed(self._flavours.observed))
-        self._say(SweepPlanned(ask.ref, tuple(map(str, errors))))
+        self._say(SweepPlanned(ask.ref, tuple(map(str, errors)), tuple(rules.problems)))
         on_try = self._telling(Trying, ask.ref)
-        for cell in sweep(points, errors, ask.window, programs, set(ask.done), on_try, rules):
-            yield CellFound(ask.ref, cell.error, cell.point, scans[cell.point], cell.reaction, cell.note)
+        for cell in sweep(points, errors, ask.window, programs, set(ask.done), on_try, rules, ask.known):
+            yield CellFound(ask.ref, cell.error, cell.point, scans[cell.point], cell.reaction, cell.note, cell.untried)
 
     def _point(self, name: str, run: Path, sources: Sources) -> Point:
         try:

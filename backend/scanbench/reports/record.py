@@ -1,13 +1,15 @@
 """The test record: which errors a program was tested against, what it did, and who says so. Data, and how it is made."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from typing import ClassVar, Literal
 
+from scanbench.faults.details import code_text_with
 from scanbench.faults.history import ErrorRow, Status
 from scanbench.faults.present import Origin
-from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Reaction, Verdict
+from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Reaction, RequiredResult, Verdict
+from scanbench.faults.reference import error_of, named_reference
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.public import Moment, Public
@@ -44,7 +46,8 @@ class RecordAccepted(Public):
 
 @dataclass(frozen=True, slots=True)
 class RecordError:
-    """One error instance. Those of hardware that is not fitted are not in a record, unless somebody raised them."""
+    """One error instance. Those of hardware that is not fitted are not in a record, unless somebody raised them, or
+    something is required of them."""
 
     id: str
     """In the notation of references: `fal:number=5`; of a kind of which no instance is known, and in older records, its id."""
@@ -88,9 +91,20 @@ class RecordCell(Public):
     """Until the first effect."""
     note: str = ""
     required: int = 0
-    """Requirements that were checked,"""
+    """Requirements that are about it,"""
     unmet: int = 0
-    """and how much is not as it is required, unexpected restarts counted."""
+    """and how much is not as it is required: unexpected restarts and what was not tried are counted."""
+    untried: tuple[RequiredResult, ...] = ()
+    """Without a verdict: what is required all the same, and why it was not tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class RecordProblem(Public):
+    """A mistake in what the project requires: what it says there was not tried."""
+
+    line: int
+    column: int
+    message: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +118,8 @@ class RecordSweep(Public):
     window: int
     states: tuple[str, ...]
     cells: tuple[RecordCell, ...]
+    problems: tuple[RecordProblem, ...] = ()
+    """Each is a finding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,10 +142,13 @@ class Missed:
     error: RecordError
     state: str
     """Empty: raised on the PLC itself, wherever that was."""
-    verdict: Verdict
+    verdict: Verdict | None
+    """None: it could not be raised, so what is required was not tried."""
     accepted: RecordAccepted | None
     unmet: int = 0
     """It is about requirements: so much is not as it is required, unexpected restarts counted. Nobody can accept that."""
+    why: str = ""
+    """What was not tried, and why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +168,7 @@ class Summary(Public):
     accepted: int
     """Findings, one for each error and state, that were accepted."""
     open: int
-    """And those that were not."""
+    """And those that were not; mistakes in what the project requires counted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,21 +184,28 @@ class TestRecord:
     _swept: dict[str, dict[str, RecordCell]] = field(default_factory=dict, init=False, repr=False, compare=False)
     """The newest cell with a verdict, by error and state: a sweep of one state does not hide what is open in others."""
 
+    _untried: dict[str, dict[str, RecordCell]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """The newest cell, by error and state, where that was not raised although something is required."""
+
     def __post_init__(self) -> None:
         for sweep in reversed(self.sweeps):
             for cell in sweep.cells:
+                untried = self._untried.setdefault(cell.error, {})
+                untried.pop(cell.state, None)
                 if cell.verdict is not None:
                     self._swept.setdefault(cell.error, {})[cell.state] = cell
+                elif cell.unmet:
+                    untried[cell.state] = cell
 
     def finding(self, error: RecordError) -> Finding:
         """What is known of an error."""
         if error.reaction is not None:
             return Finding(error.reaction.verdict, error.reaction.first_effect, "plc", len(error.reaction.unmet))
-        cells = self._swept.get(error.id, {}).values()
+        cells, untried = self._swept.get(error.id, {}).values(), self._untried.get(error.id, {}).values()
         if not cells:
-            return Finding(None, None, "")
+            return Finding(None, None, "", max((cell.unmet for cell in untried), default=0))
         worst = min(cells, key=lambda cell: WORST_FIRST.index(cell.verdict) if cell.verdict else 0)
-        return Finding(worst.verdict, worst.scans, "sweep", max(cell.unmet for cell in cells))
+        return Finding(worst.verdict, worst.scans, "sweep", max(cell.unmet for cell in (*cells, *untried)))
 
     @property
     def missed(self) -> list[Missed]:
@@ -204,7 +230,23 @@ class TestRecord:
             found.append(Missed(error, "", seen, None))
         if error.reaction is not None and error.reaction.unmet:
             required.append(Missed(error, "", error.reaction.verdict, None, len(error.reaction.unmet)))
-        return [*found, *required]
+        untried = [
+            Missed(
+                error,
+                cell.state,
+                None,
+                None,
+                cell.unmet,
+                "; ".join(f"{each.text}: {each.note}" for each in cell.untried),
+            )
+            for cell in self._untried.get(error.id, {}).values()
+        ]
+        return [*found, *required, *untried]
+
+    @property
+    def problems(self) -> tuple[RecordProblem, ...]:
+        """What the newest sweep could not try, as nobody can say what is meant: findings, too."""
+        return self.sweeps[0].problems if self.sweeps else ()
 
     def tested(self, error: RecordError) -> bool:
         """Whether it was raised at all."""
@@ -223,7 +265,7 @@ class TestRecord:
             verdicts={verdict: found.count(verdict) for verdict in WORST_FIRST},
             unknown=found.count(None),
             accepted=accepted.count(True),
-            open=accepted.count(False),
+            open=accepted.count(False) + len(self.problems),
         )
 
     @property
@@ -244,17 +286,31 @@ def make_record(
     reasons: dict[str, list[RecordAccepted]] = {}
     for error, one in accepted:
         reasons.setdefault(error, []).append(one)
+    wanted = {cell.error for sweep in sweeps for cell in sweep.cells if cell.verdict is None and cell.unmet}
     kept = [
         _error(groups, error, row, tuple(reasons.get(row.key, ())), language)
         for groups, error in model.errors_with_groups()
-        for row in by_id.get(error.id) or [ErrorRow(error.id, error.name, error.severity, code=error.code_text)]
-        if row.fitted or row.status != "never"
+        for row in _with_untried(error, by_id.get(error.id, []), wanted)
+        if row.fitted or row.status != "never" or row.key in wanted
     ]
     known = {error.id for error in kept}
     ours = [replace(each, cells=tuple(cell for cell in each.cells if cell.error in known)) for each in sweeps]
     errors = {error.id: error for error in model.errors()}
     lines = (replace(line, text=in_names(errors, line.text, language)) for line in log)
     return TestRecord(head, tuple(kept), tuple(ours), tuple(lines))
+
+
+def _with_untried(error: ErrorEntry, rows: Sequence[ErrorRow], wanted: Collection[str]) -> Iterator[ErrorRow]:
+    """The rows of an error, with one for each instance of which something is required, and that could not be raised."""
+    yield from rows
+    known = {row.key for row in rows}
+    added = [key for key in sorted(wanted) if error_of(key) == error.id and key not in known]
+    for key in added:
+        given = dict(named_reference(key).details)
+        details, code = ", ".join(f"{name}={value}" for name, value in given.items()), code_text_with(error, given)
+        yield ErrorRow(error.id, error.name, error.severity, code=code, details=details, instance=key, fitted=False)
+    if not rows and not added:
+        yield ErrorRow(error.id, error.name, error.severity, code=error.code_text)
 
 
 def _error(

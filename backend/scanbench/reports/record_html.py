@@ -11,12 +11,14 @@ from scanbench.reports.record import (
     Missed,
     RecordCell,
     RecordError,
+    RecordProblem,
     RecordSweep,
     TestRecord,
 )
 from scanbench.reports.record_text import FoldedLine, Language, folded
 from scanbench.reports.record_words import WORDS
 from scanbench.reports.required_words import evidence
+from scanbench.syntax.requirements import REQUIREMENTS
 
 SHOWN = 8
 """Readers, and outputs, of one error; the XML has them all."""
@@ -74,23 +76,35 @@ class _Document:
     # ---- findings -------------------------------------------------------------------------------------------------
 
     def _findings(self) -> str:
-        found = self._record.missed
-        if not found:
+        found, problems = self._record.missed, self._record.problems
+        if not found and not problems:
             tested = self._record.summary.tested
             return f"<h2>{self._word('findings')}</h2>\n<p>{self._word('no_findings' if tested else 'nothing_tested')}</p>\n"
-        rows = map(self._finding_row, found)
+        rows = [*map(self._finding_row, found), *map(self._problem_row, problems)]
         heads = ("error", "code", "severity", "state", "verdict", "status", "reason")
         return f"<h2>{self._word('findings')}</h2>\n{self._page.table(heads, rows)}"
 
     def _finding_row(self, missed: Missed) -> str:
         error, one = missed.error, missed.accepted
-        accepted = "" if one is None else escape(f"{one.reason} ({one.by}, {moment(one.at)})")
+        accepted = escape(missed.why if one is None else f"{one.reason} ({one.by}, {moment(one.at)})")
         word = self._word("finding_open" if one is None else "finding_accepted")
         return tr(
             f'<th scope="row">{escape(error.name)}</th>', td(error.code, "mono"), td(self._page.plain(error.severity)),
-            td(missed.state or self._page.plain("on_plc")), f"<td>{self._verdict(missed.verdict)}{self._unmet(missed.unmet)}</td>",
+            td(missed.state or self._page.plain("on_plc")), f"<td>{self._missed_verdict(missed)}{self._unmet(missed.unmet)}</td>",
             f"<td>{word}</td>", f"<td>{accepted}</td>",
         )  # fmt: skip
+
+    def _problem_row(self, problem: RecordProblem) -> str:
+        return tr(
+            f'<th scope="row">{REQUIREMENTS}:{problem.line}:{problem.column}</th>', td(None), td(None), td(None),
+            f"<td>{self._untried_sign()}</td>", f"<td>{self._word('finding_open')}</td>", td(problem.message),
+        )  # fmt: skip
+
+    def _missed_verdict(self, missed: Missed) -> str:
+        return self._untried_sign() if missed.verdict is None else self._verdict(missed.verdict)
+
+    def _untried_sign(self) -> str:
+        return f'<span class="verdict failed">{self._word("not_tried")}</span>'
 
     def _untested(self) -> str:
         names = [error for error in self._record.errors if not self._record.tested(error)]
@@ -186,7 +200,7 @@ class _Document:
         if cell is None:
             return "<td></td>"
         if cell.verdict is None:
-            return f'<td><span class="verdict unknown">{self._word("not_raised")}</span><br>{escape(cell.note)}</td>'
+            return f'<td><span class="verdict unknown">{self._word("not_raised")}</span><br>{escape(cell.note)}{self._unmet(cell.unmet)}</td>'
         scans = "" if cell.scans is None else f' <span class="faint">{cell.scans}</span>'
         missed = error is not None and cell.verdict in FINDINGS and error.accepted_in(cell.state) is not None
         accepted = f'<br><span class="faint">{self._word("finding_accepted")}</span>' if missed else ""

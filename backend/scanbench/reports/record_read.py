@@ -37,6 +37,7 @@ from scanbench.reports.record import (
     RecordCell,
     RecordError,
     RecordHead,
+    RecordProblem,
     RecordSweep,
     SweepStatus,
     TestRecord,
@@ -199,8 +200,12 @@ def _sweep(node: etree._Element) -> RecordSweep:
             RecordCell(
                 _text(one, "Error"), _text(one, "State"), cast(Verdict | None, one.get("Verdict")),
                 _number(one, "Scans"), _text(one, "Note"), _count(one, "Required"), _count(one, "Unmet"),
+                tuple(map(_required, one.findall("Required"))),
             )
             for one in node.findall("Cell")
+        ),
+        problems=tuple(
+            RecordProblem(_count(one, "Line"), _count(one, "Column"), _text(one, "Message")) for one in node.findall("Problem")
         ),
     )  # fmt: skip
 

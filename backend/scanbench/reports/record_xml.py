@@ -5,12 +5,12 @@ from datetime import UTC, datetime
 
 from lxml import etree
 
-from scanbench.faults.reaction.reaction import FINDINGS, Reaction
+from scanbench.faults.reaction.reaction import FINDINGS, Reaction, RequiredResult
 from scanbench.plcmodel.document import xml_text
 from scanbench.reports.record import RecordError, RecordSweep, TestRecord
 
-VERSION = "4"
-READ = ("1", "2", "3", "4")
+VERSION = "5"
+READ = ("1", "2", "3", "4", "5")
 """The versions that `record_read.py` reads."""
 Told = str | int | datetime | None
 
@@ -76,14 +76,18 @@ def _reaction(error: etree._Element, reaction: Reaction) -> None:
         for path in one.paths:
             _add(missed, "On", Path=path)
     for rule in reaction.required:
-        required = _add(
-            node, "Required", Text=rule.text, Line=rule.line, Outcome=rule.outcome, Recovery="true" if rule.recovery else None,
-            Scan=rule.scan, Reason=rule.reason or None, Note=rule.note or None,
-        )  # fmt: skip
-        for value in rule.values:
-            _add(required, "Value", Path=value.path, Value=value.value)
+        _required(node, rule)
     for restart in reaction.restarts:
         _add(node, "Restart", Path=restart.path, Scan=restart.scan, AllowedBy=restart.allowed_by or None)
+
+
+def _required(parent: etree._Element, rule: RequiredResult) -> None:
+    node = _add(
+        parent, "Required", Text=rule.text, Line=rule.line, Outcome=rule.outcome, Recovery="true" if rule.recovery else None,
+        Scan=rule.scan, Reason=rule.reason or None, Note=rule.note or None,
+    )  # fmt: skip
+    for value in rule.values:
+        _add(node, "Value", Path=value.path, Value=value.value)
 
 
 def _sweep(root: etree._Element, sweep: RecordSweep, accepted: Set[tuple[str, str]]) -> None:
@@ -94,10 +98,14 @@ def _sweep(root: etree._Element, sweep: RecordSweep, accepted: Set[tuple[str, st
         _add(node, "State", Name=state)
     for cell in sweep.cells:
         missed = cell.verdict in FINDINGS and (cell.error, cell.state) in accepted
-        _add(
+        one = _add(
             node, "Cell", Error=cell.error, State=cell.state, Verdict=cell.verdict, Scans=cell.scans,
             Required=cell.required or None, Unmet=cell.unmet or None, Note=cell.note or None, Accepted="true" if missed else None,
         )  # fmt: skip
+        for rule in cell.untried:
+            _required(one, rule)
+    for problem in sweep.problems:
+        _add(node, "Problem", Line=problem.line, Column=problem.column, Message=problem.message)
 
 
 def _add(parent: etree._Element, tag: str, **told: Told) -> etree._Element:

@@ -2,9 +2,16 @@
 
 from collections.abc import Mapping
 
-from scanbench.faults.reaction.reaction import Outcome, OutputRestart, Reaction, RequiredResult
+from scanbench.faults.reaction.reaction import UNTRIED, Outcome, OutputRestart, Reaction, RequiredResult
+from scanbench.faults.reaction.sweep import Cell
 
 OUTCOMES: Mapping[Outcome, str] = {"passed": "passed", "failed": "failed", "not_checked": "not checked"}
+NOT_TRIED = "not tried"
+
+
+def outcome_of(each: RequiredResult) -> str:
+    """What it came to, in a word."""
+    return NOT_TRIED if each.reason in UNTRIED else OUTCOMES[each.outcome]
 
 
 def is_grade(each: RequiredResult) -> bool:
@@ -20,10 +27,10 @@ def evidence(each: RequiredResult) -> str:
     return ": ".join(filter(None, (scan, "; ".join(filter(None, (values, each.note))))))
 
 
-def required_lines(reaction: Reaction) -> list[str]:
+def required_lines(cell: Cell) -> list[str]:
     """A line for each requirement, and for each output that went on again."""
-    found = [f"{OUTCOMES[each.outcome]}: {each.text} ({evidence(each)})" for each in reaction.required]
-    return [*found, *map(restarted, reaction.restarts)]
+    found = [f"{outcome_of(each)}: {each.text} ({evidence(each)})" for each in cell.required]
+    return [*found, *map(restarted, () if cell.reaction is None else cell.reaction.restarts)]
 
 
 def restarted(each: OutputRestart) -> str:
@@ -32,6 +39,6 @@ def restarted(each: OutputRestart) -> str:
     return f"{went}; `{each.allowed_by}` allows it" if each.allowed_by else f"unexpected restart: {went}"
 
 
-def unexpected(reaction: Reaction) -> list[OutputRestart]:
+def unexpected(reaction: Reaction | None) -> list[OutputRestart]:
     """The restarts that no requirement allows."""
-    return [each for each in reaction.restarts if not each.allowed_by]
+    return [] if reaction is None else [each for each in reaction.restarts if not each.allowed_by]

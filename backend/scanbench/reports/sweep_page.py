@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from urllib.parse import quote
 
-from scanbench.faults.reaction.reaction import Difference, Outcome, Verdict
+from scanbench.faults.reaction.reaction import Difference, Outcome, OutputRestart, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.reports.page import Page, Words, table, td, th, tr
 from scanbench.reports.reason import reason_of
-from scanbench.reports.required_words import OUTCOMES, evidence, restarted
+from scanbench.reports.required_words import NOT_TRIED, OUTCOMES, evidence, outcome_of, restarted
 from scanbench.reports.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
 _ORDER: tuple[Outcome, ...] = ("failed", "not_checked", "passed")
@@ -100,24 +100,33 @@ def _finding(result: SweepResult, cell: Cell) -> str:
 
 def _required(result: SweepResult) -> Iterator[str]:
     """Each requirement with what it came to, what is wrong first."""
-    judged = [(cell, each) for cell in result.cells if cell.reaction is not None for each in cell.reaction.required]
+    judged = [(cell, each) for cell in result.cells for each in cell.required]
     restarts = [(cell, each) for cell in result.cells if cell.reaction is not None for each in cell.reaction.restarts]
-    if not judged and not restarts:
+    if not judged and not restarts and not result.problems:
         return
     yield "<h2>Required reactions</h2>\n"
+    for problem in result.problems:
+        yield f'<p><span class="verdict failed">{NOT_TRIED}</span> {escape(str(problem))}</p>\n'
+    if not judged and not restarts:
+        return
     rows = [
-        _row(result, cell, "no unexpected restart", "passed" if each.allowed_by else "failed", restarted(each))
+        _row(result, cell, "no unexpected restart", outcome, OUTCOMES[outcome], restarted(each))
         for cell, each in restarts
+        for outcome in (_restarted(each),)
     ]
     rows += [
-        _row(result, cell, each.text, each.outcome, evidence(each))
+        _row(result, cell, each.text, each.outcome, outcome_of(each), evidence(each))
         for cell, each in sorted(judged, key=lambda one: _ORDER.index(one[1].outcome))
     ]
     yield _table(("Error", "State", "Required", "Outcome", "Why"), rows)
 
 
-def _row(result: SweepResult, cell: Cell, text: str, outcome: Outcome, why: str) -> str:
-    sign = f'<span class="verdict {outcome}">{escape(OUTCOMES[outcome])}</span>'
+def _restarted(each: OutputRestart) -> Outcome:
+    return "passed" if each.allowed_by else "failed"
+
+
+def _row(result: SweepResult, cell: Cell, text: str, outcome: Outcome, word: str, why: str) -> str:
+    sign = f'<span class="verdict {outcome}">{escape(word)}</span>'
     about = f'<th scope="row">{escape(result.entry(cell).name)} <code class="faint">{escape(cell.error)}</code></th>'
     return tr(about, td(cell.point), f"<td><code>{escape(text)}</code></td>", f"<td>{sign}</td>", td(why))
 

@@ -9,18 +9,21 @@ from lxml import etree
 
 from scanbench.faults.details import code_text_with
 from scanbench.faults.reaction.compare import Outcome, SweepChange, judged
-from scanbench.faults.reaction.reaction import OutputRestart, Reaction, RequiredResult, Verdict
+from scanbench.faults.reaction.reaction import OutputRestart, RequiredResult, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.faults.reference import error_of, named_reference
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
 from scanbench.plcmodel.document import xml_text
+from scanbench.problems import Problem
 from scanbench.reports import record_words
 from scanbench.reports.reason import reason_of, some
 from scanbench.reports.required_words import (
+    NOT_TRIED,
     OUTCOMES,
     evidence,
     is_grade,
+    outcome_of,
     required_lines,
     restarted,
     unexpected,
@@ -48,6 +51,8 @@ class SweepResult:
     errors: tuple[ErrorEntry, ...]
     cells: tuple[Cell, ...]
     """For each error all states, in these orders."""
+    problems: tuple[Problem, ...] = ()
+    """Of the file with what is required: what is wrong there is not tried."""
 
     def entry(self, cell: Cell) -> ErrorEntry:
         """The error of a cell."""
@@ -66,18 +71,18 @@ class SweepResult:
     def unhandled(self, severities: Sequence[Severity], required: Required = REQUIRED) -> tuple[Cell, ...]:
         """Errors of these severities that did less than is required, or not what is required."""
         return tuple(
-            cell
-            for cell in self.cells
-            if cell.reaction is not None
-            and self.entry(cell).severity in severities
-            and (cell.reaction.unmet or not required.met(cell.error, cell.reaction.verdict, cell.point))
+            cell for cell in self.cells if self.entry(cell).severity in severities and not is_met(cell, required)
         )
 
     def outcomes(self) -> Counter[str]:
-        """How many requirements came to what."""
-        return Counter(
-            each.outcome for cell in self.cells if cell.reaction is not None for each in cell.reaction.required
-        )
+        """How many requirements came to what, in words."""
+        return Counter(outcome_of(each) for cell in self.cells for each in cell.required)
+
+
+def is_met(cell: Cell, required: Required) -> bool:
+    """Whether it is as it is required. Of an error that could not be raised only what the project requires of it counts."""
+    verdict = verdict_of(cell)
+    return not cell.unmet and (verdict is None or required.met(cell.error, verdict, cell.point))
 
 
 def verdict_of(cell: Cell) -> Verdict | None:
@@ -109,21 +114,20 @@ def sweep_text(result: SweepResult) -> list[str]:
 
 def _required_text(result: SweepResult) -> list[str]:
     """What is not as it is required, and how many are."""
-    judged = [(cell, cell.reaction) for cell in result.cells if cell.reaction is not None]
     rows = [("ERROR", "STATE", "REQUIRED", "OUTCOME", "WHY")]
-    for cell, reaction in judged:
+    for cell in result.cells:
         rows += [
-            (cell.error, cell.point, each.text, OUTCOMES[each.outcome], evidence(each))
-            for each in reaction.required
+            (cell.error, cell.point, each.text, outcome_of(each), evidence(each))
+            for each in cell.required
             if each.outcome != "passed"
         ]
         rows += [
             (cell.error, cell.point, "no unexpected restart", "failed", restarted(each))
-            for each in unexpected(reaction)
+            for each in unexpected(cell.reaction)
         ]
     told = result.outcomes()
-    counts = ", ".join(f"{told[outcome]} {word}" for outcome, word in OUTCOMES.items() if told[outcome])
-    restarts = sum(len(unexpected(reaction)) for _, reaction in judged)
+    counts = ", ".join(f"{told[word]} {word}" for word in (*OUTCOMES.values(), NOT_TRIED) if told[word])
+    restarts = sum(len(unexpected(cell.reaction)) for cell in result.cells)
     ends = [f"requirements: {counts}"] if counts else []
     ends += [count(restarts, "unexpected restart")] if restarts else []
     return ["", *(table(rows) if len(rows) > 1 else []), *ends] if ends else []
@@ -174,6 +178,16 @@ def sweep_json(result: SweepResult) -> dict[str, object]:
             for verdict in get_args(Verdict)
             if (number := sum(verdict_of(cell) == verdict for cell in result.cells))
         },
+        "problems": [
+            {
+                "file": each.span.file,
+                "line": each.span.line,
+                "column": each.span.column,
+                "code": each.code,
+                "message": each.message,
+            }
+            for each in result.problems
+        ],
         "results": [_cell_json(result, cell) for cell in result.cells],
     }
 
@@ -185,7 +199,7 @@ def _cell_json(result: SweepResult, cell: Cell) -> dict[str, object]:
         "severity": entry.severity, "state": cell.point,
         "verdict": verdict_of(cell), "scans": None, "first_read": None, "window": 0, "readers": [], "reads": [],
         "differences": [], "difference_count": 0, "handler_lines": [], "note": cell.note, "basis": "", "carried": [],
-        "decided_by": [], "displayed": [], "unreached": [], "required": [], "restarts": [], "recovery": 0, "reason": reason(cell),
+        "decided_by": [], "displayed": [], "unreached": [], "required": [asdict(each) for each in cell.required], "restarts": [], "recovery": 0, "reason": reason(cell),
     }  # fmt: skip
     if reaction is not None:
         about |= {
@@ -197,7 +211,6 @@ def _cell_json(result: SweepResult, cell: Cell) -> dict[str, object]:
             "basis": reaction.basis, "carried": [asdict(each) for each in reaction.carried],
             "decided_by": list(reaction.decided_by), "displayed": list(reaction.displayed),
             "unreached": [asdict(each) for each in reaction.unreached],
-            "required": [asdict(each) for each in reaction.required],
             "restarts": [asdict(each) for each in reaction.restarts], "recovery": reaction.recovery,
         }  # fmt: skip
     return about
@@ -266,39 +279,49 @@ def _differed(told: Mapping[str, object]) -> tuple[frozenset[str] | None, frozen
 
 
 def sweep_junit(result: SweepResult, severities: Sequence[Severity], required: Required = REQUIRED) -> str:
-    """A test case for each error and state; it fails where an error of these severities did less than is required."""
+    """A test case for each error and state; it fails where an error of these severities did less than is required. One more for each
+    mistake in what is required: it fails."""
     failed = result.unhandled(severities, required)
-    skipped = [cell for cell in result.cells if cell.reaction is None]
-    numbers = {"tests": len(result.cells), "failures": len(failed), "skipped": len(skipped), "errors": 0}
+    skipped = [cell for cell in result.cells if cell.reaction is None and cell not in failed]
+    numbers = {
+        "tests": len(result.cells) + len(result.problems), "failures": len(failed) + len(result.problems),
+        "skipped": len(skipped), "errors": 0,
+    }  # fmt: skip
     totals = {name: str(number) for name, number in numbers.items()}
     root = etree.Element("testsuites", totals)
     suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{result.project} on {result.model}"), **totals})
     for cell in result.cells:
-        entry = result.entry(cell)
         name = f"{cell.error} ({result.code(cell.error)})"
-        case = etree.SubElement(
-            suite, "testcase", {"classname": xml_text(f"{result.model}.{cell.point}"), "name": name}
-        )
-        if cell.reaction is None:
-            etree.SubElement(case, "skipped", {"message": xml_text(cell.note)})
-        elif cell in failed:
-            about = {"message": xml_text(_failure(entry, cell, cell.reaction, required)), "type": cell.reaction.verdict}
-            told = "\n".join((reason(cell), *required_lines(cell.reaction)))
+        about = {"classname": xml_text(f"{result.model}.{cell.point}"), "name": name}
+        case = etree.SubElement(suite, "testcase", about)
+        if cell in failed:
+            about = {
+                "message": xml_text(_failure(result.entry(cell), cell, required)),
+                "type": verdict_of(cell) or "not_tried",
+            }
+            told = "\n".join((reason(cell), *required_lines(cell)))
             etree.SubElement(case, "failure", about).text = xml_text(told)
+        elif cell.reaction is None:
+            etree.SubElement(case, "skipped", {"message": xml_text(cell.note)})
         else:
-            told = "\n".join((f"{WORDS[verdict_of(cell)]}: {reason(cell)}", *required_lines(cell.reaction)))
+            told = "\n".join((f"{WORDS[verdict_of(cell)]}: {reason(cell)}", *required_lines(cell)))
             etree.SubElement(case, "system-out").text = xml_text(told)
+    for problem in result.problems:
+        at = {"classname": xml_text(problem.span.file), "name": f"line {problem.span.line}"}
+        case = etree.SubElement(suite, "testcase", at)
+        etree.SubElement(
+            case, "failure", {"message": xml_text(f"{NOT_TRIED}: {problem.message}"), "type": problem.code}
+        )
     return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
 
 
-def _failure(entry: ErrorEntry, cell: Cell, reaction: Reaction, required: Required) -> str:
+def _failure(entry: ErrorEntry, cell: Cell, required: Required) -> str:
     """What a build server shows first."""
-    said = [f"{entry.severity} error: {WORDS[verdict_of(cell)]}"]
+    verdict = verdict_of(cell)
+    said = [f"{entry.severity} error: {WORDS[verdict]}"]
     wanted = required.of(cell.error, cell.point)
-    if wanted is not None and not required.met(cell.error, reaction.verdict, cell.point):
+    if wanted is not None and verdict is not None and not required.met(cell.error, verdict, cell.point):
         said.append(f"required: {WORDS[wanted]}")
-    said += [
-        f"{OUTCOMES[each.outcome]}: {each.text}" for each in reaction.required if each.is_finding and not is_grade(each)
-    ]
-    said += [restarted(each) for each in unexpected(reaction)]
+    said += [f"{outcome_of(each)}: {each.text}" for each in cell.required if each.is_finding and not is_grade(each)]
+    said += [restarted(each) for each in unexpected(cell.reaction)]
     return "; ".join(said)

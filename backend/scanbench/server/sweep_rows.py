@@ -68,7 +68,11 @@ def cell_of(found: CellFound) -> CellRow:
     """As it is kept."""
     reaction = found.reaction
     if reaction is None:
-        return CellRow(found.error, found.point, found.scan, None, note=found.note)
+        unmet = sum(each.is_finding for each in found.untried)
+        return CellRow(
+            found.error, found.point, found.scan, None, note=found.note, required=len(found.untried), unmet=unmet,
+            untried=found.untried,
+        )  # fmt: skip
     return CellRow(
         found.error, found.point, found.scan, reaction.verdict, reaction.first_read, reaction.first_effect,
         reaction.difference_count, reaction.note or found.note, to_json(reaction),

@@ -23,7 +23,7 @@ from scanbench.server.kept import unreadable
 from scanbench.server.states import NOW, States
 from scanbench.server.sweep_rows import VERDICTS, cell_of, outcomes_of, rows_of, rows_planned
 from scanbench.session.session import Session
-from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus
+from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepProblem, SweepRow, SweepStatus
 from scanbench.store.store import Store
 from scanbench.typed import BadValue
 from scanbench.wire.events import SweepChanged
@@ -71,7 +71,7 @@ class _Running:
     task: "asyncio.Task[None] | None" = None
     now: str = ""
     fresh: list[CellRow] = field(default_factory=list)
-    planned: tuple[str, ...] = ()
+    planned: SweepPlanned | None = None
     """What it raises, as long as that is not kept."""
     told: int = 0
     """When its progress was last reported to everybody."""
@@ -90,7 +90,7 @@ class _Running:
             case CellFound():
                 self.fresh.append(cell_of(part))
             case SweepPlanned():
-                self.planned = part.errors
+                self.planned = part
                 return True
         if monotonic_ns() - self.told < _TOLD_EVERY_NS:
             return False
@@ -220,7 +220,7 @@ class Sweeps:
                 await self._states.discard(row)
                 await asyncio.to_thread(self._store.sweeps.delete, row.id)
                 raise
-            self._run(row, points, sources, [])
+            self._run(row, points, sources, [], [each.name for each in known.values()])
         names = ", ".join(row.states)
         session.log.add(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
         return row
@@ -236,9 +236,10 @@ class Sweeps:
             if sources is None:
                 raise Refused(f"version {row.program_version} of the program is not kept any more: begin a new sweep")
             points = await self._points(row)
+            known = [each.name for each in await self._states.of_project(row.project)]
             cells = await asyncio.to_thread(self._store.sweeps.cells, id)
             change = partial(self._store.sweeps.change, id, status="running", message="", seconds=row.seconds)
-            self._run(await asyncio.to_thread(change), points, sources, cells)
+            self._run(await asyncio.to_thread(change), points, sources, cells, known)
         return await self.row(id)
 
     async def cancel(self, id: int) -> SweepRow:
@@ -320,11 +321,16 @@ class Sweeps:
                 raise Refused(f"the state {name} of this sweep is gone: begin a new one")
         return [StartPoint(name, str(path)) for name, path in files.items()]
 
-    def _run(self, row: SweepRow, points: Sequence[StartPoint], sources: Sources, done: Sequence[CellRow]) -> None:
+    def _run(
+        self, row: SweepRow, points: Sequence[StartPoint], sources: Sources, done: Sequence[CellRow],
+        known: Sequence[str],
+    ) -> None:  # fmt: skip
         running = self._running[row.id] = _Running(row, Job(self._cache), monotonic_ns(), row.seconds, sources)
         errors, pairs = tuple(each.id for each in row.errors), tuple((cell.error, cell.state) for cell in done)
         running.task = asyncio.get_running_loop().create_task(
-            self._follow(running, lambda ref: RunSweep(ref, sources, tuple(points), errors, row.window, pairs))
+            self._follow(
+                running, lambda ref: RunSweep(ref, sources, tuple(points), errors, row.window, pairs, tuple(known))
+            )
         )
 
     async def _stop(self, running: _Running, why: str) -> None:
@@ -376,8 +382,8 @@ class Sweeps:
         return status, message
 
     async def _keep(self, running: _Running) -> None:
-        planned, running.planned = running.planned, ()
-        if planned:
+        planned, running.planned = running.planned, None
+        if planned is not None:
             running.row = await asyncio.to_thread(_plan, self._store, running, planned)
         fresh, running.fresh = running.fresh, []
         if fresh:
@@ -395,7 +401,8 @@ class Sweeps:
         return "" if running is None else running.now
 
 
-def _plan(store: Store, running: _Running, planned: Sequence[str]) -> SweepRow:
+def _plan(store: Store, running: _Running, planned: SweepPlanned) -> SweepRow:
     """Keeps what the sweep raises as its rows."""
     model = model_for(model_of(running.sources), running.sources.files)
-    return store.sweeps.plan(running.row.id, rows_planned(model, running.row.errors, planned))
+    problems = [SweepProblem(each.span.line, each.span.column, each.message) for each in planned.problems]
+    return store.sweeps.plan(running.row.id, rows_planned(model, running.row.errors, planned.errors), problems)

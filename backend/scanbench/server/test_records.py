@@ -15,6 +15,7 @@ from scanbench.reports.record import (
     RecordAccepted,
     RecordCell,
     RecordHead,
+    RecordProblem,
     RecordSweep,
     TestRecord,
     make_record,
@@ -129,7 +130,16 @@ class Records:
             told |= {(cell.error, cell.state) for cell in cells}
             made = tuple(_record_cell(model, cell) for cell in cells)
             found.append(
-                RecordSweep(sweep.at, sweep.by, sweep.instance, sweep.status, sweep.window, sweep.states, made)
+                RecordSweep(
+                    sweep.at,
+                    sweep.by,
+                    sweep.instance,
+                    sweep.status,
+                    sweep.window,
+                    sweep.states,
+                    made,
+                    tuple(RecordProblem(each.line, each.column, each.message) for each in sweep.problems),
+                )
             )
         counts = Counter((key_for(model, error), state) for error, state in told)
         return found, [
@@ -191,7 +201,7 @@ def _record_cell(model: Model, cell: CellRow) -> RecordCell:
     key, details = key_for(model, cell.error), cell.error.partition(":")[2]
     note = "; ".join(filter(None, ("" if key == cell.error else details, cell.note)))
     return RecordCell(
-        key, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note, cell.required, cell.unmet
+        key, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, note, cell.required, cell.unmet, cell.untried
     )  # fmt: skip
 
 

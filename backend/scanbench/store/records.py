@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import ClassVar, Literal
 
+from scanbench.faults.reaction.reaction import RequiredResult
 from scanbench.public import Moment, Public
 
 Status = Literal["generated", "cleared"]
@@ -170,6 +171,15 @@ class SweptError(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class SweepProblem(Public):
+    """A mistake in what the project requires: what it says there was not tried."""
+
+    line: int
+    column: int
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
 class SweepRow:
     """Every error alone, from every state."""
 
@@ -193,6 +203,10 @@ class SweepRow:
     """Cells that are there, those without a verdict included."""
     counts: Mapping[str, int]
     """Cells by verdict, without those that have none."""
+    unmet: int = 0
+    """So much in all cells is not as it is required."""
+    problems: tuple[SweepProblem, ...] = ()
+    """Of the file with what is required; each is a finding."""
 
     @property
     def total(self) -> int:
@@ -216,9 +230,11 @@ class CellRow:
     reaction: Json | None = None
     """To be written; lists of cells come without, `Sweeps.reaction` gives it."""
     required: int = 0
-    """So many requirements were checked,"""
+    """So many requirements are about it,"""
     unmet: int = 0
-    """and so much is not as it is required. Both are counted in the reaction, and not kept."""
+    """and so much is not as it is required."""
+    untried: tuple[RequiredResult, ...] = ()
+    """Without a verdict: what is required, none of it checked."""
 
 
 @dataclass(frozen=True, slots=True)

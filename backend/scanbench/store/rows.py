@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import cast
+from typing import NamedTuple, cast
 
-from scanbench.faults.reaction.reaction import UNMET
+from scanbench.faults.reaction.reaction import RequiredResult
 from scanbench.store.records import (
     AcceptedRow,
     BuildRow,
@@ -12,7 +12,6 @@ from scanbench.store.records import (
     FileRow,
     HistoryRow,
     InstanceRow,
-    Json,
     Limits,
     LogRow,
     Origin,
@@ -22,6 +21,7 @@ from scanbench.store.records import (
     StateRow,
     Status,
     StoreError,
+    SweepProblem,
     SweepRow,
     SweepStatus,
     SweptError,
@@ -105,42 +105,57 @@ class _Swept:
 
     states: tuple[str, ...]
     errors: tuple[SweptError, ...]
+    problems: tuple[SweepProblem, ...] = ()
 
 
-def sweep(row: Sweep, counts: Mapping[str | None, int]) -> SweepRow:
-    """A sweep; `counts` are its cells by verdict. `UnreadableSweep` names it."""
+class Counted(NamedTuple):
+    """The cells of a sweep in numbers."""
+
+    verdicts: Mapping[str | None, int]
+    unmet: int
+
+
+NOTHING = Counted({}, 0)
+
+
+def sweep(row: Sweep, counted: Counted) -> SweepRow:
+    """A sweep. `UnreadableSweep` names one that cannot be read."""
     try:
-        swept = make_kept(_Swept, {"states": row.states, "errors": row.errors})
+        swept = make_kept(_Swept, {"states": row.states, "errors": row.errors, "problems": row.problems})
     except BadValue as error:
-        raise UnreadableSweep(
-            f"sweep {row.id} cannot be read: {error}. Use the version of Scanbench that kept it"
-        ) from error
+        raise _unreadable(row.id, error) from error
+    counts = counted.verdicts
     return SweepRow(
         id=row.id, project=row.project_id, instance_id=row.instance_id, instance=row.instance, model=row.model,
         program_version=row.program_version, by=row.by, at=row.at, status=cast(SweepStatus, row.status),
         message=row.message, window=row.window, states=swept.states,
         errors=swept.errors, seconds=row.seconds, done=sum(counts.values()),
         counts={verdict: count for verdict, count in counts.items() if verdict is not None},
+        unmet=counted.unmet, problems=swept.problems,
     )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class _Untried:
+    """What a cell keeps as JSON."""
+
+    untried: tuple[RequiredResult, ...]
 
 
 def cell(row: SweepCell) -> CellRow:
-    """A cell without its reaction, but with what of the requirements is in there."""
-    required, unmet = judged(row.reaction or {})
+    """A cell without its reaction."""
+    try:
+        untried = make_kept(_Untried, {"untried": row.untried}).untried if row.untried else ()
+    except BadValue as error:
+        raise _unreadable(row.sweep_id, error) from error
     return CellRow(
         row.error, row.state, row.raised_scan, row.verdict, row.first_read, row.first_effect, row.difference_count,
-        row.note, required=required, unmet=unmet,
+        row.note, required=row.required, unmet=row.unmet, untried=untried,
     )  # fmt: skip
 
 
-def judged(reaction: Json) -> tuple[int, int]:
-    """How many requirements a reaction has, and how much is not as it is required: as `Reaction.unmet`, of a reaction that may be
-    of any version."""
-    required, restarts = reaction.get("required"), reaction.get("restarts")
-    rows = [each for each in required if isinstance(each, dict)] if isinstance(required, list) else []
-    went = [each for each in restarts if isinstance(each, dict)] if isinstance(restarts, list) else []
-    unmet = sum(each.get("outcome") == "failed" or each.get("reason") in UNMET for each in rows)
-    return len(rows), unmet + sum(not each.get("allowed_by") for each in went)
+def _unreadable(sweep: int, why: BadValue) -> UnreadableSweep:
+    return UnreadableSweep(f"sweep {sweep} cannot be read: {why}. Use the version of Scanbench that kept it")
 
 
 def accepted(row: AcceptedFinding) -> AcceptedRow:

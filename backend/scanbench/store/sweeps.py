@@ -2,7 +2,7 @@
 
 import logging
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, fields
 
 from sqlalchemy import delete, func, select, update
 from sqlalchemy.exc import IntegrityError
@@ -18,6 +18,7 @@ from scanbench.store.records import (
     NameTaken,
     NotFound,
     StateRow,
+    SweepProblem,
     SweepRow,
     SweepStatus,
     SweptError,
@@ -25,7 +26,6 @@ from scanbench.store.records import (
 from scanbench.store.tables import AUTHOR, NAME, AcceptedFinding, ProgramState, Sweep, SweepCell
 
 log = logging.getLogger("scanbench")
-_COUNTED = ("reaction", "required", "unmet")
 
 
 class States(Repository):
@@ -103,7 +103,7 @@ class Sweeps(Repository):
             )  # fmt: skip
             session.add(made)
             session.flush()
-            return rows.sweep(made, {})
+            return rows.sweep(made, rows.NOTHING)
 
     def change(self, sweep: int, *, status: SweepStatus, message: str, seconds: float) -> SweepRow:
         """Sets the state of a sweep; `seconds` spent in all."""
@@ -113,11 +113,12 @@ class Sweeps(Repository):
             session.flush()
             return rows.sweep(row, _counts(session, [sweep])[sweep])
 
-    def plan(self, sweep: int, errors: Sequence[SweptError]) -> SweepRow:
-        """Sets what a sweep raises."""
+    def plan(self, sweep: int, errors: Sequence[SweptError], problems: Sequence[SweepProblem]) -> SweepRow:
+        """Sets what a sweep raises, and what is wrong with what is required."""
         with self._database.writing() as session:
             row = _sweep(session, sweep)
             row.errors = [asdict(each) for each in errors]
+            row.problems = [asdict(each) for each in problems]
             session.flush()
             return rows.sweep(row, _counts(session, [sweep])[sweep])
 
@@ -138,9 +139,10 @@ class Sweeps(Repository):
         with self._database.writing() as session:
             _sweep(session, sweep)
             for cell in cells:
-                told = {name: value for name, value in asdict(cell).items() if name not in _COUNTED}
                 reaction = None if cell.reaction is None else dict(cell.reaction)
-                session.merge(SweepCell(sweep_id=sweep, **told, reaction=reaction))
+                untried = [asdict(each) for each in cell.untried]
+                told = {each.name: getattr(cell, each.name) for each in fields(cell)}
+                session.merge(SweepCell(sweep_id=sweep, **told | {"reaction": reaction, "untried": untried}))
 
     def cells(self, sweep: int) -> list[CellRow]:
         """The cells in the order of errors and states, without their reactions."""
@@ -208,9 +210,12 @@ def _sweep(session: Session, id: int) -> Sweep:
     return found
 
 
-def _counts(session: Session, sweeps: Sequence[int]) -> dict[int, dict[str | None, int]]:
-    counts: dict[int, dict[str | None, int]] = {sweep: {} for sweep in sweeps}
-    columns = select(SweepCell.sweep_id, SweepCell.verdict, func.count()).where(SweepCell.sweep_id.in_(sweeps))
-    for sweep, verdict, count in session.execute(columns.group_by(SweepCell.sweep_id, SweepCell.verdict)):
-        counts[sweep][verdict] = count
-    return counts
+def _counts(session: Session, sweeps: Sequence[int]) -> dict[int, rows.Counted]:
+    verdicts: dict[int, dict[str | None, int]] = {sweep: {} for sweep in sweeps}
+    unmet = dict.fromkeys(sweeps, 0)
+    columns = select(SweepCell.sweep_id, SweepCell.verdict, func.count(), func.sum(SweepCell.unmet))
+    found = columns.where(SweepCell.sweep_id.in_(sweeps)).group_by(SweepCell.sweep_id, SweepCell.verdict)
+    for sweep, verdict, count, failed in session.execute(found):
+        verdicts[sweep][verdict] = count
+        unmet[sweep] += int(failed)
+    return {sweep: rows.Counted(verdicts[sweep], unmet[sweep]) for sweep in sweeps}

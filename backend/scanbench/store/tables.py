@@ -222,6 +222,7 @@ class Sweep(Base):
     window: Mapped[int]
     states: Mapped[list[str]] = mapped_column(JSON)
     errors: Mapped[list[dict[str, str]]] = mapped_column(JSON)
+    problems: Mapped[list[dict[str, object]]] = mapped_column(JSON, server_default="[]")
     seconds: Mapped[float] = mapped_column(Double)
 
 
@@ -239,6 +240,9 @@ class SweepCell(Base):
     first_effect: Mapped[int | None]
     difference_count: Mapped[int]
     note: Mapped[str] = mapped_column(Text)
+    required: Mapped[int] = mapped_column(server_default="0")
+    unmet: Mapped[int] = mapped_column(server_default="0")
+    untried: Mapped[list[dict[str, object]]] = mapped_column(JSON, server_default="[]")
     reaction: Mapped[dict[str, object] | None] = mapped_column(JSON(none_as_null=True), deferred=True)
 
 

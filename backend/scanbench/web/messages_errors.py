@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.faults.reaction.reaction import Verdict
-from scanbench.store.records import SweptError
+from scanbench.faults.reaction.reaction import RequiredResult, Verdict
+from scanbench.store.records import SweepProblem, SweptError
 from scanbench.web.messages_base import Id, Scan, Wire
 
 Severity = Literal["fatal", "nonfatal"]
@@ -249,6 +249,14 @@ class SweepSummary(Wire):
     window: int
     states: list[str]
     counts: dict[Verdict, int]
+    unmet: int = Field(
+        default=0,
+        description="so much in all cells is not as it is required, requirements that could not be tried counted",
+    )
+    problems: list[SweepProblem] = Field(
+        default_factory=list,
+        description="mistakes in required.reactions: what it says there was not tried; each is a finding",
+    )
     seconds: float = Field(description="spent so far")
 
 
@@ -268,8 +276,14 @@ class SweepCell(Wire):
     first_effect: int | None
     raised_scan: int
     difference_count: int
-    required: int = Field(default=0, description="so many required reactions of the project were checked")
-    unmet: int = Field(default=0, description="and so much is not as it is required, unexpected restarts counted")
+    required: int = Field(default=0, description="so many required reactions of the project are about it")
+    unmet: int = Field(
+        default=0,
+        description="and so much is not as it is required; unexpected restarts and what was not tried are counted",
+    )
+    untried: list[RequiredResult] = Field(
+        default_factory=list, description="without a verdict: what is required all the same, and why it was not tried"
+    )
     note: str
     accepted: Accepted | None = None
 

@@ -65,6 +65,7 @@ def _summary(row: SweepRow) -> dict[str, object]:
         "message": row.message, "done": row.done, "total": row.total, "window": row.window,
         "states": list(row.states), "seconds": round(row.seconds, 1),
         "counts": {verdict: row.counts.get(verdict, 0) for verdict in get_args(Verdict)},
+        "unmet": row.unmet, "problems": row.problems,
     }  # fmt: skip
 
 
@@ -73,5 +74,6 @@ def _cell(cell: CellRow, by_pair: Mapping[tuple[str, str], AcceptedRow]) -> dict
     return {
         "error": cell.error, "state": cell.state, "verdict": cell.verdict, "first_read": cell.first_read,
         "first_effect": cell.first_effect, "raised_scan": cell.raised_scan, "difference_count": cell.difference_count,
-        "required": cell.required, "unmet": cell.unmet, "note": cell.note, "accepted": None if row is None else accepted(row).model_dump(),
+        "required": cell.required, "unmet": cell.unmet, "untried": cell.untried,
+        "note": cell.note, "accepted": None if row is None else accepted(row).model_dump(),
     }  # fmt: skip

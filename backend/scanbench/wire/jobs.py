@@ -7,7 +7,8 @@ Nothing here changes a PLC.
 
 from dataclasses import dataclass
 
-from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.reaction import Reaction, RequiredResult
+from scanbench.problems import Problem
 from scanbench.wire.events import CheckOutcome
 from scanbench.wire.host import Sources
 
@@ -51,6 +52,8 @@ class RunSweep:
     window: int
     done: tuple[tuple[str, str], ...]
     """(error, name of the point)."""
+    known: tuple[str, ...] = ()
+    """Further states that the project has: what is required may name them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +117,8 @@ class SweepPlanned:
     ref: int
     errors: tuple[str, ...]
     """In the notation of the command line."""
+    problems: tuple[Problem, ...] = ()
+    """What is wrong with what the project requires."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +132,8 @@ class CellFound:
     """Before which it was raised."""
     reaction: Reaction | None
     note: str = ""
+    untried: tuple[RequiredResult, ...] = ()
+    """Without a reaction: what is required all the same."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -111,12 +111,14 @@ def rules(text: str, source: str = SOURCE) -> Rules:
 
 
 def found(
-    text: str, error: str, make: MakeObserved, states: tuple[str, ...] = ("Here",), source: str = SOURCE
-) -> Reaction:
+    text: str, error: str, make: MakeObserved, states: tuple[str, ...] = ("Here",), source: str = SOURCE, known: tuple[str, ...] = (),
+) -> Reaction:  # fmt: skip
     program = checked({"main.st": source})
     point = point_of(standing(program, make))
     made = Rules(program, read_requirements(text))
-    (cell, *_) = sweep(dict.fromkeys(states, point), [ref(error)], WINDOW, programs(program, make), rules=made)
+    (cell, *_) = sweep(
+        dict.fromkeys(states, point), [ref(error)], WINDOW, programs(program, make), rules=made, known=known
+    )
     assert cell.reaction is not None, cell
     return cell.reaction
 
@@ -170,25 +172,58 @@ def test_a_requirement_that_has_nothing_to_do_with_it_allows_none() -> None:
     assert not restart.allowed_by
 
 
-def test_a_state_is_written_in_any_case_and_a_misspelled_one_is_told() -> None:
+def test_a_state_is_written_in_any_case_and_a_misspelled_one_is_a_finding() -> None:
     there = found(
-        'battery-error in HERE: lamp\nbattery-error in "Hear", There: motor\n', "battery-error", MAKES["native"]
+        'battery-error in HERE: lamp\nbattery-error in "Hear", Here:\n  at least none\n  motor\n',
+        "battery-error",
+        MAKES["native"],
     )
-    assert [(each.text, each.outcome) for each in there.required] == [("lamp", "passed"), ("motor", "not_checked")]
-    assert "Did you mean `Here`?" in there.required[1].note
-    assert rules("all in HERE, Hear, Jam: lamp").unknown_states(["Here"]) == [
-        ("Hear", ("Here",)),
-        ("Jam", ()),
-    ]
+    *tried, wrong = there.required
+    assert [(each.text, each.outcome) for each in tried] == [
+        ("lamp", "passed"), ("at least none", "passed"), ("motor", "failed"),
+    ]  # fmt: skip
+    assert (wrong.text, wrong.reason, wrong.is_finding) == ("motor", "no_state", True)
+    assert wrong.note == "there is no state `Hear`. Did you mean `Here`?"
+    (jam,) = found("battery-error in Jam: lamp", "battery-error", MAKES["native"]).required
+    assert (jam.reason, jam.note) == ("no_state", "there is no state `Jam`. There are: `Here`.")
 
 
 def test_a_requirement_of_a_state_counts_there() -> None:
-    text = 'battery-error in There: lamp\nbattery-error in "Not at all": motor\n'
-    there = found(text, "battery-error", MAKES["native"], ("There",))
+    text = 'battery-error in There: lamp\nbattery-error in "Kept": motor\n'
+    there = found(text, "battery-error", MAKES["native"], ("There",), known=("There", "kept"))
     assert [(each.text, each.outcome, each.reason) for each in there.required] == [
         ("lamp", "passed", ""), ("motor", "not_checked", "other_state"),
     ]  # fmt: skip
     assert [each.text for each in there.required if each.is_finding] == []
+
+
+def test_what_could_not_be_raised_is_not_tried() -> None:
+    """Each requirement is named, with the reason, and is a finding. An error that is present in one state is tried in another one."""
+    made, make = checked({"main.st": SOURCE, "hardware.json": '{"version": 1, "fitted": []}'}), MAKES["native"]
+    live = standing(made, make)
+    points = {"Free": point_of(live)}
+    assert isinstance(live.submit(Generate("Ada", (ref("battery-error"),))), Entry)
+    live.run(2)
+    points["Low"] = point_of(live)
+    text = (
+        "battery-error: lamp\nbattery-error in Low: motor\nbattery-error: at least none\n"
+        "special-io-unit-error:unit=3:\n  at least acted\n  fan\nall in Lo: fan\n"
+    )
+    errors = [ref("battery-error"), ref("special-io-unit-error:unit=3")]
+    cells = sweep(points, errors, WINDOW, programs(made, make), rules=Rules(made, read_requirements(text)))
+    told = {(each.error, each.point): each for each in cells}
+    low = told["battery-error", "Low"]
+    assert low.reaction is None
+    assert [(each.text, each.reason) for each in low.required] == [("lamp", "present"), ("motor", "not_raised")]
+    assert low.unmet == ("motor",)
+    assert low.required[1].note == low.note
+    assert "already generated" in low.note
+    unfitted = told["special-io-unit-error:unit=3", "Free"]
+    assert [(each.text, each.reason) for each in unfitted.required] == [
+        ("at least acted", "not_raised"), ("fan", "not_raised"), ("fan", "no_state"),
+    ]  # fmt: skip
+    assert unfitted.unmet == ("at least acted", "fan", "fan")
+    assert unfitted.note
 
 
 @pytest.mark.parametrize(
@@ -236,16 +271,13 @@ def test_the_default_is_not_raised_twice() -> None:
     assert [each.source.text for each in made.of(ref("special-io-unit-error"), None)] == ["lamp"]
 
 
-def test_what_could_not_be_raised_is_told() -> None:
+def test_what_is_asked_for_and_not_fitted_is_raised_where_a_rule_names_it() -> None:
     text = (
         "battery-error: lamp\nbasic-io-error: motor\nspecial-io-unit-error:unit=3: fan\nmemory-error: at least none\n"
     )
     made, battery = rules(text), ref("battery-error")
     asked = ["battery-error", "special-io-unit-error", "memory-error"]
     assert made.raised([battery], asked) == [battery, ref("special-io-unit-error:unit=3")]
-    (problem,) = made.untried([battery, ref("special-io-unit-error:unit=4")], asked)
-    assert (problem.code, problem.span.line) == ("R001", 3)
-    assert made.untried([battery, ref("special-io-unit-error:unit=3")], asked) == []
 
 
 @pytest.mark.parametrize(

@@ -42,7 +42,7 @@ def elements(node: etree._Element) -> object:
     return made | within
 
 
-@pytest.mark.parametrize("version", ["1", "2", "3"])
+@pytest.mark.parametrize("version", ["1", "2", "3", "4", "5"])
 def test_a_golden_test_record_says_what_it_said(version: str) -> None:
     record = from_xml(text(f"record-{version}.xml"))
     assert isinstance(record, TestRecord)

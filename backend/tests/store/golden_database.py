@@ -56,6 +56,15 @@ PUMP = {
     ]}],
 }  # fmt: skip
 LOG = "scan,Main.level,Main.doubled,remark\n1,100,200,a\n2,100,200,b\n3,101,202,c\n"
+REQUIRED = """\
+battery-error:
+  at least acted
+  Main.lamp within 2 scans
+basic-io-error: Main.lamp within 2 scans
+basic-io-error in Idel: Main.lamp
+pump-hot: Main.lamp within 2 scans
+batery-error: Main.lamp
+"""
 ADA, BOB = {"scanbench_user": "Ada Lovelace"}, {"scanbench_user": "Bob Noyce"}
 
 
@@ -165,7 +174,7 @@ class Maker:
         states = [int(self.post(f"{self.at}/states", {"name": "Idle"})["id"])]
         assert browser.ask(type="write", path="Main.ready", value="TRUE")["ok"]
         states.append(int(self.post(f"{self.at}/states", {"name": "Ready"}, BOB)["id"]))
-        errors = ["battery-error", "basic-io-error", "io-bus-error", "fal"]
+        errors = ["battery-error", "basic-io-error", "io-bus-error", "fal", "pump-hot"]
         sweep = self.post(f"{self.at}/sweeps", {"states": states, "window": 20, "errors": errors})["id"]
         browser.wait(lambda: bool(self.call("GET", f"/api/sweeps/{sweep}")["status"] == "done"))
         accepted = {"error": "fal", "state": "Idle", "reason": "no such instruction is used"}
@@ -226,8 +235,9 @@ def drive(data: Path) -> None:
     store.close()
     with Server(data) as server:
         at = f"/api/projects/{project}"
-        saved = server.http.put(f"{at}/files/main.st", json={"text": PROGRAM, "version": 0}, params=ADA)
-        assert saved.is_success, saved.text
+        for path, text in {"main.st": PROGRAM, "required.reactions": REQUIRED}.items():
+            saved = server.http.put(f"{at}/files/{path}", json={"text": text, "version": 0}, params=ADA)
+            assert saved.is_success, saved.text
         errors = server.http.put(f"{at}/user-errors", json={"version": 0, "errors": [PUMP]}, params=ADA)
         assert errors.is_success, errors.text
         maker = Maker(server, project)

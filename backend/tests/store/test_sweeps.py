@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from scanbench.store.records import CellRow, NameTaken, NotFound, NotStorable, SweepRow, SweptError
+from scanbench.faults.reaction.reaction import RequiredResult
+from scanbench.store.records import CellRow, NameTaken, NotFound, NotStorable, SweepProblem, SweepRow, SweptError
 from scanbench.store.store import Store
 
 BATTERY = SweptError("battery-error", "Battery error", "00F7", "nonfatal", "PLC")
@@ -65,6 +66,22 @@ def test_a_sweep_fills_and_counts(store: Store, project: int) -> None:
     for ask in (store.sweeps.get, store.sweeps.cells, store.sweeps.delete):
         with pytest.raises(NotFound, match=f"no sweep {sweep.id}"):
             ask(sweep.id)
+
+
+def test_what_is_required_is_counted_without_the_reactions(store: Store, project: int) -> None:
+    sweep = begin(store, project)
+    untried = (RequiredResult("lamp", 3, "not_checked", reason="not_raised", note="it is not fitted"),)
+    failed = CellRow(
+        "battery-error", "filled", 7, "acted", reaction={"required": "of a newer version"}, required=3, unmet=2
+    )
+    refused = CellRow("memory-error", "filled", 7, None, note="it is not fitted", required=1, unmet=1, untried=untried)
+    store.sweeps.add_cells(sweep.id, [failed, refused, CellRow("memory-error", "empty", 7, "stopped", required=1)])
+    assert store.sweeps.cells(sweep.id)[0] == refused
+    assert store.sweeps.cells(sweep.id)[2] == replace(failed, reaction=None)
+    problem = SweepProblem(4, 1, "there is no error batery-error")
+    planned = store.sweeps.plan(sweep.id, [MEMORY, BATTERY], [problem])
+    (listed,) = store.sweeps.all(project)
+    assert (planned.unmet, planned.problems) == (listed.unmet, listed.problems) == (3, (problem,))
 
 
 def test_a_sweep_outlives_its_plc_but_not_its_project(store: Store, project: int) -> None:

@@ -5978,7 +5978,7 @@ export interface components {
             note: string;
             /**
              * Required
-             * @description Requirements that were checked,
+             * @description Requirements that are about it,
              */
             required: number;
             /**
@@ -5990,9 +5990,14 @@ export interface components {
             state: string;
             /**
              * Unmet
-             * @description and how much is not as it is required, unexpected restarts counted.
+             * @description and how much is not as it is required: unexpected restarts and what was not tried are counted.
              */
             unmet: number;
+            /**
+             * Untried
+             * @description Without a verdict: what is required all the same, and why it was not tried.
+             */
+            untried: components["schemas"]["RequiredResult"][];
             /**
              * Verdict
              * @description None: it could not be raised, `note` says why.
@@ -6105,6 +6110,18 @@ export interface components {
             text: string;
         };
         /**
+         * RecordProblem
+         * @description A mistake in what the project requires: what it says there was not tried.
+         */
+        RecordProblem: {
+            /** Column */
+            column: number;
+            /** Line */
+            line: number;
+            /** Message */
+            message: string;
+        };
+        /**
          * RecordSummary
          * @description The record in numbers.
          */
@@ -6123,7 +6140,7 @@ export interface components {
             generated: number;
             /**
              * Open
-             * @description And those that were not.
+             * @description And those that were not; mistakes in what the project requires counted.
              */
             open: number;
             /**
@@ -6154,6 +6171,11 @@ export interface components {
             cells: components["schemas"]["RecordCell"][];
             /** Instance */
             instance: string;
+            /**
+             * Problems
+             * @description Each is a finding.
+             */
+            problems: components["schemas"]["RecordProblem"][];
             /** States */
             states: string[];
             /**
@@ -6258,7 +6280,7 @@ export interface components {
              * Reason
              * @enum {string}
              */
-            reason: "" | "stopped" | "window" | "invalid" | "ended" | "not_recovered" | "other_state";
+            reason: "" | "stopped" | "window" | "invalid" | "ended" | "not_recovered" | "other_state" | "not_raised" | "no_state" | "present";
             /**
              * Recovery
              * @description It counts from the recovery on.
@@ -6684,6 +6706,11 @@ export interface components {
             message: string;
             /** Model */
             model: string;
+            /**
+             * Problems
+             * @description mistakes in required.reactions: what it says there was not tried; each is a finding
+             */
+            problems?: components["schemas"]["SweepProblem"][];
             /** Program Version */
             program_version: number;
             /** Project */
@@ -6702,6 +6729,12 @@ export interface components {
             status: "running" | "done" | "cancelled" | "interrupted" | "failed";
             /** Total */
             total: number;
+            /**
+             * Unmet
+             * @description so much in all cells is not as it is required, requirements that could not be tried counted
+             * @default 0
+             */
+            unmet: number;
             /** Window */
             window: number;
         };
@@ -6723,7 +6756,7 @@ export interface components {
             raised_scan: number;
             /**
              * Required
-             * @description so many required reactions of the project were checked
+             * @description so many required reactions of the project are about it
              * @default 0
              */
             required: number;
@@ -6731,10 +6764,15 @@ export interface components {
             state: string;
             /**
              * Unmet
-             * @description and so much is not as it is required, unexpected restarts counted
+             * @description and so much is not as it is required; unexpected restarts and what was not tried are counted
              * @default 0
              */
             unmet: number;
+            /**
+             * Untried
+             * @description without a verdict: what is required all the same, and why it was not tried
+             */
+            untried?: components["schemas"]["RequiredResult"][];
             /**
              * Verdict
              * @description null: it could not be raised, `note` says why
@@ -6804,6 +6842,18 @@ export interface components {
             severity: "fatal" | "nonfatal";
         };
         /**
+         * SweepProblem
+         * @description A mistake in what the project requires: what it says there was not tried.
+         */
+        SweepProblem: {
+            /** Column */
+            column: number;
+            /** Line */
+            line: number;
+            /** Message */
+            message: string;
+        };
+        /**
          * SweepProgress
          * @description A sweep of this project began, went on or ended; `cells` are those that are new since the last message.
          */
@@ -6847,6 +6897,11 @@ export interface components {
             message: string;
             /** Model */
             model: string;
+            /**
+             * Problems
+             * @description mistakes in required.reactions: what it says there was not tried; each is a finding
+             */
+            problems?: components["schemas"]["SweepProblem"][];
             /** Program Version */
             program_version: number;
             /** Project */
@@ -6865,6 +6920,12 @@ export interface components {
             status: "running" | "done" | "cancelled" | "interrupted" | "failed";
             /** Total */
             total: number;
+            /**
+             * Unmet
+             * @description so much in all cells is not as it is required, requirements that could not be tried counted
+             * @default 0
+             */
+            unmet: number;
             /** Window */
             window: number;
         };

@@ -28,7 +28,6 @@ from scanbench.faults.reaction.reaction import (
 from scanbench.faults.reaction.readings import Readings
 from scanbench.faults.reaction.required_rules import Made, Rules
 from scanbench.faults.reaction.required_run import RequiredRun, stopped
-from scanbench.faults.reaction.required_watch import not_checked
 from scanbench.faults.reaction.state_readers import StateReaders
 from scanbench.faults.reaction.states import Trace
 from scanbench.faults.reaction.steps import (
@@ -43,6 +42,7 @@ from scanbench.faults.reaction.steps import (
     state_words,
 )
 from scanbench.faults.reaction.tasks import Turns, triggers
+from scanbench.faults.reaction.untried import by_hand
 from scanbench.faults.reference import ErrorRef, covers, find_error
 from scanbench.problems import Span
 from scanbench.program.program import Program
@@ -90,9 +90,7 @@ def react(
     if isinstance(found, Refusal):
         return Refusal(f"{found.message} ({rest.note})" if rest.note else found.message)
     if rules is not None:
-        note = "a PLC that somebody works with is in none of the states of a sweep"
-        elsewhere = not_checked(rules.elsewhere(ref, ()), "other_state", note)
-        found = replace(found, required=(*found.required, *elsewhere))
+        found = replace(found, required=(*found.required, *by_hand(rules, ref)))
     return replace(found, note="; ".join(filter(None, (found.note, *notes))))
 
 

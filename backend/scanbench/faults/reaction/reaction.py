@@ -111,12 +111,17 @@ class Unreached(Public):
 
 
 Outcome = Literal["passed", "failed", "not_checked"]
-Unchecked = Literal["", "stopped", "window", "invalid", "ended", "not_recovered", "other_state"]
+Unchecked = Literal[
+    "", "stopped", "window", "invalid", "ended", "not_recovered", "other_state", "not_raised", "no_state", "present"
+]
 """Why a requirement was not checked. stopped: the PLC stops with this error, as the model says. window: the window is too short for it.
 invalid: it does not fit the program. ended: the comparison ended before. not_recovered: the error could not be recovered.
-other_state: it counts in states only that the sweep does not begin from."""
+other_state: it counts in states only that the sweep does not begin from. not_raised: the error could not be raised. no_state: it counts
+in a state that there is not. present: the error was there already, and another state tried it."""
 
-UNMET: tuple[Unchecked, ...] = ("window", "invalid", "ended", "not_recovered")
+UNTRIED: tuple[Unchecked, ...] = ("not_raised", "no_state", "present")
+"""The error did not come, so nothing was run."""
+UNMET: tuple[Unchecked, ...] = ("window", "invalid", "ended", "not_recovered", "not_raised", "no_state")
 """Nobody knows, though the program could have been asked: a finding like one that failed."""
 
 

@@ -1,8 +1,7 @@
 """What a project requires of its errors (`required.reactions`), on one program: names looked up, conditions checked."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import get_args
 
 from scanbench.check.typed.condition import BadCondition, joined, parsed
@@ -84,16 +83,6 @@ class Rules:
     def __bool__(self) -> bool:
         return bool(self._rules)
 
-    def unknown_states(self, known: Collection[str]) -> list[tuple[str, tuple[str, ...]]]:
-        """The states that rules name and that are none of these, with names that were perhaps meant."""
-        named = dict.fromkeys(state for rule in self._rules for state in rule.states)
-        there = {each.casefold(): each for each in known}
-        return [
-            (state, tuple(there[each] for each in get_close_matches(state.casefold(), there)))
-            for state in named
-            if state.casefold() not in there
-        ]
-
     def raised(self, errors: Sequence[ErrorRef], asked: Collection[str] = ()) -> list[ErrorRef]:
         """What a sweep raises: these, and of the same errors those with details that rules name. Of what was asked for and
         is not among them, as it is not fitted, what rules name: so it is seen that it cannot be raised."""
@@ -111,16 +100,6 @@ class Rules:
                 found.setdefault(self._whole(rule.ref), rule.ref)
         return list(found.values())
 
-    def untried(self, tried: Sequence[ErrorRef], asked: Collection[str]) -> list[Problem]:
-        """The rules about one of the errors that were asked for, when none of it could be tried."""
-        return [
-            Problem(CODE, f"`{rule.ref}` could be raised in no state, so nothing that is required of it is checked. Is it fitted?",
-                    rule.span, Severity.WARNING)
-            for rule in self._rules
-            if rule.ref is not None and rule.wants and rule.ref.id in asked
-            and not any(self._is_about(rule, ref) for ref in tried)
-        ]  # fmt: skip
-
     def of(self, ref: ErrorRef, state: str | None) -> tuple[Made, ...]:
         """What must happen when this error comes in this state (None: whichever it is); of grades the one that is most about it."""
         rules = [each for each in self._rules if self._is_about(each, ref) and _in(each, state)]
@@ -130,14 +109,11 @@ class Rules:
             made for number, rule in enumerate(rules) for made in rule.made if made.grade is None or number == best
         )
 
-    def elsewhere(self, ref: ErrorRef, states: Iterable[str]) -> tuple[Made, ...]:
-        """What is required of it in states that are none of these."""
-        known = {each.casefold() for each in states}
-        return tuple(
-            made for rule in self._rules
-            if rule.states and not any(each.casefold() in known for each in rule.states) and self._is_about(rule, ref)
-            for made in rule.made
-        )  # fmt: skip
+    def by_states(self, ref: ErrorRef) -> Iterator[tuple[tuple[str, ...], tuple[Made, ...]]]:
+        """What is required of it in certain states only, with these states."""
+        for rule in self._rules:
+            if rule.states and self._is_about(rule, ref):
+                yield rule.states, rule.made
 
     def grade(self, ref: ErrorRef, state: str | None) -> Wanted | None:
         """The grade that it has to have at least; None: the file does not say."""
@@ -164,7 +140,8 @@ class Rules:
         ref = parse_reference(self.program.layout.model, word)
         ref = ref if isinstance(ref, Refusal) else settled(self.program, ref)
         if isinstance(ref, Refusal):
-            self._problem(rule.error.span, f"{ref.message}; or write one of {', '.join(GROUPS)}")
+            said = ref.message if ref.message.endswith(("?", ".")) else f"{ref.message}."
+            self._problem(rule.error.span, f"{said} Or write one of {', '.join(GROUPS)}.")
             return None
         return _About(ref, "", states, tuple(map(self._made, rule.requirements)), rule.error.span)
 
