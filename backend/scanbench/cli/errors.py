@@ -25,7 +25,6 @@ from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.requirements import BadRequirements, Grades, read_requirements, wanted_of
 from scanbench.cli.run_options import read_interval
-from scanbench.cli.side_by_side import sweep_side_by_side
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state, while_present
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.reaction.choices import Choices
@@ -33,6 +32,7 @@ from scanbench.faults.reaction.compare import Outcome, compare
 from scanbench.faults.reaction.reaction import UNTRIED, WINDOW
 from scanbench.faults.reaction.required import Required
 from scanbench.faults.reaction.required_rules import Rules, rules_of
+from scanbench.faults.reaction.side_by_side import sweep_side_by_side
 from scanbench.faults.reaction.steps import Point
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.faults.reference import ErrorRef, error_of, find_error

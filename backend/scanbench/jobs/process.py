@@ -21,8 +21,8 @@ from scanbench.engines.lifeline import end_with_parent
 from scanbench.faults.raised_numbers import RaisedNumber, raised_numbers
 from scanbench.faults.reaction.choices import Choices
 from scanbench.faults.reaction.required_rules import problems_of, rules_of
+from scanbench.faults.reaction.side_by_side import Died, cores, sweep_side_by_side
 from scanbench.faults.reaction.steps import Point
-from scanbench.faults.reaction.sweep import sweep
 from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.host.program_cache import keep, key_of, recall
 from scanbench.host.run_files import programs_by
@@ -68,7 +68,7 @@ _TELL_EVERY_NS = 250_000_000
 _PROGRAMS = 4
 """Checked programs that stay in memory."""
 Request = FindReaction | RunSweep | RecordRetrospective | Check | verify_job.Request | history_job.Request
-_REFUSALS = (Unreadable, NoProgram, RunFileError, OSError)
+_REFUSALS = (Unreadable, NoProgram, RunFileError, Died, OSError)
 
 
 class Job:
@@ -191,7 +191,10 @@ class Job:
         programs = cached({ask.sources.version: program}, observed(self._flavours.observed))
         self._say(SweepPlanned(ask.ref, tuple(map(str, errors)), tuple(rules.problems)))
         on_try = self._telling(Trying, ask.ref)
-        for cell in sweep(points, errors, ask.window, programs, set(ask.done), on_try, rules, ask.known):
+        cells = sweep_side_by_side(
+            points, errors, ask.window, programs, _sweeping(), rules, set(ask.done), ask.known, on_try
+        )
+        for cell in cells:
             yield CellFound(ask.ref, cell.error, cell.point, scans[cell.point], cell.reaction, cell.note, cell.untried)
 
     def _point(self, name: str, run: Path, sources: Sources) -> Point:
@@ -229,6 +232,13 @@ class Job:
     def _say(self, message: object) -> None:
         self._answers.write(pack(message))
         self._answers.flush()
+
+
+def _sweeping() -> int:
+    """So many processes try errors. All have the niceness of this one, so a PLC that wakes up for a scan takes its core from them at once:
+    two of them do no harm to a PLC on two cores. Where there are more, one core stays free of them: niceness does not give back
+    what they take of caches and memory."""
+    return max(2, cores() - 1) if cores() > 1 else 1
 
 
 def _words(why: Exception) -> str:

@@ -8,15 +8,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from scanbench.cli.side_by_side import sweep_side_by_side
-from scanbench.cli.sweep_states import START, run_state
-from scanbench.engines.interpreter.observed import observed_engine
-from scanbench.faults.reaction.sweep import sweep
-from scanbench.faults.reference import ErrorRef
-from scanbench.recording.programs import cached, observed
 from scanbench.wire.host import Sources
 from tests.cli.calling import scanbench
-from tests.faults.reacting import checked
 
 ERRORS = import_module("scanbench.cli.errors")  # of the package, `errors` is the command
 SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))
@@ -441,18 +434,6 @@ def test_the_projects_own_errors_are_swept_too(project: Path) -> None:
         broken = scanbench("errors", command, str(project))
         assert broken.returncode == 1
         assert broken.stderr.startswith("errors.xml:4:5: M002 ")
-
-
-def test_side_by_side_the_cells_are_the_same() -> None:
-    """In the same order, with more than one process."""
-    made = checked({"main.st": SOURCE})
-    programs = cached({1: made}, observed(observed_engine))
-    begin = run_state(START, made, observed_engine, 1)
-    points = {"a": begin, "b": begin}
-    errors = [ErrorRef(each.id) for each in made.layout.model.errors()]
-    alone = list(sweep(points, errors, 5, programs))
-    assert list(sweep_side_by_side(points, errors, 5, programs, 2)) == alone
-    assert len(alone) >= 40
 
 
 REQUIRED = """battery-error:

@@ -400,10 +400,10 @@ def test_json_that_is_no_reaction(change: dict[str, object], says: str) -> None:
     ("old", "new", "line", "says"),
     [
         (
-            'Version="4"',
             'Version="5"',
+            'Version="6"',
             2,
-            "of Version 5, and this Scanbench reads Version 1, 2, 3 and 4: bring it in with the version",
+            "of Version 6, and this Scanbench reads Version 1, 2, 3, 4 and 5: bring it in with the version",
         ),
         ('ProgramVersion="3"', 'ProgramVersion="three"', 2, "three"),
         ('ProgramVersion="3"', 'ProgramVersion="-1"', 2, "-1"),

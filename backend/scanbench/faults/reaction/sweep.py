@@ -55,11 +55,17 @@ def sweep(
     All points are of one program. Details that are not given are the catalogue's defaults. The run without an error is run once
     for each point. What `rules` require is checked in the same runs; `known` are further states that they may name.
     """
-    left = [(error, name) for error in errors for name in points if (str(error), name) not in done]
     sweeper = Sweeper(points, window, programs, rules, known)
-    for ref, name in left:
+    for ref, name in pairs_of(points, errors, done):
         on_try(str(ref), name)
         yield sweeper.cell(ref, name)
+
+
+def pairs_of(
+    points: Collection[str], errors: Sequence[ErrorRef], done: Collection[tuple[str, str]]
+) -> list[tuple[ErrorRef, str]]:
+    """What a sweep tries, in its order."""
+    return [(error, name) for error in errors for name in points if (str(error), name) not in done]
 
 
 class Sweeper:
