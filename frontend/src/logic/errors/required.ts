@@ -74,7 +74,10 @@ function bare(text: string): string[] {
 
 /** Whether it is not as the project requires it. */
 export const isUnmet = ({ outcome, reason }: Required): boolean =>
-  outcome === "failed" || ["window", "invalid", "ended", "not_recovered"].includes(reason);
+  outcome === "failed" || ["window", "invalid", "ended", "not_recovered", "not_raised", "no_state"].includes(reason);
+
+/** Whether nothing was run for it, as the error did not come. */
+export const isUntried = ({ reason }: Required): boolean => ["not_raised", "no_state", "present"].includes(reason);
 
 /** The scan and the values that decided it, or why nothing was checked. */
 export function evidenceOf({ outcome, scan, recovery, values, note, reason }: Required): string {

@@ -57,6 +57,8 @@ function sweep(cells: SweepCell[], more: Partial<Sweep> = {}): Sweep {
     window: 200,
     states: ["Idle", "Running"],
     counts: {},
+    unmet: 0,
+    problems: [],
     seconds: 2,
     errors: [
       error("memory", "Fatal", "fatal"),
@@ -98,7 +100,7 @@ describe("matrixRows", () => {
   it("shows a result once when it is the same in all states", () => {
     const rows = matrixRows(full, ALL);
     expect(rowOf(rows, "memory").line).toEqual({ what: "stopped" });
-    expect(rowOf(rows, "setup").line).toEqual({ what: "note", note: "Not on this model" });
+    expect(rowOf(rows, "setup").line).toEqual({ what: "note", note: "Not on this model", unmet: false });
     expect(rowOf(rows, "battery").line).toBeNull();
   });
 

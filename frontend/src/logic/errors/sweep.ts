@@ -44,7 +44,10 @@ type Pending = "running" | "waiting" | "missing";
 export type Slot = SweepCell | Pending;
 
 /** What all cells of a row have in common; the row shows it once. */
-type Line = { what: "stopped" } | { what: "note"; note: string } | { what: Exclude<Pending, "running"> };
+type Line =
+  | { what: "stopped" }
+  | { what: "note"; note: string; unmet: boolean }
+  | { what: Exclude<Pending, "running"> };
 
 export interface ErrorRow {
   kind: "error";
@@ -134,10 +137,13 @@ function lineOf(slots: readonly Slot[]): Line | null {
   const [first] = slots;
   if (first === undefined || first === "running") return null;
   if (!isCell(first)) return slots.every((slot) => slot === first) ? { what: first } : null;
-  const same = slots.every((slot) => isCell(slot) && slot.verdict === first.verdict && slot.note === first.note);
+  const same = slots.every(
+    (slot) =>
+      isCell(slot) && slot.verdict === first.verdict && slot.note === first.note && slot.unmet > 0 === first.unmet > 0,
+  );
   if (!same) return null;
   if (first.verdict === "stopped") return { what: "stopped" };
-  return first.verdict === null ? { what: "note", note: first.note } : null;
+  return first.verdict === null ? { what: "note", note: first.note, unmet: first.unmet > 0 } : null;
 }
 
 interface Counts {

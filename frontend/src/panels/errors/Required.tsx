@@ -1,4 +1,4 @@
-import { evidenceOf, isUnmet, REQUIREMENTS } from "../../logic/errors/required";
+import { evidenceOf, isUnmet, isUntried, REQUIREMENTS } from "../../logic/errors/required";
 import { openFile } from "../../store/page/navigate";
 import { t } from "../../text";
 import { StateWord } from "../../ui/StateWord";
@@ -6,8 +6,10 @@ import type { Reaction } from "../../wire/types";
 import "./required.css";
 
 /** What the project requires when the error comes and goes, and what became of each requirement. */
-export function Required({ reaction }: { reaction: Reaction }) {
-  const { required, restarts } = reaction;
+export function Required({
+  required,
+  restarts = [],
+}: Pick<Reaction, "required"> & Partial<Pick<Reaction, "restarts">>) {
   if (required.length === 0 && restarts.length === 0) return null;
   return (
     <section className="required" aria-label={t("required.label")}>
@@ -51,5 +53,7 @@ export function Required({ reaction }: { reaction: Reaction }) {
 function lookOf(each: Reaction["required"][number]) {
   if (each.outcome === "passed") return { tone: "acted", icon: "check", word: t("required.passed") } as const;
   if (each.outcome === "failed") return { tone: "never_read", icon: "error", word: t("required.failed") } as const;
+  if (isUntried(each))
+    return { tone: isUnmet(each) ? "never_read" : "never", icon: "info", word: t("required.not_tried") } as const;
   return { tone: isUnmet(each) ? "displayed" : "never", icon: "info", word: t("required.not_checked") } as const;
 }

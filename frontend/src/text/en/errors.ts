@@ -265,6 +265,7 @@ export const errors = {
   "required.failed": "Failed",
   "required.label": "Required by the project",
   "required.not_checked": "Not checked",
+  "required.not_tried": "Not tried",
   "required.passed": "Passed",
   "required.reason.other_state": "It is about a state from which this run did not begin.",
   "required.reason.stopped": "The error is fatal: the PLC stops, as the model says.",

@@ -263,6 +263,7 @@ export const errors: Record<keyof typeof english, string> = {
   "required.failed": "不合格",
   "required.label": "プロジェクトの要求",
   "required.not_checked": "未確認",
+  "required.not_tried": "未実施",
   "required.passed": "合格",
   "required.reason.other_state": "この実行の開始点ではない状態に関する要求です。",
   "required.reason.stopped": "重大異常：モデルの仕様どおり PLC が停止します。",

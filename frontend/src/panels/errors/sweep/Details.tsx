@@ -54,12 +54,18 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
   const codeWord = useBench((bench) => bench.model?.code_word ?? "");
   const { byId, errors } = useCatalogueOf(sweep.model);
   const flag = byId.get(errorOf(error.id))?.flag ?? "";
-  if (cell.verdict === null) return <p className="muted">{inNames(errors, cell.note) || t("sweep.none.about")}</p>;
+  if (cell.verdict === null)
+    return (
+      <>
+        <p className="muted">{inNames(errors, cell.note) || t("sweep.none.about")}</p>
+        <Required required={cell.untried ?? []} />
+      </>
+    );
   return (
     <>
       <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>
       {cell.note && <p className="muted">{inNames(errors, cell.note)}</p>}
-      {reaction && <Required reaction={reaction} />}
+      {reaction && <Required {...reaction} />}
       {reaction && <Evidence reaction={reaction} onOpen={openFile} />}
       {reaction ? (
         <Facts reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />

@@ -129,6 +129,8 @@ function lookOf(slot: Slot): Look {
       title: t(`sweep.${slot}`),
     };
   const { verdict, note } = slot;
+  if (verdict === null && slot.unmet > 0)
+    return { icon: "error", tone: "unmet", word: t("required.not_tried"), title: note };
   if (verdict === null) return { icon: "never", tone: "dim", word: notRaised(note), title: note };
   if (slot.unmet > 0) {
     const unmet = slot.unmet === 1 ? t("sweep.unmet.one") : t("sweep.unmet", { count: slot.unmet });
@@ -162,6 +164,8 @@ function lookOfLine({ line, slots }: ErrorRow): Look {
       tone: "stopped",
       word: stoppedIn(slots.length),
     };
+  if (line?.what === "note" && line.unmet)
+    return { icon: "error", tone: "unmet", word: t("sweep.line.not_tried", { note: line.note }), title: line.note };
   if (line?.what === "note")
     return { icon: "never", tone: "dim", word: notRaised(line.note, line.note), title: line.note };
   return line?.what === "waiting"

@@ -5,7 +5,7 @@ import { button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { SweepSummary } from "../../../wire/types";
+import type { Reaction, SweepCell, SweepError, SweepSummary } from "../../../wire/types";
 import { SweepPage } from "./SweepPage";
 
 const sweepOf = (server: FakeServer, more: Partial<SweepSummary> = {}): SweepSummary => ({
@@ -25,6 +25,8 @@ const sweepOf = (server: FakeServer, more: Partial<SweepSummary> = {}): SweepSum
   window: 1000,
   states: ["Now"],
   counts: {},
+  unmet: 0,
+  problems: [],
   ...more,
 });
 
@@ -52,6 +54,60 @@ test("a sweep that somebody else began is in the list at once, with how far it i
     told(server, { done: 60, status });
     await waitFor(() => expect(line()).toContain(t(`sweep.status.${status}`)));
   }
+});
+
+test("what could not be tried is red, with the reason, and so is a mistake in what is required", async () => {
+  const { server, user } = await openSweeps((server) => {
+    const unit: SweepError = {
+      id: "unit:unit=3",
+      name: "Unit error (unit=3)",
+      code: "0303",
+      severity: "nonfatal",
+      group: "",
+    };
+    const note = "unit 3 is not fitted";
+    const rule: Reaction["required"][number] = {
+      text: "lamp within 2 scans",
+      line: 4,
+      outcome: "not_checked",
+      reason: "not_raised",
+      note,
+      recovery: false,
+      scan: null,
+      values: [],
+    };
+    const cell: SweepCell = {
+      error: unit.id,
+      state: "Now",
+      verdict: null,
+      first_read: null,
+      first_effect: null,
+      raised_scan: 7,
+      difference_count: 0,
+      required: 1,
+      unmet: 1,
+      note,
+      accepted: null,
+      untried: [rule],
+    };
+    server.on("GET", "/sweeps/*", () => ({
+      ...sweepOf(server, { status: "done", done: 1, total: 1 }),
+      problems: [{ line: 9, column: 1, message: "CJ1M knows no error 'batery-error'." }],
+      errors: [unit],
+      cells: [cell],
+    }));
+  });
+  told(server, { status: "done" });
+  await screen.findByRole("table", { name: t("sweep.tab.list") });
+  await user.click(list().getAllByRole("button")[0] as HTMLElement);
+  const problems = await screen.findByRole("list", { name: t("sweep.problems") });
+  expect(textOf(problems)).toContain("required.reactions:9");
+  expect(textOf(problems)).toContain("batery-error");
+  const wanted = t("sweep.line.not_tried", { note: "unit 3 is not fitted" });
+  expect((await screen.findByText(wanted)).closest(".unmet")).not.toBeNull();
+  const rules = within(screen.getByRole("region", { name: t("required.label") })).getByRole("listitem");
+  expect(textOf(rules)).toContain(t("required.not_tried"));
+  expect(textOf(rules)).toContain("lamp within 2 scans");
 });
 
 test("a colleague cancels it, and goes on with it", async () => {

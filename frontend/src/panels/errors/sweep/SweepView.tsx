@@ -6,6 +6,7 @@ import type { CellRef, Sweep } from "../../../wire/types";
 import { Counts } from "./Counts";
 import { Details } from "./Details";
 import { Matrix } from "./Matrix";
+import { Problems } from "./Problems";
 import { Progress } from "./Progress";
 
 /** One sweep: its progress, its findings, and the details of the selected cell. */
@@ -24,6 +25,7 @@ export function SweepView({ sweep }: { sweep: Sweep }) {
       <Progress sweep={sweep} />
       <Counts sweep={sweep} view={view} onView={setView} />
       {sweep.message && <p className="swnote muted">{sweep.message}</p>}
+      <Problems sweep={sweep} />
       <div className="swbody">
         <Matrix
           sweep={sweep}

@@ -42,7 +42,7 @@ function Facts({ error, reaction }: { error: ErrorInfo; reaction: Reaction }) {
   const { errors } = useCatalogue();
   return (
     <>
-      <Required reaction={reaction} />
+      <Required {...reaction} />
       {reaction.note && <p className="muted">{inNames(errors, reaction.note)}</p>}
       <Evidence reaction={reaction} onOpen={openFile} />
       {next && (
