@@ -11,9 +11,9 @@ import time
 from collections.abc import Sequence
 
 from scanbench.check.build import check_sources
-from scanbench.faults.reaction.side_by_side import sweep_side_by_side
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.reaction.choices import Choices
+from scanbench.faults.reaction.side_by_side import sweep_side_by_side
 from scanbench.faults.reaction.steps import Point, resource_at
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.hardware import Fitted

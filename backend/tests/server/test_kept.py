@@ -13,7 +13,7 @@ from scanbench.session.debugging import breakpoint_of
 from scanbench.session.tracing import Tracing
 from scanbench.store.kept import What
 from scanbench.store.records import Json, StoreError, WatchContent, WatchEntry
-from scanbench.store.rows import sweep, watch_list
+from scanbench.store.rows import NOTHING, sweep, watch_list
 from scanbench.store.store import Store
 from scanbench.store.tables import Sweep, WatchList
 from scanbench.verify.contract import Range
@@ -119,11 +119,16 @@ def test_a_trace_and_a_breakpoint(caplog: pytest.LogCaptureFixture) -> None:
 
 
 def test_a_sweep() -> None:
-    row = Sweep(id=3, states=["a"], errors=[{"id": "x", "name": "X", "code": "1", "severity": "mild", "group": "G"}])
+    row = Sweep(
+        id=3,
+        states=["a"],
+        errors=[{"id": "x", "name": "X", "code": "1", "severity": "mild", "group": "G"}],
+        problems=[],
+    )
     with pytest.raises(
         StoreError, match=r"sweep 3 cannot be read: errors: severity must be one of fatal, nonfatal.*Use the version"
     ):
-        sweep(row, {})
+        sweep(row, NOTHING)
 
 
 def test_the_lines_of_a_watch_list() -> None:
