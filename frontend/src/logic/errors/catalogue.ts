@@ -1,5 +1,6 @@
 /** The error catalogue as rows: filtered, folded, with three-state boxes and the known reactions. */
 import type { ErrorGroup, ErrorHistoryRow, ErrorInfo, ReactionState, Verdict } from "../../wire/types";
+import { idOf, isOf } from "../plc/errorInstances";
 
 export type ErrorStatus = ErrorHistoryRow["status"];
 /** Filters by the known reaction; a finding is something that the program missed: nobody read the error, or reading it had no effect. */
@@ -54,6 +55,12 @@ export interface CatalogueView {
   hardware?: boolean;
   armed: ReadonlySet<string>;
 }
+
+/** What decides which errors are shown. */
+export type FilterView = Pick<
+  CatalogueView,
+  "filter" | "status" | "severity" | "reaction" | "checked" | "history" | "instances"
+>;
 
 /** The details of a raised error (`location=io-table-checksum, slot=3`) with the texts of the catalogue. */
 export function detailsInWords(error: ErrorInfo | undefined, details: string): string {
@@ -162,7 +169,7 @@ function leafRow(
     code: status === "generated" && raised?.code ? raised.code : error.code,
     reaction: reactionOf(raised),
     swept: isSwept(raised),
-    armed: [...view.armed].some((text) => text === key || (key === error.id && text.startsWith(`${key}:`))),
+    armed: [...view.armed].some((text) => isOf(text, key)),
   };
 }
 
@@ -192,11 +199,17 @@ export const isFinding = (
 ): verdict is Exclude<Verdict, "acted" | "decided" | "reacted" | "stopped"> =>
   verdict !== null && !HANDLED.includes(verdict);
 
-function statusOf(id: string, view: CatalogueView): ErrorStatus {
+function statusOf(id: string, view: FilterView): ErrorStatus {
   return view.history.get(id)?.status ?? "never";
 }
 
-function passes(error: ErrorInfo, view: CatalogueView): boolean {
+/** What is ticked although the filters hide it: nothing of it is raised or recovered unseen. */
+export function hiddenKeys(errors: readonly ErrorInfo[], view: FilterView): string[] {
+  const shown = new Set(errors.filter((error) => passes(error, view)).map(({ id }) => id));
+  return [...view.checked].filter((key) => !shown.has(idOf(key)));
+}
+
+function passes(error: ErrorInfo, view: FilterView): boolean {
   if (view.status !== "all" && statusOf(error.id, view) !== view.status) return false;
   if (view.severity !== "all" && error.severity !== view.severity) return false;
   if (!reactionPasses(verdictOf(view.history.get(error.id)), view.reaction)) return false;

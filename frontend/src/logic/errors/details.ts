@@ -65,6 +65,10 @@ function first(detail: ErrorDetail): string {
   return isText(detail) ? "" : (detail.minimum ?? 0).toString(detail.base).toUpperCase();
 }
 
+/** Whether somebody typed something else than what is known. */
+export const isEdited = (error: ErrorInfo, typed: Entries, known: Entries): boolean =>
+  error.details.some(({ name }) => typed[name]?.text !== known[name]?.text);
+
 /** What is sent to the server for an entry, or why the entry is refused. The server checks again. */
 export function readEntry(detail: ErrorDetail, entry: Entry): Reading {
   if (detail.control === "List") return { value: entry.text, trouble: null };

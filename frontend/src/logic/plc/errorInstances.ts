@@ -9,6 +9,10 @@ export const isInstance = (key: string): boolean => key.includes(":");
 
 export const idOf = (key: string): string => key.split(":", 1)[0] ?? key;
 
+/** Whether a key is that of an instance, or of one of a kind. */
+export const isOf = (key: string, instanceOrKind: string): boolean =>
+  key === instanceOrKind || (!isInstance(instanceOrKind) && idOf(key) === instanceOrKind);
+
 /** The rows with those that changed; the row of a kind goes when its first instance is known. */
 export function withRows(before: Rows, changed: readonly ErrorHistoryRow[]): Map<string, ErrorHistoryRow> {
   const next = new Map(before);

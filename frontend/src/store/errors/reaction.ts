@@ -2,6 +2,7 @@
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
+import { keyOf } from "../../logic/plc/errorInstances";
 import { rest } from "../../wire/rest";
 import type { Reaction } from "../../wire/types";
 import { useBench } from "../plc/bench";
@@ -9,7 +10,7 @@ import { usePlc } from "../plc/plc";
 import { useSimulator } from "./simulator";
 
 interface Seen {
-  /** The error of the reaction; null when there is nothing to show. */
+  /** The error, or the instance, of the reaction; null when there is nothing to show. */
   id: string | null;
   reaction: Reaction | null;
   /** Why the reaction is not available. */
@@ -25,12 +26,13 @@ let shown = "";
 /** The reaction is requested again when this changes: the error, when it was raised, the PLC or the program. */
 function wanted(): { key: string; instance: number; id: string } | null {
   const { selected } = useSimulator.getState();
-  const { errors, state } = usePlc.getState();
+  const { errors, instances, state } = usePlc.getState();
   const instance = useBench.getState().instance?.id;
-  const row = selected === null ? undefined : errors.get(selected);
+  const row = selected === null ? undefined : (instances.get(selected) ?? errors.get(selected));
   if (!row || instance === undefined || row.reaction?.state !== "done") return null;
-  const key = [instance, row.id, row.count, row.generated_scan, state?.program_version, row.reaction.verdict].join(" ");
-  return { key, instance, id: row.id };
+  const id = keyOf(row);
+  const key = [instance, id, row.count, row.generated_scan, state?.program_version, row.reaction.verdict].join(" ");
+  return { key, instance, id };
 }
 
 function follow(): void {

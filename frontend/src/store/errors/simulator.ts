@@ -1,7 +1,7 @@
 /** The selection and the entries of the error simulator, and its commands. */
 
 import { create } from "zustand";
-import { type ErrorStatus, type ReactionFilter, toggleAll } from "../../logic/errors/catalogue";
+import { type ErrorStatus, hiddenKeys, type ReactionFilter, toggleAll } from "../../logic/errors/catalogue";
 import {
   defaultEntries,
   type Entries,
@@ -11,7 +11,7 @@ import {
   wireDetails,
 } from "../../logic/errors/details";
 import { isPlain, plainShape, readShape, type ShapeForm } from "../../logic/errors/shapes";
-import { idOf, isInstance, keyOf, wantedOf } from "../../logic/plc/errorInstances";
+import { idOf, instancesByKind, isInstance, keyOf, wantedOf } from "../../logic/plc/errorInstances";
 import { withName } from "../../logic/plc/expression";
 import { send } from "../../wire/send";
 import type { ErrorHistoryRow, ErrorInfo, GenerateOne } from "../../wire/types";
@@ -74,6 +74,10 @@ onInstanceChange(() => set(nothing));
 type Filters = Pick<Simulator, "filter" | "status" | "severity" | "reaction">;
 export const setFilters = (filters: Partial<Filters>) => set(filters);
 export function selectError(selected: string | null): void {
+  const before = get().selected;
+  // What an instance was raised with are not the details of its kind.
+  if (before !== null && before !== selected && isInstance(before))
+    set(({ details: { [idOf(before)]: _, ...details } }) => ({ details }));
   set({ selected, outcome: null });
   const row = selected !== null && isInstance(selected) ? usePlc.getState().instances.get(selected) : undefined;
   const error = row && catalogueNow().byId.get(row.id);
@@ -122,14 +126,39 @@ export function setEntries(error: ErrorInfo, entries: Entries): void {
   set(({ details }) => ({ details: { ...details, [error.id]: entries } }));
 }
 
-/** The errors that the buttons act on: the ticked ones, else the selected one; the key of a group begins with a slash. */
-export function targets(state: Pick<Simulator, "checked" | "selected">): string[] {
-  if (state.checked.size > 0) return [...state.checked];
-  return state.selected === null || state.selected.startsWith("/") ? [] : [state.selected];
+type Ticked = Filters & Pick<Simulator, "checked">;
+type Chosen = Ticked & Pick<Simulator, "selected">;
+
+/** What is ticked and hidden by the filters. */
+export function hiddenOf({ filter, status, severity, reaction, checked }: Ticked): string[] {
+  if (checked.size === 0 || (filter.trim() === "" && status === "all" && severity === "all" && reaction === "all"))
+    return [];
+  const { errors: history, instances: known } = usePlc.getState();
+  const instances = instancesByKind(known);
+  return hiddenKeys(catalogueNow().errors, { filter, status, severity, reaction, checked, history, instances });
+}
+
+/** What is ticked and shown. */
+function shownOf(state: Ticked, hidden = hiddenOf(state)): string[] {
+  return [...state.checked].filter((key) => !hidden.includes(key));
+}
+
+export const showAll = () => set({ filter: "", status: "all", severity: "all", reaction: "all" });
+
+/** What is hidden is ticked no more. */
+export const untickHidden = () => set((state) => ({ checked: new Set(shownOf(state)) }));
+
+/** The errors that the buttons act on: the ticked ones that are shown, else the selected one; the key of a group begins with a slash. */
+export function targets(state: Chosen): string[] {
+  const hidden = hiddenOf(state);
+  const shown = shownOf(state, hidden);
+  if (shown.length > 0) return shown;
+  const { selected } = state;
+  return selected === null || selected.startsWith("/") || hidden.includes(selected) ? [] : [selected];
 }
 
 /** Details of several errors are edited in a dialog; those of one are edited in the panel, unless it shows a different error. */
-export function asksFirst(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): boolean {
+export function asksFirst(state: Chosen, errors: readonly ErrorInfo[]): boolean {
   const chosen = chosenOf(state, errors);
   const selected = state.selected === null ? null : idOf(state.selected);
   if (chosen.length === 1 && chosen[0]?.id === selected) return false;
@@ -137,7 +166,7 @@ export function asksFirst(state: Pick<Simulator, "checked" | "selected">, errors
 }
 
 /** The errors that the buttons act on, in the order of the catalogue. */
-export function chosenOf(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): ErrorInfo[] {
+export function chosenOf(state: Chosen, errors: readonly ErrorInfo[]): ErrorInfo[] {
   const single = new Set(instancesOf(state));
   const wanted = new Set(
     targets(state)
@@ -148,8 +177,8 @@ export function chosenOf(state: Pick<Simulator, "checked" | "selected">, errors:
 }
 
 /** The ticked instances: they are raised with their own details. The selected one is raised with the details that are shown. */
-export function instancesOf({ checked }: Pick<Simulator, "checked">): string[] {
-  return [...checked].filter(isInstance);
+export function instancesOf(state: Ticked): string[] {
+  return shownOf(state).filter(isInstance);
 }
 
 /** Opens the dialog for these errors, whether they need details or not. */

@@ -1,5 +1,6 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { useSimulator } from "../../../store/errors/simulator";
 import { BASIC, BATTERY, CATALOGUE, CLEARED, MEMORY, RAISED, row, verdict } from "../../../testing/catalogue";
 import { button, choose, pick, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
@@ -38,6 +39,16 @@ test("a row tells what was done with an error, by whom, and what the program did
   for (const said of [t("errors.status.cleared"), "Mika", t("verdict.acted")])
     expect(textOf(line(BATTERY.name) ?? null)).toContain(said);
   expect(textOf(line(BASIC.name) ?? null)).toContain(t("errors.status.never"));
+});
+
+test("a name leads to the details of just this instance in the error simulator", async () => {
+  const { server, user, places } = await openHistory();
+  const unit = (slot: number) => row(BASIC, { ...RAISED, instance: `basic-io-error:rack=0,slot=${slot}` });
+  server.say({ type: "errors", rows: [unit(0), unit(3)] });
+  await waitFor(() => expect(lines()).toHaveLength(4));
+  await user.click(within(lines()[3] as HTMLElement).getByRole("button", { name: BASIC.name }));
+  expect(places).toEqual(["panel errors"]);
+  expect(useSimulator.getState().selected).toBe("basic-io-error:rack=0,slot=3");
 });
 
 test("filters leave what is wanted, and say when nothing is left; a column sorts", async () => {

@@ -3,6 +3,8 @@ import type { HistoryLine } from "../../../logic/errors/history";
 import { dayTime, grouped, wallTime } from "../../../logic/format/numbers";
 import { keyOf } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
+import { selectError } from "../../../store/errors/simulator";
+import { showPanel } from "../../../store/page/navigate";
 import { showRerun } from "../../../store/past/reruns";
 import { travel } from "../../../store/plc/timeline";
 import { t } from "../../../text";
@@ -21,7 +23,7 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
   return (
     <tr data-error={keyOf(line)} className={line.fitted === false ? "absent" : undefined}>
       <th scope="row" title={line.name}>
-        {line.name}
+        {dated ? line.name : <Choice line={line} />}
       </th>
       <td className="c-severity">
         <StateWord
@@ -46,6 +48,23 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
       <td title={line.origin ? t(`origin.${line.origin}`) : undefined}>{line.by ?? ""}</td>
       <td className="num">{line.count || ""}</td>
     </tr>
+  );
+}
+
+/** The name leads to this row, and no other of its kind, in the error simulator. */
+function Choice({ line }: { line: HistoryLine }) {
+  return (
+    <button
+      type="button"
+      className="link plain"
+      title={t("history.choose", { error: line.name })}
+      onClick={() => {
+        selectError(keyOf(line));
+        showPanel("errors");
+      }}
+    >
+      {line.name}
+    </button>
   );
 }
 

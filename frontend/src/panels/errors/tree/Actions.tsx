@@ -8,9 +8,12 @@ import {
   chosenOf,
   entriesOf,
   generate,
+  hiddenOf,
   instancesOf,
   recover,
+  showAll,
   targets,
+  untickHidden,
   useSimulator,
 } from "../../../store/errors/simulator";
 import { useForbidden, usePlc } from "../../../store/plc/plc";
@@ -21,7 +24,10 @@ import { WayOn } from "./WayOn";
 /** Generates the ticked errors (or the selected one), recovers them, or clears all generated errors. */
 export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
   const state = useSimulator(
-    useShallow(({ checked, selected, details, outcome }) => ({ checked, selected, details, outcome })),
+    useShallow(({ checked, selected, details, outcome, filter, status, severity, reaction }) => ({
+      ...{ checked, selected, details, outcome },
+      ...{ filter, status, severity, reaction },
+    })),
   );
   const shape = useShape();
   const { errors } = useCatalogue();
@@ -37,6 +43,7 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
     (key) => (instances.get(key) ?? history.get(key))?.status === "generated",
   ).length;
   const any = [...history.values()].some((row) => row.status === "generated");
+  const hidden = hiddenOf(state).length;
   const asks = asksFirst(state, errors);
   const unready =
     !asks &&
@@ -47,6 +54,7 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
       <p className="outcome muted" role="status">
         {state.outcome?.ok ? inNames(errors, state.outcome.message) : ""}
       </p>
+      {hidden > 0 && <Hidden count={hidden} />}
       <div className="acts">
         <button
           type="button"
@@ -79,6 +87,24 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
         </button>
       </div>
     </>
+  );
+}
+
+/** What is ticked and hidden by a filter is left out: nothing is raised unseen. */
+function Hidden({ count }: { count: number }) {
+  return (
+    <p className="outcome hiddenticks" role="note">
+      <Icon name="filter" small />
+      <span>
+        {t(count === 1 ? "errors.hidden.one" : "errors.hidden", { count })}{" "}
+        <button type="button" className="link" onClick={showAll}>
+          {t("errors.hidden.show")}
+        </button>{" "}
+        <button type="button" className="link" onClick={untickHidden}>
+          {t("errors.hidden.untick")}
+        </button>
+      </span>
+    </p>
   );
 }
 

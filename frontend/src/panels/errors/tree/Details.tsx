@@ -1,7 +1,8 @@
 import { detailsInWords } from "../../../logic/errors/catalogue";
-import { needsDetails, troubles } from "../../../logic/errors/details";
+import { entriesIn, isEdited, needsDetails, troubles } from "../../../logic/errors/details";
 import { isPlain } from "../../../logic/errors/shapes";
 import { grouped, wallTime } from "../../../logic/format/numbers";
+import { isOf, keyOf } from "../../../logic/plc/errorInstances";
 import { entriesOf, setDetail, useSimulator } from "../../../store/errors/simulator";
 import { showSweeps } from "../../../store/errors/sweeps";
 import { usePlc } from "../../../store/plc/plc";
@@ -16,16 +17,16 @@ import { ReactionView } from "./ReactionView";
 import { RequiredLines } from "./RequiredLines";
 import { ShapeFields } from "./ShapeFields";
 
-/** The selected error: what it means, which flags and words show it, what can be chosen before it is raised, and how the program reacted. */
-export function Details({ error }: { error: ErrorInfo }) {
-  const edited = useSimulator((state) => state.details[error.id] !== undefined);
+/** The selected error, or the instance of it that `of` names: what it means, which flags and words show it, what can be chosen before it is raised, and how the program reacted. */
+export function Details({ error, of }: { error: ErrorInfo; of: string }) {
   const plain = useSimulator((state) => isPlain(state.shape));
   const details = useSimulator((state) => state.details);
-  const row = usePlc((plc) => plc.errors.get(error.id));
+  const row = usePlc((plc) => plc.instances.get(of) ?? plc.errors.get(error.id));
   const entries = entriesOf({ details }, error, row);
   const raised = row?.status === "generated" ? row : null;
+  const edited = raised ? isEdited(error, entries, entriesIn(error, raised.details)) : details[error.id] !== undefined;
   // A fault that comes and goes is treated as present all the time, so that the layout does not jump.
-  const armed = usePlc((plc) => plc.armed.some((fault) => fault.errors.includes(error.id)));
+  const armed = usePlc((plc) => plc.armed.some((fault) => fault.errors.some((key) => isOf(key, of))));
   const present = raised !== null || armed;
   const refused = troubles(error, entries);
   return (
@@ -57,7 +58,7 @@ export function Details({ error }: { error: ErrorInfo }) {
         </div>
       </div>
       <Facts facts={error.facts} />
-      {row?.reaction && <ReactionView error={error} state={row.reaction} />}
+      {row?.reaction && <ReactionView error={error} of={keyOf(row)} state={row.reaction} />}
       {!row?.reaction && row?.swept && <Swept reaction={row.swept} />}
       <RequiredLines key={error.id} error={error.id} />
       {present ? (

@@ -7,7 +7,7 @@ import { button, choose, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
-import type { ArmedFault, PreviewedErrors, Reaction } from "../../../wire/types";
+import type { ArmedFault, ErrorHistoryRow, PreviewedErrors, Reaction } from "../../../wire/types";
 import { ErrorsPanel } from "./ErrorsPanel";
 
 const PREVIEW: PreviewedErrors = { ok: true, message: "", scan: 1001, more: 0, writes: [] };
@@ -98,6 +98,58 @@ test("of several errors those that are present are skipped with one click", asyn
     expect(server.sentOf("generate_absent")).toMatchObject([{ errors: [{ id: MEMORY.id }, { id: BATTERY.id }] }]),
   );
   await waitFor(() => expect(screen.queryByRole("button", { name: t("errors.skip") })).toBeNull());
+});
+
+test("what is ticked and hidden by the filter is said, and neither raised nor recovered, until it is shown", async () => {
+  const { server, user } = await openSimulator();
+  await user.click(tick(BATTERY.name));
+  await user.click(tick(MEMORY.name));
+  await user.type(screen.getByRole("searchbox"), BATTERY.name);
+  const note = await screen.findByRole("note");
+  expect(textOf(note)).toContain(t("errors.hidden.one"));
+  await user.click(button(t("errors.generate")));
+  await waitFor(() => expect(server.sentOf("generate")).toMatchObject([{ errors: [{ id: BATTERY.id }] }]));
+  expect(server.sentOf("generate")[0]?.errors).toHaveLength(1);
+
+  await user.click(within(note).getByRole("button", { name: t("errors.hidden.show") }));
+  expect(screen.queryByRole("note")).toBeNull();
+  button(t("errors.generate.many", { count: 2 }));
+
+  await user.type(screen.getByRole("searchbox"), BASIC.name);
+  expect(textOf(await screen.findByRole("note"))).toContain(t("errors.hidden", { count: 2 }));
+  expect(generate()).toHaveProperty("disabled", true);
+  await user.click(button(t("errors.hidden.untick")));
+  await user.clear(screen.getByRole("searchbox"));
+  expect([BATTERY.name, MEMORY.name].map((name) => tick(name).checked)).toEqual([false, false]);
+});
+
+const unit = (slot: number, more: Partial<ErrorHistoryRow>) =>
+  row(BASIC, { instance: `basic-io-error:rack=0,slot=${slot}`, details: `rack=0, slot=${slot}`, ...more });
+
+test("of two units of a kind that are raised, the details are those of the chosen one", async () => {
+  const { server, user } = await openSimulator((server) =>
+    server.on("GET", "/instances/*/errors/*/reaction", (_, [, , key]) =>
+      decodeURIComponent(key ?? "").endsWith("slot=3")
+        ? { ...REACTED, differences: REACTED.differences.map((each) => ({ ...each, path: "ofThree" })) }
+        : REACTED,
+    ),
+  );
+  const reaction = verdict("acted", 1);
+  server.say({
+    type: "errors",
+    rows: [unit(3, { ...RAISED, by: "Ann", reaction }), unit(0, { ...RAISED, generated_scan: 2000, reaction })],
+  });
+  const name = (slot: number) => `${BASIC.name}, Rack number 0, Slot number ${slot}`;
+  await waitFor(() => tick(name(3)));
+  await user.click(line(name(3)));
+  await waitFor(() => expect(textOf(details())).toContain("Slot number 3"));
+  expect(textOf(details())).toContain("Ann");
+  expect(textOf(details())).not.toContain(grouped(2000));
+  await waitFor(() => expect(textOf(details())).toContain("ofThree"));
+  await user.click(line(name(0)));
+  await waitFor(() => expect(textOf(details())).toContain(grouped(2000)));
+  expect(textOf(details())).not.toContain("Ann");
+  await waitFor(() => expect(textOf(details())).not.toContain("ofThree"));
 });
 
 test("for some scans: a number that is none arms nothing; armed, the next error is an ordinary one again", async () => {

@@ -92,7 +92,7 @@ function Simulator({ model }: { model: ModelInfo }) {
           if (!locked) void generate(errors);
         }}
       />
-      {error && <Details error={error} />}
+      {error && selected !== null && <Details error={error} of={selected} />}
       {!error && untouched && <FirstSteps />}
       <ArmedList />
       <StatusWords words={model.status_words} code={model.code_words} />

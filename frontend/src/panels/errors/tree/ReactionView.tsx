@@ -14,11 +14,11 @@ import { Required } from "../Required";
 
 const FIRST = 20;
 
-/** The reaction to the error: a sentence, the readers, the executed lines, the changed variables, and what to do next. */
-export function ReactionView({ error, state }: { error: ErrorInfo; state: ReactionState }) {
+/** The reaction to the error, or to the instance of it that `of` names: a sentence, the readers, the executed lines, the changed variables, and what to do next. */
+export function ReactionView({ error, of, state }: { error: ErrorInfo; of: string; state: ReactionState }) {
   const seen = useReaction();
-  const reaction = seen.id === error.id ? seen.reaction : null;
-  const refused = seen.id === error.id ? seen.refused : null;
+  const reaction = seen.id === of ? seen.reaction : null;
+  const refused = seen.id === of ? seen.refused : null;
   return (
     <section className="reaction" aria-label={t("reaction.label")}>
       <p className="row">
