@@ -1,8 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
 const SPECIAL = 'Special I/O Unit error';
-const INPUTS = `${SPECIAL}, Unit number 3, Analog inputs`;
-const OUTPUTS = `${SPECIAL}, Unit number 20, Analog outputs`;
+const INPUTS = `${SPECIAL}, Analog inputs, Unit number 3`;
+const OUTPUTS = `${SPECIAL}, Analog outputs, Unit number 20`;
 const HARDWARE = `{
   "version": 1,
   "fitted": [
@@ -28,7 +28,7 @@ test('two units are fitted: both are raised, with a row each; one is recovered, 
     await expect(simulator.error(INPUTS)).toContainText('Never');
     await expect(simulator.error(OUTPUTS)).toContainText('Never');
     await expect(simulator.error('CPU Bus Unit error')).toContainText('not fitted');
-    await expect(simulator.error('FAL error, FAL number 42, pump overpressure')).toBeVisible();
+    await expect(simulator.error('FAL error, pump overpressure, FAL number 42')).toBeVisible();
   });
 
   await test.step('both are raised at once', async () => {

@@ -80,7 +80,7 @@ class Answers:
             self._do(Generate(_AUTHOR, (ref,), "program"))
 
     def _clear(self, wanted: Callable[[Chosen], bool]) -> None:
-        command, _ = clear(self._view, self._present, _AUTHOR, wanted)
+        command, _ = clear(self._view, self._present, _AUTHOR, wanted, "program")
         if command is not None:
             self._do(command)
 

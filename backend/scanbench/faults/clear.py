@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 
 from scanbench.faults.details import Chosen
 from scanbench.faults.inject import ACTIVE, Recover, describe, present_choices
-from scanbench.faults.present import Active, Raised
+from scanbench.faults.present import Active, Raised, Way
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.switch import rank
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
@@ -29,14 +29,14 @@ class ClearErrors(Command):
     def settled(self, view: View) -> Command:
         """The Recover of what goes now; itself where nothing does."""
         present = view.derived(ACTIVE)
-        return clear(view, present, self.author, self._wanted(view, present))[0] or self
+        return clear(view, present, self.author, self._wanted(view, present), "tool")[0] or self
 
     def plan(self, view: View) -> Plan | Refusal:
         """What the Recover plans, or why nothing goes."""
         if (refusal := may(view.header.mode, Right.CLEAR)) is not None:
             return refusal
         present = view.derived(ACTIVE)
-        recover, held = clear(view, present, self.author, self._wanted(view, present))
+        recover, held = clear(view, present, self.author, self._wanted(view, present), "tool")
         if recover is not None:
             return recover.plan(view)
         if held:
@@ -74,7 +74,7 @@ class ClearErrorLog(Command):
 
 
 def clear(
-    view: View, present: Mapping[str, Active], author: str, wanted: Callable[[Chosen], bool]
+    view: View, present: Mapping[str, Active], author: str, wanted: Callable[[Chosen], bool], way: Way
 ) -> tuple[Recover | None, list[Chosen]]:
     """The command that takes back what is wanted and can go, if anything can, and what cannot."""
     ids: list[str] = []
@@ -88,7 +88,8 @@ def clear(
             ids.append(id)
         else:
             numbers += gone
-    return (Recover(author, tuple(ids), numbers=tuple(numbers)) if ids or numbers else None), held
+    gone_now = Recover(author, tuple(ids), numbers=tuple(numbers), way=way) if ids or numbers else None
+    return gone_now, held
 
 
 def holds(raised: Raised, chosen: Chosen) -> bool:

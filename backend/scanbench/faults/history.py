@@ -7,7 +7,7 @@ from typing import Literal
 
 from scanbench.faults.details import Chosen, choose, code_text_with
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.present import Active, Origin, instances_in
+from scanbench.faults.present import Active, Origin, Way, instances_in
 from scanbench.faults.reaction.reaction import WORST_FIRST, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef, named_reference, natural
 from scanbench.plcmodel.hardware import FittedKind, fitted_kind
@@ -88,6 +88,9 @@ class ErrorRow:
     program_version: int = 0
     swept: Swept | None = None
     """Not kept: sweeps are."""
+    recovered_by: str = ""
+    """Who recovered or cleared it; empty: it is present, or went with a restart."""
+    recovered_way: Way | None = None
     instance: str = ""
     """Which of its kind, in the notation of references: `fal:number=5`. Empty: the kind, of which no instance is known yet."""
 
@@ -190,7 +193,7 @@ class History:
         if isinstance(command, Generate):
             return self._generated(entry, command)
         if isinstance(command, Recover):
-            return self._cleared(self._recovered(command), entry.at, entry.scan)
+            return self._cleared(self._recovered(command), entry.at, entry.scan, (command.author, command.way))
         return []
 
     def take_model(self, model: Model) -> None:
@@ -319,17 +322,22 @@ class History:
         raised = replace(
             row,
             status="generated", code=chosen.code_text, details=str(chosen), generated_at=at, recovered_at=None,
-            generated_scan=scan, recovered_scan=None, by=by, origin=origin, count=row.count + 1, reaction=reaction,
+            generated_scan=scan, recovered_scan=None, recovered_by="", recovered_way=None, by=by, origin=origin, count=row.count + 1, reaction=reaction,
         )  # fmt: skip
         self._now[key] = _told(fitted_kind(self._model.fitted, error), raised)
         return [self._now[key]]
 
-    def _cleared(self, keys: Iterable[str], at: datetime, scan: int) -> list[ErrorRow]:
+    def _cleared(
+        self, keys: Iterable[str], at: datetime, scan: int, by: tuple[str, Way] | None = None
+    ) -> list[ErrorRow]:
         changed = []
+        who, way = by or ("", None)
         for key in keys:
             row = self._now.get(key)
             if row is not None and row.status == "generated":
-                self._now[key] = replace(row, status="cleared", recovered_at=at, recovered_scan=scan)
+                self._now[key] = replace(
+                    row, status="cleared", recovered_at=at, recovered_scan=scan, recovered_by=who, recovered_way=way
+                )  # fmt: skip
                 changed.append(self._now[key])
         return changed
 

@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.errorlog import log_patches, time_patches
-from scanbench.faults.present import NOTHING, Active, Instances, Origin, Present, Raised, instances_in
+from scanbench.faults.present import NOTHING, Active, Instances, Origin, Present, Raised, Way, instances_in
 from scanbench.faults.reference import ErrorRef, find_error, parse_reference
 from scanbench.faults.switch import switch
 from scanbench.faults.trap_errors import error_of
@@ -89,8 +89,10 @@ class Generate(Command):
         if fatal:
             # Stopping comes first: clearing memory must not take back what the error sets.
             patches[:0] = _stop(view, fatal)
+        absent = [one for one in chosen if not is_fitted(view.model.fitted, one.error, one.instance.details)]
+        although = f"; {HARDWARE_FILE} does not have {', '.join(str(one.instance) for one in absent)}" if absent else ""
         stops = f"; the program is stopped{_what_is_held(view, fatal)}" if fatal else ""
-        return Plan(tuple(patches), "generated " + ", ".join(map(describe, chosen)) + stops)
+        return Plan(tuple(patches), "generated " + ", ".join(map(describe, chosen)) + although + stops)
 
     def _in_the_way(self, one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
         """What is present so that it cannot be raised."""
@@ -116,6 +118,8 @@ class Recover(Command):
     step: int = 0
     numbers: tuple[ErrorRef, ...] = ()
     """Single instances, written as they are in `ACTIVE`."""
+    way: Way = "simulator"
+    """Who does it, and so whether the cause goes, too."""
 
     def settled(self, view: View) -> "Recover":
         """With its instances as they are present."""
@@ -152,7 +156,7 @@ class Recover(Command):
             named.append(f"{ref.id} ({one[0]})")
         patches = list(switch(view, off=off, on=[], others=_flat(others)))
         patches += time_patches(view, (), nothing_left=not _flat(others))
-        message = "recovered " + ", ".join(named)
+        message = _what_went(self.way, ", ".join(named))
         halt = _halt_after(view, off, _flat(others))
         if halt != view.header.halt:
             patches.append(Patch.whole(Layout.FATAL, bytes((halt,))))
@@ -162,6 +166,12 @@ class Recover(Command):
         if halt and _any_fatal(off):
             message += f"; the program stays stopped: {_why_stopped(view, halt, _flat(others))}"
         return Plan(tuple(patches), message)
+
+
+def _what_went(way: Way, names: str) -> str:
+    if way == "tool":
+        return f"cleared by the tool: {names}"
+    return f"cleared by the program: {names}" if way == "program" else f"recovered {names}"
 
 
 def present_after(present: Mapping[str, Active], command: Command, scan: int) -> Mapping[str, Active]:

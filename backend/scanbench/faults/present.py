@@ -9,6 +9,10 @@ from scanbench.faults.reference import ErrorRef
 Origin = Literal["simulator", "plc", "program"]
 """Who raised an error: somebody at the error simulator, the PLC that found it itself, an instruction of the program."""
 
+Way = Literal["simulator", "tool", "program"]
+"""How an error went: recovered at the error simulator, which removes its cause, too; or cleared in the device's own way, by a tool or
+by the program."""
+
 
 @dataclass(frozen=True, slots=True)
 class Raised:

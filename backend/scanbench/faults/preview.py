@@ -42,9 +42,9 @@ class Preview:
     """Words that change besides, and are not named."""
 
 
-def preview(view: View, errors: Sequence[ErrorRef], again: bool) -> Preview:
+def preview(view: View, errors: Sequence[ErrorRef], again: bool, anyway: bool = False) -> Preview:
     """Plans it, and looks at the plan."""
-    plan = Generate("preview", tuple(errors), again=again).plan(view)
+    plan = Generate("preview", tuple(errors), again=again, anyway=anyway).plan(view)
     if isinstance(plan, Refusal):
         return Preview(False, plan.message)
     looked = _Looked(view, plan.patches)

@@ -225,7 +225,7 @@ class Services:
         if self._timeline.past:
             told = protocol.PreviewedErrors(False, PAST, view.header.scan, ())
         else:
-            found = preview(view, asked.errors, asked.again)
+            found = preview(view, asked.errors, asked.again, asked.anyway)
             told = protocol.PreviewedErrors(found.ok, found.message, view.header.scan, found.writes, found.more)
         self._link.post(protocol.ErrorsPreviewed(asked.ref, told))
 

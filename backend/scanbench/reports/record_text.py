@@ -13,6 +13,8 @@ _REFERENCE = re.compile(r"(?<![\w-])([a-z][a-z0-9-]*)(?![\w-])(?: \(([^()]*=[^()
 _JAPANESE = (
     (re.compile(r"^generated "), "発生："),
     (re.compile(r"^recovered "), "復旧："),
+    (re.compile(r"^cleared by the tool: "), "ツールによるクリア："),
+    (re.compile(r"^cleared by the program: "), "プログラムによるクリア："),
     (re.compile(r", code ([0-9A-F]+)"), r"、コード \1"),
     (
         re.compile(r"; the program is stopped, outputs off; memory is held, that of the outputs too$"),

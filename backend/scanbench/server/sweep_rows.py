@@ -8,7 +8,7 @@ from scanbench.faults.details import code_text_with
 from scanbench.faults.history import key_for
 from scanbench.faults.reaction.compare import Outcome, outcome
 from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Verdict
-from scanbench.faults.reference import error_of, find_error, named_reference
+from scanbench.faults.reference import error_of, named_reference, parse_reference
 from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
@@ -23,19 +23,29 @@ VERDICTS: Mapping[str, Verdict] = {verdict: verdict for verdict in get_args(Verd
 
 
 def rows_of(model: Model, wanted: Sequence[str] | None) -> tuple[SweptError, ...]:
-    """The errors to be swept, in the order of the catalogue."""
-    for id in wanted or ():
-        known = find_error(model, id)
-        if isinstance(known, Refusal):
-            raise Refused(known.message, known.near)
+    """The errors to be swept, in the order of the catalogue: whole kinds, or instances (`fal:number=5`)."""
+    refs: dict[str, list[str]] = {}
+    for text in wanted or ():
+        ref = parse_reference(model, text)
+        if isinstance(ref, Refusal):
+            raise Refused(ref.message, ref.near)
+        refs.setdefault(ref.id, []).append(str(ref))
     found = [
-        SweptError(error.id, error.name, error.code_text, error.severity, path_text(group.name for group in groups))
+        SweptError(
+            text, _named(error.name, text.partition(":")[2]), _code(model, text) or error.code_text, error.severity,
+            path_text(group.name for group in groups),
+        )
         for groups, error in model.errors_with_groups()
-        if wanted is None or error.id in wanted
-    ]
+        for text in _texts(error.id, [error.id] if wanted is None else refs.get(error.id, []))
+    ]  # fmt: skip
     if not found:
         raise Refused("no error is chosen: there is nothing to sweep")
     return tuple(found)
+
+
+def _texts(id: str, texts: Sequence[str]) -> Iterable[str]:
+    """Of a whole kind no instance besides."""
+    return (id,) if id in texts else dict.fromkeys(texts)
 
 
 def rows_planned(model: Model, known: Sequence[SweptError], planned: Sequence[str]) -> tuple[SweptError, ...]:

@@ -224,6 +224,7 @@ def _kept(row: ErrorRow) -> HistoryRow:
         (row.recovered_scan or 0) if cleared else None, row.by or "", row.origin or "simulator", row.count,
         None if reaction is None else reaction.state, None if found is None else to_json(found),
         "" if reaction is None else reaction.message,
+        row.recovered_by if cleared else "", row.recovered_way if cleared else None,
     )  # fmt: skip
 
 
@@ -236,7 +237,7 @@ def row_of(model: Model, kept: HistoryRow) -> ErrorRow:
     return ErrorRow(
         id, name, "nonfatal" if error is None else error.severity, kept.status, kept.code, kept.details, kept.generated_at, kept.recovered_at,
         kept.generated_scan, kept.recovered_scan, kept.by, kept.origin, kept.count, _reaction_of(kept),
-        kept.program_version, instance=instance,
+        kept.program_version, recovered_by=kept.recovered_by, recovered_way=kept.recovered_way, instance=instance,
     )  # fmt: skip
 
 

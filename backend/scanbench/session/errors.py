@@ -76,7 +76,7 @@ class Errors:
     def take_sweeps(self, swept: Mapping[int, Mapping[str, Swept]]) -> None:
         """What sweeps of the project found out, by version and error."""
         self._history.take_sweeps(swept)
-        self._tell(self.rows)
+        self._tell(self.rows, whole=True)
 
     def compare(self, rows: Sequence[ErrorRow], scan: int | None = None) -> None:
         """Has the reactions found out that are being recorded; of those that began before `scan`, if it is given."""
@@ -102,7 +102,7 @@ class Errors:
                 self._show_past(state)  # what is present may be the same then, and is not told again
         elif self._past_rows:
             self._past_rows = []
-            self._tell(self._history.rows)
+            self._tell(self._history.rows, whole=True)
 
     def on_message(self, message: object) -> bool:
         """What the host says; whether it was for the errors."""
@@ -159,7 +159,7 @@ class Errors:
     def _show_past(self, state: PlcState) -> None:
         self._past_version = state.version
         self._past_rows = self._history.as_of(self._present, wall_time(), state.version)
-        self._tell(self._past_rows)
+        self._tell(self._past_rows, whole=True)
 
     def _on_reaction(self, raised: Raised, found: Reaction | str) -> None:
         row = self._history.set_reaction(raised.error, raised.version, raised.scan, found)
@@ -176,8 +176,8 @@ class Errors:
         self._keep(rows)
         now = self._history.rows if fresh else [row for row in rows if row.program_version == self._history.version]
         if now and not self._past_rows:
-            self._tell(now)
+            self._tell(now, whole=fresh)
 
-    def _tell(self, rows: Sequence[ErrorRow]) -> None:
+    def _tell(self, rows: Sequence[ErrorRow], whole: bool = False) -> None:
         told = rows if self._past_rows else map(self._history.with_sweep, rows)
-        self._publish(events.ErrorsChanged(tuple(told)))
+        self._publish(events.ErrorsChanged(tuple(told), whole))

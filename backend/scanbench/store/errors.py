@@ -45,4 +45,4 @@ def _upsert(session: Session) -> Insert:
 
 
 def _columns(instance: int, row: HistoryRow) -> dict[str, object]:
-    return {**asdict(row), "instance_id": instance, "by": row.by[:AUTHOR]}
+    return {**asdict(row), "instance_id": instance, "by": row.by[:AUTHOR], "recovered_by": row.recovered_by[:AUTHOR]}

@@ -10,6 +10,7 @@ from scanbench.public import Moment, Public
 
 Status = Literal["generated", "cleared"]
 Origin = Literal["simulator", "plc", "program"]
+Way = Literal["simulator", "tool", "program"]
 ReactionState = Literal["recording", "done", "failed"]
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
 Json = Mapping[str, object]
@@ -138,6 +139,9 @@ class HistoryRow:
     """None: nobody compared."""
     reaction: Json | None = None
     reaction_message: str = ""
+    recovered_by: str = ""
+    recovered_way: Way | None = None
+    """None: it is present, went with a restart, or was kept before this was."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,6 +28,7 @@ from scanbench.store.records import (
     WatchContent,
     WatchEntry,
     WatchListRow,
+    Way,
 )
 from scanbench.store.tables import (
     AcceptedFinding,
@@ -85,6 +86,8 @@ def history(row: ErrorHistory) -> HistoryRow:
         reaction_state=cast(ReactionState | None, row.reaction_state),
         reaction=row.reaction,
         reaction_message=row.reaction_message,
+        recovered_by=row.recovered_by,
+        recovered_way=cast(Way | None, row.recovered_way),
     )
 
 

@@ -179,6 +179,8 @@ class ErrorHistory(Base):
     recovered_at: Mapped[datetime | None] = mapped_column(Moment)
     generated_scan: Mapped[int] = mapped_column(BigInteger)
     recovered_scan: Mapped[int | None] = mapped_column(BigInteger)
+    recovered_by: Mapped[str] = mapped_column(String(AUTHOR), server_default="")
+    recovered_way: Mapped[str | None] = mapped_column(String(16))
     by: Mapped[str] = mapped_column(String(AUTHOR))
     origin: Mapped[str] = mapped_column(String(16))
     count: Mapped[int]

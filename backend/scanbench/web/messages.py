@@ -367,6 +367,7 @@ class Errors(Wire):
 
     type: Literal["errors"] = "errors"
     rows: list[ErrorHistoryRow]
+    whole: bool = Field(default=False, description="these are all rows: what is not among them is there no more")
 
 
 class Users(Wire):

@@ -74,6 +74,9 @@ class ErrorInfo(Wire):
     source: str
     facts: list[Fact] = Field(description="none of a project's own error")
     details: list[ErrorDetail]
+    absent: bool = Field(
+        default=False, description="the device can report it of what is not fitted: `anyway` raises it"
+    )
     user: bool = Field(default=False, description="one of the project's own (errors.xml)")
     wordings: list[Wording] = Field(default_factory=list)
 
@@ -120,6 +123,11 @@ class ErrorHistoryRow(Wire):
     recovered_at: str | None
     generated_scan: int | None
     recovered_scan: int | None
+    recovered_by: str = Field(default="", description="who did it; empty: it is present, or went with a restart")
+    recovered_way: Literal["simulator", "tool", "program"] | None = Field(
+        default=None,
+        description="simulator: recovered, its cause is gone, too; tool, program: cleared in the device's own way",
+    )
     by: str | None
     origin: Literal["simulator", "plc", "program"] | None
     count: int
@@ -225,7 +233,9 @@ class NewProgramState(Wire):
 class NewSweep(Wire):
     """Every error alone, from every state. `states`: numbers of kept states; none: from the PLC as it is now."""
 
-    errors: list[str] | None = Field(default=None, description="ids; null is the whole catalogue")
+    errors: list[str] | None = Field(
+        default=None, description="ids, or instances (`fal:number=5`); null is the whole catalogue"
+    )
     states: list[Id] = Field(default_factory=list)
     window: Annotated[int, Field(ge=1, le=100_000)] = 200
 

@@ -147,7 +147,8 @@ def error_row(row: ErrorRow) -> simulator.ErrorHistoryRow:
         id=row.id, instance=row.instance, fitted=row.fitted, label=row.label, name=row.name, severity=row.severity, status=row.status, code=row.code, details=row.details,
         generated_at=None if row.generated_at is None else iso(row.generated_at),
         recovered_at=None if row.recovered_at is None else iso(row.recovered_at),
-        generated_scan=row.generated_scan, recovered_scan=row.recovered_scan, by=row.by, origin=row.origin,
+        generated_scan=row.generated_scan, recovered_scan=row.recovered_scan,
+        recovered_by=row.recovered_by, recovered_way=row.recovered_way, by=row.by, origin=row.origin,
         count=row.count, reaction=translate_errors.in_short(row.reaction), swept=translate_errors.swept(row.swept),
     )  # fmt: skip
 
@@ -181,7 +182,7 @@ def event(happened: events.Told) -> wire.ServerMessage:
         case events.StateChanged():
             return wire.State(state=state(happened.state))
         case events.ErrorsChanged():
-            return wire.Errors(rows=list(map(error_row, happened.rows)))
+            return wire.Errors(rows=list(map(error_row, happened.rows)), whole=happened.whole)
         case events.UsersChanged():
             return wire.Users(users=list(map(user, happened.users)))
         case events.DiagnosticsChanged():

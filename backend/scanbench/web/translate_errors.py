@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from scanbench.faults.history import RowReaction, Swept
 from scanbench.plcmodel import model as plc
+from scanbench.plcmodel.hardware import can_be_absent
 from scanbench.web import messages_errors as wire
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
@@ -56,7 +57,7 @@ def _error(error: plc.ErrorEntry, facts: Iterable[plc.Fact]) -> wire.ErrorInfo:
             wire.Fact(of=each.of, value=each.value, source=each.source, verified=each.verified, inherited=each.inherited)
             for each in facts
         ],
-        details=list(map(_detail, error.details)), user=error.user, wordings=_wordings(error.wordings),
+        details=list(map(_detail, error.details)), absent=can_be_absent(error), user=error.user, wordings=_wordings(error.wordings),
     )  # fmt: skip
 
 

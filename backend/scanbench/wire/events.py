@@ -108,6 +108,8 @@ class ErrorsChanged:
     """Rows of the error history that changed."""
 
     rows: tuple[ErrorRow, ...]
+    whole: bool = False
+    """These are all rows: what is not among them is there no more."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -130,6 +130,7 @@ class PreviewErrors:
     ref: int
     errors: tuple[ErrorRef, ...]
     again: bool
+    anyway: bool = False
 
 
 @dataclass(frozen=True, slots=True)

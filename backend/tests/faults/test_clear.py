@@ -104,7 +104,7 @@ def test_the_journal_says_what_went_and_a_replay_knows_it() -> None:
     entry = done(resource, ClearErrors("tool", 0x4107))
     assert isinstance(entry.command, Recover)
     assert entry.command.author == "tool"
-    assert entry.plan.message == "recovered fal (number=7)"
+    assert entry.plan.message == "cleared by the tool: fal (number=7)"
     assert (value(resource, "A400"), value(resource, "A402"), value(resource, "A360")) == (0x4108, 1 << 15, 1 << 8)
     assert [row(resource, f"fal:number={each}").status for each in (7, 8)] == ["cleared", "generated"]
     done(resource, ClearErrors("tool", 0x4108))
@@ -326,7 +326,7 @@ def test_an_error_of_the_system_by_fal_takes_nothing_over(engine: EngineFactory)
         outcome = resource.submit(ClearErrors("tool", what))
         if what == "all":
             assert isinstance(outcome, Entry)
-            assert outcome.plan.message == "recovered basic-io-error (rack=2, slot=3)"
+            assert outcome.plan.message == "cleared by the tool: basic-io-error (rack=2, slot=3)"
         else:
             assert isinstance(outcome, Refusal)
             assert outcome.message.startswith(WILL_NOT_CLEAR)

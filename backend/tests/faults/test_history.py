@@ -5,9 +5,11 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from types import FrameType
 
+import pytest
+
 from scanbench.faults.history import ErrorRow, History, RowReaction, Swept, worst
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.present import Active, Raised
+from scanbench.faults.present import Active, Raised, Way
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.hardware import Fitted
@@ -72,11 +74,24 @@ def test_what_is_present_is_present_in_the_new_version_too() -> None:
     assert old["battery-error"].status == "generated"  # so it was when version 1 ended
 
 
+@pytest.mark.parametrize("way", ["simulator", "tool", "program"])
+def test_who_took_an_error_back_and_how(way: Way) -> None:
+    history = History(model(), 1)
+    raise_(history, "battery-error")
+    history.fold(entry(Recover("Ada", None, way=way), 9))
+    gone = row(history, "battery-error")
+    assert (gone.status, gone.recovered_by, gone.recovered_way) == ("cleared", "Ada", way)
+    raise_(history, "battery-error", scan=10)
+    again = row(history, "battery-error")
+    assert (again.status, again.recovered_by, again.recovered_way) == ("generated", "", None)
+
+
 def test_a_program_that_starts_fresh_has_no_errors() -> None:
     history = History(model(), 1)
     raise_(history, "battery-error")
     (ended,) = swap(history, 2, fresh=True, scan=9)
     assert (ended.program_version, ended.status, ended.recovered_scan) == (1, "cleared", 9)
+    assert (ended.recovered_by, ended.recovered_way) == ("", None)  # nobody took it back
     assert {each.status for each in history.rows} == {"never"}
 
 

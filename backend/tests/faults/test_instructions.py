@@ -184,7 +184,11 @@ def test_asking_for_what_is_there_or_unknown_changes_nothing() -> None:
     assert detect.on_asked((Asked(99, 1), Asked(0, 0)), view) == ()
     one = Generate("program", (ErrorRef("fal", (("number", "4"),)),), "program")
     assert detect.on_asked((Asked(0, 4), Asked(0, 4)), view) == (one,)
-    assert detect.on_asked((Asked(0, 4), Asked(0, 0), Asked(0, 4)), view) == (one, Recover("program", ("fal",)), one)
+    assert detect.on_asked((Asked(0, 4), Asked(0, 0), Asked(0, 4)), view) == (
+        one,
+        Recover("program", ("fal",), way="program"),
+        one,
+    )
     done(resource, one)
     assert detect.on_asked((Asked(0, 4),), resource.view) == ()
 

@@ -143,7 +143,9 @@ def test_a_row_of_the_history_takes_the_place_of_the_one_before(store: Store) ->
     store.errors.keep(instance, [])
     store.errors.keep(instance, [ROW])
     assert store.errors.history(instance) == [ROW]
-    cleared = replace(ROW, status="cleared", recovered_at=NOON + timedelta(minutes=1), recovered_scan=5000)
+    cleared = replace(
+        ROW, status="cleared", recovered_at=NOON + timedelta(minutes=1), recovered_scan=5000, recovered_by="Ada", recovered_way="tool",
+    )  # fmt: skip
     battery = replace(ROW, error="battery-error", generated_scan=2**40, by="bob", origin="program", count=7)
     store.errors.keep(other, [battery])
     store.errors.keep(instance, [cleared, battery])

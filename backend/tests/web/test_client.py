@@ -197,7 +197,7 @@ def test_the_command_line_reads_and_clears_as_a_tool_does(server: Server) -> Non
     assert said("present")[0] == 1
     assert "4107 nonfatal fal FAL error FAL number: 7" in said("present")[1]
     assert "00F7 battery-error Battery error" in said("log")[1]
-    assert said("clear", "--code", "4107") == (0, "recovered fal")
+    assert said("clear", "--code", "4107") == (0, "cleared by the tool: fal")
     assert said("clear", "--all")[0] == 2
     assert "will not clear" in said("clear")[1]
     assert said("clear", "--log") == (0, "error log cleared")

@@ -1,5 +1,7 @@
 """The error simulator through the whole house: what it writes, who may not, two people, faults with a shape, reactions."""
 
+import json
+
 import pytest
 
 from tests.web.server import Browser, Message, Server
@@ -237,12 +239,35 @@ def test_a_tool_clears_as_on_the_device(server: Server) -> None:
         row_of(browser, "fal", status="generated", origin="program")
         assert server.http.post(f"{base}/generate", json={"errors": [{"id": "basic-io-error"}]}).status_code == 200
         assert server.http.post(f"{base}/clear", json={"what": "all"}).status_code == 200
-        row_of(browser, "fal", status="cleared")
+        row_of(browser, "fal", status="cleared", recovered_way="tool")
         held = server.http.post(f"{base}/clear", json={})
         assert held.status_code == 422
         assert "will not clear" in held.json()["message"]
         assert server.http.post(f"{base}/clear", json={"what": 0x4107}).status_code == 422
         assert server.http.post(f"{base}/log/clear").status_code == 200
+
+
+def test_a_build_that_takes_a_unit_out_tells_that_these_are_all_rows(server: Server) -> None:
+    """A browser that has the rows of before would count the unit that is not there any more."""
+    instance = server.instance("units", MODEL, main=PROGRAM)
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    units = [{"kind": "special-io-unit", "number": number} for number in (3, 20)]
+    with server.browser(instance) as browser:
+        for version, fitted in enumerate((units, units[:1])):
+            text = json.dumps({"version": 1, "fitted": fitted})
+            saved = server.http.put(
+                f"/api/projects/{project}/files/hardware.json", json={"text": text, "version": version}
+            )
+            assert saved.is_success, saved.text
+            assert server.http.post(f"/api/projects/{project}/build", json={}).json()["ok"]
+            expected = {f"special-io-unit-error:unit={each['number']}" for each in fitted}
+            browser.wait(lambda expected=expected: _special(browser) == expected)
+
+
+def _special(browser: Browser) -> set[str]:
+    """The units that the last message with all rows knows."""
+    whole = [each["rows"] for each in browser.messages if each["type"] == "errors" and each["whole"]]
+    return {row["instance"] for row in whole[-1] if row["id"] == "special-io-unit-error"} if whole else set()
 
 
 def test_arming_a_fault_leaves_the_window_of_another_error_alone(server: Server) -> None:

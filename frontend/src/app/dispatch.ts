@@ -95,7 +95,7 @@ function dispatch(message: ServerMessage): void {
       settle(message);
       return;
     case "errors":
-      onErrors(message.rows);
+      onErrors(message.rows, message.whole);
       return;
     case "armed":
       usePlc.setState({ armed: message.faults });

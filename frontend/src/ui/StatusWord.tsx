@@ -1,11 +1,20 @@
 import type { ErrorStatus } from "../logic/errors/catalogue";
 import { t } from "../text";
+import type { ErrorHistoryRow } from "../wire/types";
 import { StateWord } from "./StateWord";
 import { STATUS_ICONS } from "./statuses";
 
+interface Props {
+  status: ErrorStatus;
+  swept: boolean;
+  /** Of what is cleared: recovered at the simulator, or cleared in the device's own way. */
+  way?: ErrorHistoryRow["recovered_way"];
+}
+
 /** Whether an error is present, was, or never was on this PLC; `swept`: then a sweep raised it in runs of its own. */
-export function StatusWord({ status, swept }: { status: ErrorStatus; swept: boolean }) {
+export function StatusWord({ status, swept, way }: Props) {
   if (swept)
     return <StateWord tone="never" icon="refresh" word={t("errors.status.swept")} title={t("history.swept")} />;
-  return <StateWord tone={status} icon={STATUS_ICONS[status]} word={t(`errors.status.${status}`)} />;
+  const word = status === "cleared" && way ? t(`errors.way.${way}`) : t(`errors.status.${status}`);
+  return <StateWord tone={status} icon={STATUS_ICONS[status]} word={word} />;
 }

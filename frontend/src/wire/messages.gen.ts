@@ -4093,8 +4093,20 @@ export interface components {
             reaction: components["schemas"]["ReactionState"] | null;
             /** Recovered At */
             recovered_at: string | null;
+            /**
+             * Recovered By
+             * @description who did it; empty: it is present, or went with a restart
+             * @default
+             */
+            recovered_by: string;
             /** Recovered Scan */
             recovered_scan: number | null;
+            /**
+             * Recovered Way
+             * @description simulator: recovered, its cause is gone, too; tool, program: cleared in the device's own way
+             * @default null
+             */
+            recovered_way: ("simulator" | "tool" | "program") | null;
             /**
              * Severity
              * @enum {string}
@@ -4113,6 +4125,12 @@ export interface components {
         };
         /** ErrorInfo */
         ErrorInfo: {
+            /**
+             * Absent
+             * @description the device can report it of what is not fitted: `anyway` raises it
+             * @default false
+             */
+            absent: boolean;
             /**
              * Code
              * @description as the device shows it, without what details add
@@ -4168,6 +4186,12 @@ export interface components {
              * @enum {string}
              */
             type: "errors";
+            /**
+             * Whole
+             * @description these are all rows: what is not among them is there no more
+             * @default false
+             */
+            whole: boolean;
         };
         /**
          * Fact

@@ -204,8 +204,8 @@ export const rest = {
 
   /** The model with the project's own errors, as the running program knows it. */
   instanceModel: (instance: number) => json<ModelInfo>("GET", `/instances/${instance}/model`),
-  previewErrors: (instance: number, errors: readonly GenerateOne[], again: boolean) =>
-    json<PreviewedErrors>("POST", `/instances/${instance}/errors/preview`, { errors, again }),
+  previewErrors: (instance: number, errors: readonly GenerateOne[], again: boolean, anyway: boolean) =>
+    json<PreviewedErrors>("POST", `/instances/${instance}/errors/preview`, { errors, again, anyway }),
   reaction: (instance: number, error: string) =>
     json<Reaction>("GET", `/instances/${instance}/errors/${encodeURIComponent(error)}/reaction`),
 

@@ -86,7 +86,7 @@ async def on_preview(bench: Bench, instance: Id, wanted: messages_errors.Preview
     """What raising these would write now; nothing is changed."""
     refs = tuple(make(ErrorRef, one.model_dump()) for one in wanted.errors)
     plc = bench.session(instance).instance
-    return (await plc.ask(lambda ref: PreviewErrors(ref, refs, wanted.again), ErrorsPreviewed)).found
+    return (await plc.ask(lambda ref: PreviewErrors(ref, refs, wanted.again, wanted.anyway), ErrorsPreviewed)).found
 
 
 @router.get("/errors/{error}/reaction")

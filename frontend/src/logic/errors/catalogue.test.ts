@@ -14,6 +14,7 @@ const error = (id: string, code: string, details: ErrorInfo["details"] = []): Er
   source: "",
   facts: [],
   details,
+  absent: false,
   user: false,
 });
 

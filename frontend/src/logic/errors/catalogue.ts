@@ -56,6 +56,8 @@ export interface CatalogueView {
   armed: ReadonlySet<string>;
 }
 
+type CountView = Pick<CatalogueView, "hardware" | "history" | "instances">;
+
 /** What decides which errors are shown. */
 export type FilterView = Pick<
   CatalogueView,
@@ -122,14 +124,14 @@ function groupRows(group: ErrorGroup, view: CatalogueView, level: number, parent
 }
 
 /** What a box of the error ticks: where the project says what is fitted, just that. */
-function keysOf(error: ErrorInfo, view: CatalogueView): string[] {
+function keysOf(error: ErrorInfo, view: CountView): string[] {
   const fitted = (view.instances?.get(error.id) ?? []).filter((row) => row.fitted !== false);
   if (view.hardware && fitted.length > 0) return fitted.map((row) => row.instance ?? row.id);
   return view.history.get(error.id)?.fitted === false ? [] : [error.id];
 }
 
 /** The rows that are counted. */
-function rowsOf(error: ErrorInfo, view: CatalogueView): ErrorHistoryRow[] {
+function rowsOf(error: ErrorInfo, view: CountView): ErrorHistoryRow[] {
   const fitted = (view.instances?.get(error.id) ?? []).filter((row) => row.fitted !== false);
   if (view.hardware && fitted.length > 0) return fitted;
   const kind = view.history.get(error.id);
@@ -141,7 +143,8 @@ function leafRows(error: ErrorInfo, view: CatalogueView, level: number): LeafRow
   const kind = leafRow(error, view, level, view.history.get(error.id), error.id);
   const instances = (view.instances?.get(error.id) ?? []).map((row) => {
     const key = row.instance ?? row.id;
-    const words = [detailsInWords(error, key.slice(row.id.length + 1).replaceAll(",", ", ")), row.label];
+    // What people call it comes first: where both do not fit, the number is cut.
+    const words = [row.label, detailsInWords(error, key.slice(row.id.length + 1).replaceAll(",", ", "))];
     return { ...leafRow(error, view, level + 1, row, key), instance: words.filter(Boolean).join(", "), keys: [key] };
   });
   return [kind, ...instances];
@@ -171,6 +174,13 @@ function leafRow(
     swept: isSwept(raised),
     armed: [...view.armed].some((text) => isOf(text, key)),
   };
+}
+
+/** Of all that is counted, how much is tested: instances that are fitted, and kinds of which none is known. */
+export function testedOf(errors: readonly ErrorInfo[], view: CountView) {
+  const rows = errors.flatMap((error) => rowsOf(error, view));
+  const ids = errors.flatMap((error) => keysOf(error, view));
+  return { tested: rows.filter(isTested).length, total: ids.length };
 }
 
 /** An error is tested when the reaction of the program is known. */

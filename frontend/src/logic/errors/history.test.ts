@@ -13,6 +13,8 @@ const line = (id: string, more: Partial<HistoryLine> = {}): HistoryLine => ({
   recovered_at: null,
   generated_scan: null,
   recovered_scan: null,
+  recovered_by: "",
+  recovered_way: null,
   by: null,
   origin: null,
   count: 0,

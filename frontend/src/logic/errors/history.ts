@@ -119,6 +119,8 @@ export function recordLines(record: TestRecord): HistoryLine[] {
     instance: error.id,
     fitted: true,
     label: "",
+    recovered_by: "",
+    recovered_way: null,
     by: error.by || null,
     ...(error.verdict_from === "sweep"
       ? { reaction: null, swept: reactionIn(error) }

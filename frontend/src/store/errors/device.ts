@@ -5,6 +5,7 @@ import { deviceKey } from "../../logic/errors/device";
 import { send } from "../../wire/send";
 import type { DeviceErrors } from "../../wire/types";
 import { onInstanceChange } from "../plc/reset";
+import { recoverErrors } from "./recovering";
 
 interface Device {
   /** Null until the PLC was there once. */
@@ -34,7 +35,7 @@ export const clearErrors = (what: "current" | "all") => report(send({ type: "cle
 export const clearErrorLog = () => report(send({ type: "clear_error_log" }));
 
 /** Takes an error back at the simulator: its cause is gone, too. */
-export const recoverPresent = (id: string) => report(send({ type: "recover", ids: [id] }));
+export const recoverPresent = (id: string) => report(recoverErrors([id]));
 
 async function report(answer: ReturnType<typeof send>): Promise<void> {
   set({ outcome: null });

@@ -19,10 +19,10 @@ interface Previewed {
 const nothing: Previewed = { preview: null, refused: null };
 
 /** Follows the wanted errors; null requests nothing. Errors that are raised or recovered meanwhile change the answer, too. */
-export function usePreview(errors: readonly GenerateOne[] | null, again: boolean): Previewed {
+export function usePreview(errors: readonly GenerateOne[] | null, again: boolean, anyway: boolean): Previewed {
   const [seen, setSeen] = useState(nothing);
   const instance = useBench((bench) => bench.instance?.id ?? null);
-  const question = errors && instance !== null && JSON.stringify([instance, errors, again]);
+  const question = errors && instance !== null && JSON.stringify([instance, errors, again, anyway]);
   useEffect(() => {
     if (!question) {
       setSeen(nothing);
@@ -34,7 +34,10 @@ export function usePreview(errors: readonly GenerateOne[] | null, again: boolean
 }
 
 /** Requests the preview, and again whenever the present errors change; until the returned function is called. */
-function follow([instance, errors, again]: [number, GenerateOne[], boolean], tell: (seen: Previewed) => void) {
+function follow(
+  [instance, errors, again, anyway]: [number, GenerateOne[], boolean, boolean],
+  tell: (seen: Previewed) => void,
+) {
   let asked = 0;
   let told = 0;
   let over = false;
@@ -47,7 +50,7 @@ function follow([instance, errors, again]: [number, GenerateOne[], boolean], tel
       told = turn;
       tell(seen);
     };
-    rest.previewErrors(instance, errors, again).then(
+    rest.previewErrors(instance, errors, again, anyway).then(
       (preview) => answer({ preview, refused: preview.ok ? null : preview.message }),
       (error: unknown) => answer({ preview: null, refused: messageOf(error) }),
     );

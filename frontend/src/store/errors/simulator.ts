@@ -19,6 +19,8 @@ import { readClock } from "../plc/clock";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 import { catalogueNow } from "./catalogue";
+import { isFittedNow } from "./hardware";
+import { recoverErrors } from "./recovering";
 
 export interface Outcome {
   ok: boolean;
@@ -29,6 +31,8 @@ export interface Outcome {
   present: readonly string[];
   /** Known names that are similar to the unknown one. */
   near: readonly string[];
+  /** What was refused because it is not fitted, and can be raised anyway: the device reports it all the same. */
+  absent: readonly GenerateOne[];
 }
 
 interface Simulator {
@@ -205,7 +209,7 @@ export async function raise(
   if (wanted.length === 0) return false;
   const { shape: form } = get();
   if (again || (isPlain(form) && gap === 0))
-    return report(send({ type: "generate", errors: wanted, again, anyway: false }), errors);
+    return report(send({ type: "generate", errors: wanted, again, anyway: false }), errors, wanted);
   const { start, shape, troubles } = readShape(form, readClock().scan);
   if (Object.keys(troubles).length > 0) return false;
   const accepted = await report(send({ type: "arm", errors: wanted, start, shape, gap }), errors);
@@ -237,7 +241,7 @@ export async function recover(everything: boolean): Promise<void> {
   const ids = everything
     ? present
     : targets(get()).filter((key) => present.some((each) => each === key || idOf(each) === key));
-  if (await report(send({ type: "recover", ids: everything ? null : ids }))) set({ told: { ids, status: "cleared" } });
+  if (await report(recoverErrors(everything ? null : ids))) set({ told: { ids, status: "cleared" } });
 }
 
 /** Cancels faults; null cancels all of them. */
@@ -249,10 +253,28 @@ export async function disarm(ids: number[] | null): Promise<void> {
 export async function clearFatal(): Promise<boolean> {
   const rows = [...usePlc.getState().errors.values()];
   const ids = rows.filter((row) => row.status === "generated" && row.severity === "fatal").map((row) => row.id);
-  return report(send({ type: "recover", ids: ids.length > 0 ? ids : null }));
+  return report(recoverErrors(ids.length > 0 ? ids : null));
 }
 
-async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInfo[] = []): Promise<boolean> {
+/** Raises what is not fitted: the device can report it, and the history says that hardware.json does not have it. */
+export function raiseAnyway(wanted: readonly GenerateOne[]): Promise<boolean> {
+  const ids = new Set(wanted.map(({ id }) => id));
+  const errors = catalogueNow().errors.filter(({ id }) => ids.has(id));
+  return report(send({ type: "generate", errors: [...wanted], again: false, anyway: true }), errors);
+}
+
+/** What is wanted, where all of it that is not fitted can be raised anyway. */
+function absentOf(wanted: readonly GenerateOne[]): readonly GenerateOne[] {
+  const { byId } = catalogueNow();
+  const missing = wanted.filter((one) => !isFittedNow(one));
+  return missing.length > 0 && missing.every(({ id }) => byId.get(id)?.absent) ? wanted : [];
+}
+
+async function report(
+  answer: ReturnType<typeof send>,
+  errors: readonly ErrorInfo[] = [],
+  wanted: readonly GenerateOne[] = [],
+): Promise<boolean> {
   set({ outcome: null, told: null });
   const { ok, message, near } = await answer;
   const ids = errors.map((error) => error.id);
@@ -260,7 +282,11 @@ async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInf
   const named = (near ?? []).map(idOf);
   const present = ok ? [] : named.filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");
   const others = ok ? [] : (near ?? []).filter((name) => !present.includes(idOf(name)));
-  set({ outcome: { ok, message, ids, present, near: others }, told: { ids: ok ? ids : present, status: "generated" } });
+  const absent = ok ? [] : absentOf(wanted);
+  set({
+    outcome: { ok, message, ids, present, near: others, absent },
+    told: { ids: ok ? ids : present, status: "generated" },
+  });
   return ok;
 }
 
@@ -268,14 +294,17 @@ async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInf
 usePlc.subscribe((now, before) => {
   if (now.instances === before.instances) return;
   const { checked } = get();
-  const left = [...checked].filter((key) => isFitted(now, key) || !isFitted(before, key));
+  const left = [...checked].filter((key) => isThere(now, key) || !isThere(before, key));
   if (left.length < checked.size) set({ checked: new Set(left) });
 });
 
-const isFitted = (
+const isThere = (
   { instances, errors }: Pick<ReturnType<typeof usePlc.getState>, "instances" | "errors">,
   key: string,
-) => (instances.get(key) ?? errors.get(key))?.fitted !== false;
+) => {
+  const row = instances.get(key) ?? errors.get(key);
+  return row !== undefined && row.fitted !== false;
+};
 
 // A message is shown as long as it is true: somebody else may have raised or recovered the errors since.
 usePlc.subscribe((now, before) => {

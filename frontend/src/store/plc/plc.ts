@@ -81,8 +81,9 @@ export function onState(state: InstanceState): void {
   usePlc.setState({ state });
 }
 
-export function onErrors(rows: readonly ErrorHistoryRow[]): void {
-  usePlc.setState(({ instances }) => known(withRows(instances, rows)));
+/** Rows that changed, or all there are: what is not among those is not there any more. */
+export function onErrors(rows: readonly ErrorHistoryRow[], whole: boolean): void {
+  usePlc.setState(({ instances }) => known(withRows(whole ? new Map() : instances, rows)));
 }
 
 export function onLog(lines: readonly LogLine[]): void {

@@ -153,6 +153,8 @@ export const sweep = {
   "sweep.resume": "Resume",
   "sweep.resume.hint": "Continues with the {left} missing runs",
   "sweep.run.about": "Each error is raised alone, from each state, on a copy of the PLC. The PLC itself keeps running.",
+  "sweep.run.absent": "{count} are left out: their hardware is not fitted (hardware.json).",
+  "sweep.run.absent.one": "1 is left out: its hardware is not fitted (hardware.json).",
   "sweep.run.all": "All errors of the model",
   "sweep.run.button": "Run all…",
   "sweep.run.do": "Run {count}",

@@ -149,6 +149,8 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.resume": "再開",
   "sweep.resume.hint": "残りの {left} 回を続けます",
   "sweep.run.about": "PLC の複製で、各状態から異常を一つずつ発生させます。PLC は動き続けます。",
+  "sweep.run.absent": "{count} 件は対象外です。ハードウェアが実装されていません (hardware.json)。",
+  "sweep.run.absent.one": "1 件は対象外です。ハードウェアが実装されていません (hardware.json)。",
   "sweep.run.all": "機種のすべて",
   "sweep.run.button": "すべて実行…",
   "sweep.run.do": "{count} 回実行",

@@ -84,7 +84,7 @@ test("a tool clears, the simulator recovers what it raised, and a refusal is tol
   const { server, user } = await openDevice({ errors: [FLAT] });
   const recover = () => button(t("device.recover.of", { error: BATTERY.name }));
   expect(recover()).toHaveProperty("disabled", true);
-  server.say({ type: "errors", rows: [row(BATTERY, RAISED)] });
+  server.say({ type: "errors", whole: false, rows: [row(BATTERY, RAISED)] });
   await screen.findByTitle(t("device.recover.about"));
   server.command("clear_errors", () => "error will not clear: the cause of battery-error, code 00F7 is still there");
   await user.click(button(t("device.clear")));
@@ -113,7 +113,11 @@ test("of several units of a kind one is recovered", async () => {
   });
   const { server, user } = await openDevice({ errors: [unit(3), unit(7)] });
   const instance = (number: number) => `${BASIC.id}:unit=${number}`;
-  server.say({ type: "errors", rows: [3, 7].map((number) => row(BASIC, { ...RAISED, instance: instance(number) })) });
+  server.say({
+    type: "errors",
+    whole: false,
+    rows: [3, 7].map((number) => row(BASIC, { ...RAISED, instance: instance(number) })),
+  });
   await waitFor(() => expect(screen.getAllByTitle(t("device.recover.about"))).toHaveLength(2));
   await user.click(button(t("device.recover.of", { error: `${BASIC.name}, Unit number: 7` })));
   expect(server.sentOf("recover")).toMatchObject([{ ids: [instance(7)] }]);

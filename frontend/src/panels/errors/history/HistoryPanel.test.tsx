@@ -22,7 +22,7 @@ async function openHistory(prepare: (server: FakeServer) => void = () => undefin
     prepare(server);
   });
   render(<HistoryPanel />);
-  page.server.say({ type: "errors", rows: [row(MEMORY), TESTED, row(BASIC)] });
+  page.server.say({ type: "errors", whole: false, rows: [row(MEMORY), TESTED, row(BASIC)] });
   await waitFor(() => expect(lines()).toHaveLength(3));
   return page;
 }
@@ -44,7 +44,7 @@ test("a row tells what was done with an error, by whom, and what the program did
 test("a name leads to the details of just this instance in the error simulator", async () => {
   const { server, user, places } = await openHistory();
   const unit = (slot: number) => row(BASIC, { ...RAISED, instance: `basic-io-error:rack=0,slot=${slot}` });
-  server.say({ type: "errors", rows: [unit(0), unit(3)] });
+  server.say({ type: "errors", whole: false, rows: [unit(0), unit(3)] });
   await waitFor(() => expect(lines()).toHaveLength(4));
   await user.click(within(lines()[3] as HTMLElement).getByRole("button", { name: BASIC.name }));
   expect(places).toEqual(["panel errors"]);
@@ -71,7 +71,7 @@ test("every version has a history of its own: the old one is shown as one that r
     server.on("GET", "/instances/*/history/versions", () => VERSIONS);
     server.on("GET", "/instances/*/history", () => ({ version: 1, running: false, rows: [row(BATTERY, RAISED)] }));
   });
-  server.say({ type: "errors", rows: [row(BATTERY)] });
+  server.say({ type: "errors", whole: false, rows: [row(BATTERY)] });
   const running = t("history.version.of", { version: t("history.version.running", { version: 2 }) });
   await waitFor(() => expect(button(running)).toHaveProperty("disabled", false));
   await waitFor(() => expect(textOf(line(BATTERY.name) ?? null)).toContain(t("errors.status.never")));
@@ -107,7 +107,7 @@ test("a record that cannot be read is refused with the server's words; one that 
 
 test("the scan at which an error was raised leads there, and to a replay", async () => {
   const { server, user } = await openHistory();
-  server.say({ type: "errors", rows: [row(BASIC, { ...RAISED, generated_scan: 500 })] });
+  server.say({ type: "errors", whole: false, rows: [row(BASIC, { ...RAISED, generated_scan: 500 })] });
   await user.click(await screen.findByRole("button", { name: t("rerun.of", { scan: 500 }) }));
   await pick(user, t("changes.goto", { scan: 500 }));
   await waitFor(() => expect(server.sentOf("travel")).toMatchObject([{ scan: 500 }]));

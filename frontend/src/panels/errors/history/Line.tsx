@@ -18,7 +18,7 @@ import { StatusWord } from "../../../ui/StatusWord";
 export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
   const { byId } = useCatalogue();
   const words = line.details && detailsInWords(byId.get(line.id), line.details);
-  const details = [words, line.label].filter(Boolean).join(", ");
+  const details = [line.label, words].filter(Boolean).join(", ");
   const fatal = line.severity === "fatal";
   return (
     <tr data-error={keyOf(line)} className={line.fitted === false ? "absent" : undefined}>
@@ -33,14 +33,14 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
         />
       </td>
       <td>
-        <StatusWord status={line.status} swept={isSwept(line) && line.status === "never"} />
+        <StatusWord status={line.status} swept={isSwept(line) && line.status === "never"} way={line.recovered_way} />
       </td>
       <td>
         <Reaction line={line} />
       </td>
       <td className="num">{reactionOf(line)?.scans ?? ""}</td>
       <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} error={dated ? null : keyOf(line)} />
-      <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} error={null} />
+      <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} error={null} by={line.recovered_by} />
       <td className="mono c-code">{line.status === "never" ? "" : line.code}</td>
       <td className="details" title={details || undefined}>
         {details}
@@ -88,6 +88,8 @@ function Reaction({ line }: { line: HistoryLine }) {
 }
 
 interface MomentProps {
+  /** Who it was, where no column says it. */
+  by?: string;
   at: string | null;
   scan: number | null;
   dated: boolean;
@@ -95,11 +97,11 @@ interface MomentProps {
   error: string | null;
 }
 
-function Moment({ at, scan, dated, error }: MomentProps) {
+function Moment({ at, scan, dated, error, by }: MomentProps) {
   const before = scan === null ? "" : t("history.scan", { scan: grouped(scan) });
   const time = at === null ? "" : dated ? dayTime(at) : wallTime(at);
   return (
-    <td className="mono" title={[at, before].filter(Boolean).join(" · ") || undefined}>
+    <td className="mono" title={[at, before, by && t("history.by", { by })].filter(Boolean).join(" · ") || undefined}>
       {time}{" "}
       {scan !== null && error !== null ? (
         <MenuButton

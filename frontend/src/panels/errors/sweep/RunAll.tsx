@@ -1,6 +1,8 @@
 import { type ReactNode, useEffect, useState } from "react";
+import { tickedToRaise, toRaise } from "../../../logic/errors/fitted";
 import { grouped } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
+import { useKnownHardware } from "../../../store/errors/hardware";
 import { useSimulator } from "../../../store/errors/simulator";
 import { beginSweep, closeQuestion, useSweeps } from "../../../store/errors/sweeps";
 import { useBench } from "../../../store/plc/bench";
@@ -23,6 +25,7 @@ export function RunAll() {
   const ticked = useSimulator((simulator) => simulator.checked);
   const scan = usePlc((plc) => plc.state?.past?.live_scan ?? plc.state?.scan ?? 0);
   const present = usePlc((plc) => [...plc.errors.values()].filter(({ status }) => status === "generated").length);
+  const fitted = useKnownHardware();
   const states = useSweeps((sweeps) => sweeps.states);
   const [which, setWhich] = useState<Which>(ticked.size > 1 ? "ticked" : "all");
   const [from, setFrom] = useState<"now" | "states">(states.length > 0 ? "states" : "now");
@@ -31,12 +34,14 @@ export function RunAll() {
   // The states of the project may arrive after the dialog has opened.
   useEffect(() => setFrom(states.length > 0 ? "states" : "now"), [states.length]);
 
-  const chosen: Record<Which, string[] | null> = {
-    all: errors.map(({ id }) => id),
-    nonfatal: errors.filter(({ severity }) => severity === "nonfatal").map(({ id }) => id),
-    ticked: errors.filter(({ id }) => ticked.has(id)).map(({ id }) => id),
+  const nonfatal = errors.filter(({ severity }) => severity === "nonfatal");
+  const chosen = {
+    all: toRaise(errors, fitted),
+    nonfatal: toRaise(nonfatal, fitted),
+    ticked: tickedToRaise(ticked, errors, fitted),
   };
-  const count = (chosen[which] ?? []).length;
+  const { keys, absent } = chosen[which];
+  const count = keys.length;
   const begins = from === "now" ? [] : states.filter(({ id }) => !left.has(id));
   const points = from === "now" ? 1 : begins.length;
   const scans = /^\d+$/.test(window.trim()) ? Number(window) : 0;
@@ -45,7 +50,8 @@ export function RunAll() {
 
   async function begin(): Promise<void> {
     await beginSweep({
-      errors: which === "all" ? null : chosen[which],
+      // Whole kinds also have a row for each choice of details that the program tells apart.
+      errors: which === "all" ? null : which === "nonfatal" ? nonfatal.map(({ id }) => id) : keys,
       states: begins.map(({ id }) => id),
       window: scans,
     });
@@ -66,7 +72,7 @@ export function RunAll() {
       disabled={why !== null || badWindow !== null}
       onSubmit={begin}
       onClose={closeQuestion}
-      aside={({ refused }) => <Outlook refused={refused} why={why} count={count} points={points} />}
+      aside={({ refused }) => <Outlook refused={refused} why={why} count={count} points={points} absent={absent} />}
     >
       <fieldset className="choices">
         <legend>{t("sweep.run.errors")}</legend>
@@ -78,7 +84,7 @@ export function RunAll() {
             disabled={value === "ticked" && ticked.size === 0}
             onChoose={() => setWhich(value)}
           >
-            {t(`sweep.run.${value}`)} <span className="faint">{(chosen[value] ?? []).length}</span>
+            {t(`sweep.run.${value}`)} <span className="faint">{chosen[value].keys.length}</span>
           </Radio>
         ))}
       </fieldset>
@@ -133,10 +139,12 @@ interface OutlookProps {
   why: string | null;
   count: number;
   points: number;
+  /** So many are left out, as their hardware is not fitted. */
+  absent: number;
 }
 
 /** How many runs it will take, or why the sweep cannot begin. */
-function Outlook({ refused, why, count, points }: OutlookProps) {
+function Outlook({ refused, why, count, points, absent }: OutlookProps) {
   if (refused)
     return (
       <span className="hint bad grow" role="alert">
@@ -146,7 +154,8 @@ function Outlook({ refused, why, count, points }: OutlookProps) {
     );
   return (
     <span className="hint grow" role="status">
-      {why ?? t(points === 1 ? "sweep.run.outlook.one" : "sweep.run.outlook", { count, points })}
+      {why ?? t(points === 1 ? "sweep.run.outlook.one" : "sweep.run.outlook", { count, points })}{" "}
+      {absent > 0 && t(absent === 1 ? "sweep.run.absent.one" : "sweep.run.absent", { count: absent })}
     </span>
   );
 }

@@ -1,15 +1,17 @@
 import { detailsInWords } from "../../../logic/errors/catalogue";
-import { entriesIn, isEdited, needsDetails, troubles } from "../../../logic/errors/details";
+import { entriesIn, isEdited, needsDetails, troubles, wireDetails } from "../../../logic/errors/details";
 import { isPlain } from "../../../logic/errors/shapes";
 import { grouped, wallTime } from "../../../logic/format/numbers";
 import { isOf, keyOf } from "../../../logic/plc/errorInstances";
-import { entriesOf, setDetail, useSimulator } from "../../../store/errors/simulator";
+import { useFitted } from "../../../store/errors/hardware";
+import { entriesOf, raiseAnyway, setDetail, useSimulator } from "../../../store/errors/simulator";
 import { showSweeps } from "../../../store/errors/sweeps";
-import { usePlc } from "../../../store/plc/plc";
+import { openPage } from "../../../store/page/navigate";
+import { useForbidden, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { ReactionWord } from "../../../ui/ReactionWord";
-import type { ErrorHistoryRow, ErrorInfo, ReactionState } from "../../../wire/types";
+import type { ErrorHistoryRow, ErrorInfo, GenerateOne, ReactionState } from "../../../wire/types";
 import { Control } from "./controls";
 import { Facts } from "./Facts";
 import { Preview } from "./Preview";
@@ -29,11 +31,15 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
   const armed = usePlc((plc) => plc.armed.some((fault) => fault.errors.some((key) => isOf(key, of))));
   const present = raised !== null || armed;
   const refused = troubles(error, entries);
+  const wanted = { id: error.id, details: wireDetails(error, entries) };
+  const fitted = useFitted(error, wanted);
   return (
     <section className="edetail" aria-label={t("errors.details")}>
       <Heading error={error} />
       {error.description && <p className="muted">{error.description}</p>}
       {raised && <Raised error={error} row={raised} />}
+      {row?.status === "cleared" && row.recovered_way && <Gone row={row} way={row.recovered_way} />}
+      {!fitted && <Absent error={error} wanted={wanted} />}
       <div className="row wrap apart">
         <span className="kv">
           <span>
@@ -69,8 +75,8 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
       ) : (
         <ShapeFields />
       )}
-      {(!present || (edited && needsDetails(error))) && (
-        <Preview errors={[error]} valid={refused.size === 0} again={raised !== null} now={plain} />
+      {(fitted || error.absent) && (!present || (edited && needsDetails(error))) && (
+        <Preview errors={[error]} valid={refused.size === 0} again={raised !== null} now={plain} anyway={!fitted} />
       )}
     </section>
   );
@@ -111,6 +117,39 @@ function Heading({ error }: { error: ErrorInfo }) {
       </span>
     </div>
   );
+}
+
+/** Said before anybody tries: what is not fitted is refused, unless the device can report it all the same. */
+function Absent({ error, wanted }: { error: ErrorInfo; wanted: GenerateOne }) {
+  const forbidden = useForbidden("errors");
+  return (
+    <p className="absentnote">
+      <Icon name="minus" small />
+      <span>
+        {t(error.absent ? "errors.absent.can" : "errors.absent.cannot")}{" "}
+        <button type="button" className="link" onClick={() => openPage("hardware")}>
+          {t("errors.absent.change")}
+        </button>{" "}
+        {error.absent && (
+          <button
+            type="button"
+            className="link"
+            disabled={forbidden !== null}
+            title={forbidden ?? t("errors.anyway.hint")}
+            onClick={() => void raiseAnyway([wanted])}
+          >
+            {t("errors.anyway")}
+          </button>
+        )}
+      </span>
+    </p>
+  );
+}
+
+/** Who took it back, and how: what is recovered at the simulator has no cause any more. */
+function Gone({ row, way }: { row: ErrorHistoryRow; way: NonNullable<ErrorHistoryRow["recovered_way"]> }) {
+  const said = { by: row.recovered_by, at: wallTime(row.recovered_at), scan: grouped(row.recovered_scan ?? 0) };
+  return <p className="muted">{t(`errors.way.${way}.by`, said)}</p>;
 }
 
 function Raised({ error, row }: { error: ErrorInfo; row: ErrorHistoryRow }) {

@@ -1,4 +1,5 @@
-import { isTested } from "../../../logic/errors/catalogue";
+import { testedOf } from "../../../logic/errors/catalogue";
+import { instancesByKind } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { recordAddress } from "../../../store/errors/records";
 import { askDetails, targets, useSimulator } from "../../../store/errors/simulator";
@@ -22,8 +23,10 @@ function openRecord(): void {
 export function PanelEnd() {
   const { errors } = useCatalogue();
   const history = usePlc((plc) => plc.errors);
+  const known = usePlc((plc) => plc.instances);
+  const hardware = useBench((bench) => bench.model?.hardware ?? false);
   if (errors.length === 0) return null;
-  const tested = errors.filter((error) => isTested(history.get(error.id))).length;
+  const { tested, total } = testedOf(errors, { hardware, history, instances: instancesByKind(known) });
 
   function items(): MenuItem[] {
     return [
@@ -47,7 +50,7 @@ export function PanelEnd() {
 
   return (
     <span className="panelend">
-      <span className="tested">{t("errors.tested", { tested, total: errors.length })}</span>
+      <span className="tested">{t("errors.tested", { tested, total })}</span>
       <MenuButton label={t("errors.menu")} className="ib sm" items={items}>
         <Icon name="more" />
       </MenuButton>

@@ -18,15 +18,17 @@ interface Props {
   again?: boolean;
   /** False when it is raised later: by then it may write something else. */
   now?: boolean;
+  /** Although it is not fitted. */
+  anyway?: boolean;
 }
 
 /** What raising these errors would write, address by address. */
-export function Preview({ errors, of, valid, again = false, now = true }: Props) {
+export function Preview({ errors, of, valid, again = false, now = true, anyway = false }: Props) {
   // Different details need a new preview.
   useSimulator((state) => state.details);
   // A preview of writes from now on says nothing about a scan in the past.
   const past = usePlc((plc) => Boolean(plc.state?.past));
-  const { preview, refused } = usePreview(valid && !past ? asWanted(errors) : null, again);
+  const { preview, refused } = usePreview(valid && !past ? asWanted(errors) : null, again, anyway);
   const { errors: known } = useCatalogue();
   // While the PLC runs, the scan number is over before anybody reads it.
   const running = usePlc((plc) => plc.state?.state === "running");

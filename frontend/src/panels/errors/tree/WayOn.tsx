@@ -1,6 +1,13 @@
 import { isPlain } from "../../../logic/errors/shapes";
 import { useCatalogue } from "../../../store/errors/catalogue";
-import { changeDetails, mendCondition, type Outcome, skipPresent, useSimulator } from "../../../store/errors/simulator";
+import {
+  changeDetails,
+  mendCondition,
+  type Outcome,
+  raiseAnyway,
+  skipPresent,
+  useSimulator,
+} from "../../../store/errors/simulator";
 import { t } from "../../../text";
 
 /** What to do after a refusal: skip the errors that are present, change their details, or take a name that the PLC knows. */
@@ -31,6 +38,16 @@ export function WayOn({ outcome, onDone }: { outcome: Outcome; onDone?: () => vo
           onClick={() => void changeDetails(errors, outcome).then((done) => done && onDone?.())}
         >
           {t("errors.again")}
+        </button>
+      )}
+      {outcome.absent.length > 0 && (
+        <button
+          type="button"
+          className="link"
+          title={t("errors.anyway.hint")}
+          onClick={() => void raiseAnyway(outcome.absent).then((done) => done && onDone?.())}
+        >
+          {t("errors.anyway")}
         </button>
       )}
       {conditional &&

@@ -60,13 +60,20 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
         aria-level={row.level + 1}
         aria-selected={selected}
         data-key={row.key}
-        title={[error.name, row.instance, `${row.code} · ${error.flag}`, error.description].filter(Boolean).join("\n")}
+        title={[
+          [error.name, row.instance, `${row.code} · ${error.flag}`, error.description],
+          row.fitted ? [] : [t("errors.absent.about"), t("errors.absent.where")],
+        ]
+          .flat()
+          .filter(Boolean)
+          .join("\n")}
         onClick={() => selectError(row.key)}
       >
         <span className="name" role="gridcell">
           <Checkbox
             label={row.instance ? `${error.name}, ${row.instance}` : error.name}
             check={row.check}
+            disabled={row.keys.length === 0}
             onToggle={() => {
               toggleChecked(row.keys);
               selectError(row.key);

@@ -43,7 +43,7 @@ test("a run-time error says what, where and when; the place is a way there", asy
 
 test("after the cause is corrected one goes on: what is present is recovered first, the program goes on in MONITOR", async () => {
   const { server, user } = await openBanners();
-  server.say({ type: "errors", rows: [row(BATTERY, RAISED)] });
+  server.say({ type: "errors", whole: false, rows: [row(BATTERY, RAISED)] });
   server.becomes({ state: "trapped", trap: TRAP });
   await user.click(await screen.findByRole("button", { name: t("trap.goon") }));
   await waitFor(() => expect(server.sentOf("mode")).toMatchObject([{ mode: "MONITOR" }]));
