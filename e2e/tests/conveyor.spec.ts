@@ -59,7 +59,7 @@ test('the sample runs, reacts to an input and to an error, and two people see th
     await expect(mika.simulator.outcome).toHaveText(`Recovered ${ERROR}`);
     await mika.watch.shows('A402.12', 'FALSE');
     await expect(mika.simulator.word('A400')).toHaveText('0000');
-    await expect(jo.history(ERROR)).toContainText(['Cleared']);
+    await expect(jo.history(ERROR)).toContainText(['Recovered']);
     await jo.showPanel('Watch');
     const before = await mika.top.scan();
     await mika.top.scansGoOn(before);
@@ -85,7 +85,7 @@ test('the sample runs, reacts to an input and to an error, and two people see th
     await expect(mika.watch.row('Main.heartbeat')).toBeVisible();
     await mika.watch.shows('lamp', 'FALSE');
     await mika.showPanel('History');
-    await expect(mika.history(ERROR)).toContainText(['Cleared']);
+    await expect(mika.history(ERROR)).toContainText(['Recovered']);
     await expect(mika.history(ERROR)).toContainText(['Mika']);
   });
 });

@@ -14,7 +14,7 @@ test('the test record is filtered, printed, saved and imported again', async ({ 
   const row = mika.history(ERROR);
 
   await test.step('the row shows when, who, how often, and what the program did', async () => {
-    await expect(row).toContainText(['Cleared']);
+    await expect(row).toContainText(['Recovered']);
     await expect(row).toContainText(['Mika']);
     await expect(row).toContainText([/Acted|No effect|Never read/]);
   });
@@ -92,7 +92,7 @@ test('every version of the program has its own history', { tag: '@nightly' }, as
   await test.step('the old version is marked as no longer running', async () => {
     await history.showVersion(/^Version 1/);
     await expect(mika.page.locator('[data-pane=history]')).toContainText('Version 1 no longer runs');
-    await expect(mika.history(ERROR)).toContainText(['Cleared']);
+    await expect(mika.history(ERROR)).toContainText(['Recovered']);
     await mika.page.getByRole('button', { name: 'Show the running version' }).click();
     await expect(mika.history(ERROR)).toContainText(['Never']);
   });

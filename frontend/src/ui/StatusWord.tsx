@@ -1,6 +1,5 @@
-import type { ErrorStatus } from "../logic/errors/catalogue";
+import type { ErrorStatus, ErrorWay } from "../logic/errors/catalogue";
 import { t } from "../text";
-import type { ErrorHistoryRow } from "../wire/types";
 import { StateWord } from "./StateWord";
 import { STATUS_ICONS } from "./statuses";
 
@@ -8,7 +7,7 @@ interface Props {
   status: ErrorStatus;
   swept: boolean;
   /** Of what is cleared: recovered at the simulator, or cleared in the device's own way. */
-  way?: ErrorHistoryRow["recovered_way"];
+  way?: ErrorWay;
 }
 
 /** Whether an error is present, was, or never was on this PLC; `swept`: then a sweep raised it in runs of its own. */

@@ -1,8 +1,9 @@
 /** The error catalogue as rows: filtered, folded, with three-state boxes and the known reactions. */
 import type { ErrorGroup, ErrorHistoryRow, ErrorInfo, ReactionState, Verdict } from "../../wire/types";
-import { idOf, isOf } from "../plc/errorInstances";
+import { idOf, isOf, labelOf, type Rows } from "../plc/errorInstances";
 
 export type ErrorStatus = ErrorHistoryRow["status"];
+export type ErrorWay = ErrorHistoryRow["recovered_way"];
 /** Filters by the known reaction; a finding is something that the program missed: nobody read the error, or reading it had no effect. */
 export type ReactionFilter = "all" | "findings" | "unknown" | Exclude<Verdict, "reacted" | "stored_only">;
 export type Check = "none" | "some" | "all";
@@ -59,7 +60,7 @@ export interface CatalogueView {
 type CountView = Pick<CatalogueView, "hardware" | "history" | "instances">;
 
 /** What decides which errors are shown. */
-export type FilterView = Pick<
+type FilterView = Pick<
   CatalogueView,
   "filter" | "status" | "severity" | "reaction" | "checked" | "history" | "instances"
 >;
@@ -80,12 +81,15 @@ export function detailsInWords(error: ErrorInfo | undefined, details: string): s
 
 const REFERENCE = /(?<![\w-])([a-z][a-z0-9-]*)(?![\w-])(?: \(([^()]*=[^()]*)\))?/g;
 
-/** A message of the server about errors as a sentence, with ids (`basic-io-error (rack=2)`) replaced by the names of the catalogue. */
-export function inNames(errors: readonly ErrorInfo[], message: string): string {
+/** A message of the server about errors as a sentence, with ids (`basic-io-error (rack=2)`) replaced by the names of the
+ * catalogue, and with what the project calls their units and numbers. */
+export function inNames(errors: readonly ErrorInfo[], message: string, instances: Rows = new Map()): string {
   const named = message.replace(REFERENCE, (whole, id: string, details: string | undefined) => {
     const error = errors.find((known) => known.id === id);
     if (!error) return whole;
-    return details === undefined ? error.name : `${error.name} (${detailsInWords(error, details)})`;
+    if (details === undefined) return error.name;
+    const label = labelOf(instances, id, details);
+    return `${error.name} (${[label, detailsInWords(error, details)].filter(Boolean).join(", ")})`;
   });
   return named.charAt(0).toUpperCase() + named.slice(1);
 }
@@ -184,7 +188,7 @@ export function testedOf(errors: readonly ErrorInfo[], view: CountView) {
 }
 
 /** An error is tested when the reaction of the program is known. */
-export function isTested(row: ErrorHistoryRow | undefined): boolean {
+function isTested(row: ErrorHistoryRow | undefined): boolean {
   return verdictOf(row) !== null;
 }
 

@@ -56,10 +56,20 @@ export function instancesByKind(instances: Rows): Map<string, ErrorHistoryRow[]>
   return found;
 }
 
+/** What the project calls the unit or the number of an error with these details (`number=42`); empty where it says nothing. */
+export function labelOf(instances: Rows, id: string, details: string): string {
+  const given = new Set(details.split(", "));
+  const named = [...instances.values()].find(
+    (row) => row.label && row.id === id && pairsIn(keyOf(row)).every((pair) => given.has(pair)),
+  );
+  return named?.label ?? "";
+}
+
+const pairsIn = (key: string): string[] => key.slice(idOf(key).length + 1).split(",");
+
 /** What raises just this instance. */
 export function wantedOf(key: string): GenerateOne {
-  const pairs = key.slice(idOf(key).length + 1).split(",");
-  return { id: idOf(key), details: Object.fromEntries(pairs.map((pair) => pair.split("=", 2))) };
+  return { id: idOf(key), details: Object.fromEntries(pairsIn(key).map((pair) => pair.split("=", 2))) };
 }
 
 /** The row of what the device shows: of one unit where several of a kind can be present, else of the kind. */

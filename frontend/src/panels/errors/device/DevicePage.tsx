@@ -1,7 +1,7 @@
 import { inNames } from "../../../logic/errors/catalogue";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { clearErrorLog, clearErrors, useDevice } from "../../../store/errors/device";
-import { useForbidden } from "../../../store/plc/plc";
+import { useForbidden, usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { DeviceErrors } from "../../../wire/types";
@@ -83,8 +83,9 @@ function Toolbar({ found: { code, errors, log, has_log } }: { found: DeviceError
 function Outcome() {
   const outcome = useDevice((device) => device.outcome);
   const { errors } = useCatalogue();
+  const instances = usePlc((plc) => plc.instances);
   if (!outcome) return null;
-  const message = inNames(errors, outcome.message) || t("notsent.about");
+  const message = inNames(errors, outcome.message, instances) || t("notsent.about");
   if (outcome.ok)
     return (
       <p className="outcome muted" role="status">

@@ -41,6 +41,12 @@ test("a row tells what was done with an error, by whom, and what the program did
   expect(textOf(line(BASIC.name) ?? null)).toContain(t("errors.status.never"));
 });
 
+test.each(["simulator", "tool", "program"] as const)("what went by the %s says so", async (way) => {
+  const { server } = await openHistory();
+  server.say({ type: "errors", whole: false, rows: [row(BATTERY, { ...CLEARED, recovered_way: way })] });
+  await waitFor(() => expect(textOf(line(BATTERY.name) ?? null)).toContain(t(`errors.way.${way}`)));
+});
+
 test("a name leads to the details of just this instance in the error simulator", async () => {
   const { server, user, places } = await openHistory();
   const unit = (slot: number) => row(BASIC, { ...RAISED, instance: `basic-io-error:rack=0,slot=${slot}` });

@@ -34,7 +34,7 @@ const COLUMNS: readonly { column: Column | "details"; word: () => string; classN
   { column: "code", word: () => t("errors.code"), className: "c-code" },
   { column: "details", word: () => t("history.details") },
   { column: "by", word: () => t("log.by") },
-  { column: "count", word: () => t("history.count"), className: "num" },
+  { column: "count", word: () => t("history.count"), className: "num c-count" },
 ];
 
 /** One row for each error; a click on a column head sorts, a second one reverses the order, a third one restores the order of the catalogue. */
@@ -50,7 +50,7 @@ export function HistoryTable({ lines, view, onView, label, dated }: Props) {
           <tr>
             {COLUMNS.map(({ column, word, className }) =>
               column === "details" ? (
-                <th key={column} scope="col">
+                <th key={column} scope="col" className="details">
                   {word()}
                 </th>
               ) : (

@@ -23,7 +23,8 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
   return (
     <tr data-error={keyOf(line)} className={line.fitted === false ? "absent" : undefined}>
       <th scope="row" title={line.name}>
-        {dated ? line.name : <Choice line={line} />}
+        <span className="hname cut">{dated ? line.name : <Choice line={line} />}</span>
+        {details && <span className="which">{details}</span>}
       </th>
       <td className="c-severity">
         <StateWord
@@ -46,7 +47,7 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
         {details}
       </td>
       <td title={line.origin ? t(`origin.${line.origin}`) : undefined}>{line.by ?? ""}</td>
-      <td className="num">{line.count || ""}</td>
+      <td className="num c-count">{line.count || ""}</td>
     </tr>
   );
 }

@@ -52,7 +52,7 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
     <>
       {!refusedInTree && <Refusal />}
       <p className="outcome muted" role="status">
-        {state.outcome?.ok ? inNames(errors, state.outcome.message) : ""}
+        {state.outcome?.ok ? inNames(errors, state.outcome.message, instances) : ""}
       </p>
       {hidden > 0 && <Hidden count={hidden} />}
       <div className="acts">

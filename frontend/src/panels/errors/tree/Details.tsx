@@ -1,8 +1,9 @@
 import { detailsInWords } from "../../../logic/errors/catalogue";
 import { entriesIn, isEdited, needsDetails, troubles, wireDetails } from "../../../logic/errors/details";
 import { isPlain } from "../../../logic/errors/shapes";
+import { legendOf } from "../../../logic/errors/sources";
 import { grouped, wallTime } from "../../../logic/format/numbers";
-import { isOf, keyOf } from "../../../logic/plc/errorInstances";
+import { isOf, keyOf, labelOf } from "../../../logic/plc/errorInstances";
 import { useFitted } from "../../../store/errors/hardware";
 import { entriesOf, raiseAnyway, setDetail, useSimulator } from "../../../store/errors/simulator";
 import { showSweeps } from "../../../store/errors/sweeps";
@@ -36,6 +37,7 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
   return (
     <section className="edetail" aria-label={t("errors.details")}>
       <Heading error={error} />
+      <Called error={error} wanted={wanted} />
       {error.description && <p className="muted">{error.description}</p>}
       {raised && <Raised error={error} row={raised} />}
       {row?.status === "cleared" && row.recovered_way && <Gone row={row} way={row.recovered_way} />}
@@ -107,7 +109,7 @@ function Heading({ error }: { error: ErrorInfo }) {
         {error.name}
       </b>
       {error.user && <span className="chip plain">{t("errors.user")}</span>}
-      <span className="chip plain" title={error.source ? t("errors.source", { source: error.source }) : undefined}>
+      <span className="chip plain" title={sourceOf(error)}>
         <Icon name={error.verified ? "check" : "info"} />
         {t(error.verified ? "errors.verified" : "errors.unverified")}
       </span>
@@ -117,6 +119,13 @@ function Heading({ error }: { error: ErrorInfo }) {
       </span>
     </div>
   );
+}
+
+/** What the project calls the unit, or the text of the number, that these details are of. */
+function Called({ error, wanted }: { error: ErrorInfo; wanted: GenerateOne }) {
+  const pairs = Object.entries(wanted.details ?? {}).map(([name, value]) => `${name}=${value}`);
+  const label = usePlc((plc) => labelOf(plc.instances, error.id, pairs.join(", ")));
+  return label && <p>{label}</p>;
 }
 
 /** Said before anybody tries: what is not fitted is refused, unless the device can report it all the same. */
@@ -150,6 +159,12 @@ function Absent({ error, wanted }: { error: ErrorInfo; wanted: GenerateOne }) {
 function Gone({ row, way }: { row: ErrorHistoryRow; way: NonNullable<ErrorHistoryRow["recovered_way"]> }) {
   const said = { by: row.recovered_by, at: wallTime(row.recovered_at), scan: grouped(row.recovered_scan ?? 0) };
   return <p className="muted">{t(`errors.way.${way}.by`, said)}</p>;
+}
+
+/** The source of an error, with what its abbreviations mean. */
+function sourceOf({ source }: ErrorInfo): string | undefined {
+  const meanings = legendOf([source]).map(({ key, meaning }) => `${key}: ${meaning}`);
+  return source ? [t("errors.source", { source }), ...meanings].join("\n") : undefined;
 }
 
 function Raised({ error, row }: { error: ErrorInfo; row: ErrorHistoryRow }) {

@@ -1,3 +1,4 @@
+import { legendOf } from "../../../logic/errors/sources";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { ErrorInfo } from "../../../wire/types";
@@ -29,7 +30,24 @@ export function Facts({ facts }: { facts: readonly Fact[] }) {
           ))}
         </tbody>
       </table>
+      <Legend facts={facts} />
     </details>
+  );
+}
+
+/** What the abbreviations in the sources mean. */
+function Legend({ facts }: { facts: readonly Fact[] }) {
+  const legend = legendOf(facts.map(({ source }) => source));
+  if (legend.length === 0) return null;
+  return (
+    <dl className="legend" aria-label={t("facts.legend")}>
+      {legend.map(({ key, meaning }) => (
+        <div key={key}>
+          <dt className="mono">{key}</dt>
+          <dd>{meaning}</dd>
+        </div>
+      ))}
+    </dl>
   );
 }
 

@@ -1,3 +1,4 @@
+import { Fragment } from "react";
 import { problemHelp } from "../../../logic/page/help";
 import { useWidths } from "../../../store/page/columns";
 import { showHelp } from "../../../store/page/help";
@@ -70,6 +71,22 @@ function Line({ tone, text }: { tone: string; text: string }) {
   );
 }
 
+/** A long path is broken after a folder, so that the name of the file is in one piece. */
+function Place({ file, at }: { file: string; at: string }) {
+  const parts = file.split("/");
+  const folders = parts.slice(0, -1);
+  return (
+    <>
+      {folders.map((folder, index) => (
+        <Fragment key={folders.slice(0, index + 1).join("/")}>
+          {folder}/<wbr />
+        </Fragment>
+      ))}
+      {`${parts.at(-1)}:${at}`}
+    </>
+  );
+}
+
 function Row({ problem }: { problem: Problem }) {
   const { icon, tone } = LOOK[problem.severity];
   return (
@@ -95,7 +112,9 @@ function Row({ problem }: { problem: Problem }) {
       >
         {problem.code}
       </span>
-      <span className="mono muted cut">{`${problem.file}:${problem.line}:${problem.column}`}</span>
+      <span className="mono muted place">
+        <Place file={problem.file} at={`${problem.line}:${problem.column}`} />
+      </span>
     </button>
   );
 }

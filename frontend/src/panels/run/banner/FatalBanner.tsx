@@ -23,7 +23,7 @@ export function FatalBanner({ state }: { state: InstanceState }) {
   const fatal = [...errors.values()].filter((row) => row.status === "generated" && row.severity === "fatal");
   const [cause] = fatal;
   const error = cause && byId.get(cause.id);
-  const details = detailsInWords(error, cause?.details ?? "");
+  const details = [cause?.label, detailsInWords(error, cause?.details ?? "")].filter(Boolean).join(", ");
   const title = cause ? t("fatal.title", { code: cause.code, name: error?.name ?? cause.name }) : t("fatal.plain");
   const scan = cause?.generated_scan ?? state.scan;
   const mode = modeBefore();

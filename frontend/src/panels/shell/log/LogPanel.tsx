@@ -205,7 +205,9 @@ interface LineProps {
 }
 
 function Line({ line, errors, start, index }: LineProps) {
-  const text = line.kind === "error" || line.kind === "recover" ? inNames(errors, line.text) : line.text;
+  const instances = usePlc((plc) => plc.instances);
+  const named = line.kind === "error" || line.kind === "recover";
+  const text = named ? inNames(errors, line.text, instances) : line.text;
   const { icon, tone } = LOOK[line.kind];
   return (
     <div className="gr" role="row" aria-rowindex={index + 2} style={{ transform: `translateY(${start}px)` }}>
