@@ -6,7 +6,7 @@ const INPUTS = `${SPECIAL}, Analog inputs, Unit number 3`;
 const OUTPUTS = `${SPECIAL}, Analog outputs, Unit number 20`;
 
 /** Adds one of a kind on the page Hardware, as the row after those that are there. */
-async function fit(page: Page, kind: string, number: number, name: string): Promise<void> {
+async function addUnit(page: Page, kind: string, number: number, name: string): Promise<void> {
   const section = page.locator('[data-pane=hardware]').getByRole('region', { name: kind, exact: true });
   const before = await section.locator('[data-fitted]').count();
   await section.getByRole('button', { name: `Add: ${kind}` }).click();
@@ -28,9 +28,9 @@ test('two units are fitted: both are raised, with a row each; one is recovered, 
     await page.getByRole('button', { name: 'Error simulator: actions' }).click();
     await page.getByRole('menuitem', { name: 'Hardware' }).click();
     await page.getByRole('button', { name: 'Say what is fitted' }).click();
-    await fit(page, 'Special I/O Units', 3, 'Analog inputs');
-    await fit(page, 'Special I/O Units', 20, 'Analog outputs');
-    await fit(page, 'FAL numbers', 42, 'pump overpressure');
+    await addUnit(page, 'Special I/O Units', 3, 'Analog inputs');
+    await addUnit(page, 'Special I/O Units', 20, 'Analog outputs');
+    await addUnit(page, 'FAL numbers', 42, 'pump overpressure');
     const hardware = page.locator('[data-pane=hardware]');
     await hardware.getByRole('button', { name: 'Save', exact: true }).click();
     await expect(hardware.getByRole('button', { name: 'Save', exact: true })).toBeDisabled();

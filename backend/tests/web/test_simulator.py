@@ -1,6 +1,7 @@
 """The error simulator through the whole house: what it writes, who may not, two people, faults with a shape, reactions."""
 
 import json
+from functools import partial
 
 import pytest
 
@@ -261,7 +262,11 @@ def test_a_build_that_takes_a_unit_out_tells_that_these_are_all_rows(server: Ser
             assert saved.is_success, saved.text
             assert server.http.post(f"/api/projects/{project}/build", json={}).json()["ok"]
             expected = {f"special-io-unit-error:unit={each['number']}" for each in fitted}
-            browser.wait(lambda expected=expected: _special(browser) == expected)
+            browser.wait(partial(_has_units, browser, expected))
+
+
+def _has_units(browser: Browser, expected: set[str]) -> bool:
+    return _special(browser) == expected
 
 
 def _special(browser: Browser) -> set[str]:

@@ -5344,7 +5344,7 @@ export interface components {
         NewSweep: {
             /**
              * Errors
-             * @description ids; null is the whole catalogue
+             * @description ids, or instances (`fal:number=5`); null is the whole catalogue
              */
             errors?: string[] | null;
             /** States */
