@@ -10,7 +10,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.declare.settings import Settings
 from scanbench.check.declare.start_references import bind_start_references
-from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.model import Location, Model
 from scanbench.problems import Span
 from scanbench.program.copies import copies_of
 from scanbench.program.layout import Layout
@@ -230,6 +230,12 @@ def _place_frames(pous: list[Pou], at: int) -> int:
     return at
 
 
+def _on_at_the_start(model: Model) -> list[Location]:
+    """Bits that are on before anything ran: of a device with a standby both CPU Units run."""
+    standby = model.standby
+    return [] if standby is None else [place for place in (standby.duplex, standby.active) if place is not None]
+
+
 def _initial_image(
     layout: Layout, declarations: Declarations, variables: Record, instances: list[ProgramInstance]
 ) -> bytes:
@@ -242,6 +248,9 @@ def _initial_image(
         data = instance.pou.instance.initial()
         image[instance.offset : instance.offset + len(data)] = data
     bind_start_references(declarations, variables, instances, image)
+    for place in _on_at_the_start(layout.model):
+        offset = layout.areas[place.area.name] + place.byte
+        image[offset] |= 1 << (place.bit or 0)
     for offset, mask, data in declarations.located:
         for index, byte in enumerate(data, offset):
             image[index] = image[index] & ~mask | byte & mask

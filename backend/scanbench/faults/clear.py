@@ -76,15 +76,20 @@ class ClearErrorLog(Command):
 def clear(
     view: View, present: Mapping[str, Active], author: str, wanted: Callable[[Chosen], bool], way: Way
 ) -> tuple[Recover | None, list[Chosen]]:
-    """The command that takes back what is wanted and can go, if anything can, and what cannot."""
+    """The command that takes back what is wanted and can go, if anything can, and what cannot. What has no code is not
+    among the errors that a device clears."""
     ids: list[str] = []
     numbers: list[ErrorRef] = []
     held: list[Chosen] = []
     for id, several in present_choices(view, present).items():
-        chosen = [(each, one) for each, one in zip(present[id].raised, several, strict=True) if wanted(one)]
+        chosen = [
+            (each, one)
+            for each, one in zip(present[id].raised, several, strict=True)
+            if one.error.coded and wanted(one)
+        ]
         gone = [each.ref for each, one in chosen if not holds(each, one)]
         held += [one for each, one in chosen if holds(each, one)]
-        if len(gone) == len(several):
+        if gone and len(gone) == len(several):
             ids.append(id)
         else:
             numbers += gone
@@ -101,7 +106,9 @@ def most_serious(
     view: View, present: Mapping[str, Active], among: Callable[[Chosen], bool]
 ) -> Callable[[Chosen], bool]:
     """Just the one that the code word shows, of those that `among` lets through."""
-    every = [one for several in present_choices(view, present).values() for one in several if among(one)]
+    every = [
+        one for several in present_choices(view, present).values() for one in several if one.error.coded and among(one)
+    ]
     first = min(every, key=rank, default=None)
     return lambda one: first is not None and one.error is first.error and one.details == first.details
 

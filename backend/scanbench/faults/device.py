@@ -7,10 +7,11 @@ say is not shown: a number that is only in an error code is known while the code
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from scanbench.faults.device_log import messages, records
+from scanbench.faults.device_log import clock_text, messages, records
 from scanbench.faults.device_memory import Memory
 from scanbench.faults.device_present import present
-from scanbench.faults.device_shapes import DeviceErrors
+from scanbench.faults.device_shapes import DeviceErrors, DeviceStandby
+from scanbench.faults.standby import active_side, causes_on, is_duplex
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.overlaps import Stretch, stretch, stretches
 from scanbench.program.layout import Layout
@@ -31,7 +32,19 @@ def read_device(view: View, past: bool = False) -> DeviceErrors:
         errors=tuple(present(memory, log)),
         log=log,
         messages=messages(memory),
+        standby=_standby(view, memory),
     )
+
+
+def _standby(view: View, memory: Memory) -> DeviceStandby | None:
+    standby, layout = view.model.standby, view.program.layout
+    if standby is None:
+        return None
+    causes = tuple(
+        error.name for id in causes_on(view.memory, layout, standby) if (error := view.model.error(id)) is not None
+    )
+    time = "" if standby.time is None or not causes else clock_text(memory, standby.time, standby.fields)
+    return DeviceStandby(is_duplex(view.memory, layout), active_side(view.memory, layout, standby), causes, time)
 
 
 @dataclass(slots=True)
@@ -68,6 +81,8 @@ def _read(model: Model) -> Iterator[Stretch]:
         yield stretch(model.log.counter)
     if model.error_time is not None:
         yield stretch(model.error_time.first, -(-len(model.error_time.fields) // 2))
+    for told in () if model.standby is None else model.standby.places:
+        yield stretch(told, -(-told.bits // 16))
     for query in model.queries:
         yield stretch(query.code)
     for _, place, words in model.texts():

@@ -12,7 +12,7 @@ _SPECIAL_UNIT = 0x8000
 
 def by_code(model: Model, code: int, severity: Severity) -> ErrorEntry | None:
     """The error that has this code; the one of just this code before one whose details add up to it."""
-    known = [error for error in model.errors() if error.severity == severity and not error.user]
+    known = [error for error in model.errors() if error.severity == severity and not error.user and error.coded]
     exact = next((error for error in known if error.code == code), None)
     return exact or next((error for error in known if any(code in each for each in error.codes)), None)
 

@@ -1,12 +1,13 @@
 """The device's own error log, and the messages of its program, from its memory."""
 
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 
 from scanbench.faults import device_errors
 from scanbench.faults.device_memory import Memory, said
 from scanbench.faults.device_shapes import DeviceDetail, DeviceMessage, DeviceRecord
 from scanbench.plcmodel.catalogue import ErrorEntry
-from scanbench.plcmodel.model import ErrorLog, ErrorTime
+from scanbench.plcmodel.model import ClockField, ErrorLog, ErrorTime, Location
 
 _CODE, _CONTENTS, _TIMES = 0, 1, ("second", "minute", "hour", "day", "month", "year")
 """Words of a record: the code, the details, then a byte for each part of the time."""
@@ -43,10 +44,15 @@ def _record(memory: Memory, log: ErrorLog, number: int) -> DeviceRecord:
 
 
 def _latest(memory: Memory, time: ErrorTime) -> str:
-    return _time({field: memory.byte(time.first, number) for number, field in enumerate(time.fields)})
+    return clock_text(memory, time.first, time.fields)
 
 
-def _time(parts: dict[str, int]) -> str:
+def clock_text(memory: Memory, first: Location, fields: Sequence[ClockField]) -> str:
+    """A time of which the memory has a byte for each field, in BCD; empty where it is none."""
+    return _time({field: memory.byte(first, number) for number, field in enumerate(fields)})
+
+
+def _time(parts: Mapping[str, int]) -> str:
     """Bytes of two decimal digits as a time; empty where they are none."""
     if any(name not in parts for name in _TIMES) or not all(f"{parts[name]:02X}".isdigit() for name in _TIMES):
         return ""

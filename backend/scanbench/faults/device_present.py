@@ -78,6 +78,9 @@ def _with_codes(
 ) -> Iterator[_Found]:
     for reading in readings:
         hidden = [detail for detail in error.details if _is_hidden(detail)]
+        if not error.coded:
+            yield error, reading, None
+            continue
         if not hidden:
             yield error, reading, error.code + sum(more for _, more in reading.values())
             continue

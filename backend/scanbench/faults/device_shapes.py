@@ -1,6 +1,7 @@
 """What a tool's window of errors shows: of this PLC's memory, in the notation of its vendor."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from scanbench.plcmodel.catalogue import CodeForm, Severity
 from scanbench.public import Public
@@ -70,6 +71,20 @@ class DeviceMessage(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class DeviceStandby(Public):
+    """Which CPU Unit controls, of a device with two."""
+
+    duplex: bool
+    """Both run; false: one is left (simplex)."""
+    side: Literal["left", "right"]
+    """The CPU Unit that controls."""
+    causes: tuple[str, ...]
+    """The names of the errors for which the standby took over last; empty where it never did since the start."""
+    time: str
+    """The PLC's clock when it took over last, `2026-11-24 10:15:02`; empty where it never did, or the memory does not say."""
+
+
+@dataclass(frozen=True, slots=True)
 class DeviceErrors(Public):
     """The device's own view of its errors, read from its memory at one scan."""
 
@@ -89,3 +104,5 @@ class DeviceErrors(Public):
     log: tuple[DeviceRecord, ...]
     """The newest first."""
     messages: tuple[DeviceMessage, ...]
+    standby: DeviceStandby | None = None
+    """None where the device has one CPU Unit."""

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 
 from scanbench.faults.details import Chosen
+from scanbench.plcmodel.model import ClockField
 from scanbench.runtime.command import Patch, View
 
 _BEGIN = datetime(1970, 1, 1, tzinfo=UTC)
@@ -11,8 +12,9 @@ _CODE, _CONTENTS, _MINUTE_SECOND, _DAY_HOUR, _YEAR_MONTH = range(5)
 
 
 def log_patches(view: View, generated: Sequence[Chosen]) -> list[Patch]:
-    """Patches that append a record for each error: code, first detail word, the PLC's clock in BCD."""
+    """Patches that append a record for each error that has a code: that, first detail word, the PLC's clock in BCD."""
     log, layout = view.model.log, view.program.layout
+    generated = [one for one in generated if one.error.coded]
     if log is None or not generated:
         return []
     counter = layout.areas[log.counter.area.name] + log.counter.byte
@@ -28,15 +30,21 @@ def log_patches(view: View, generated: Sequence[Chosen]) -> list[Patch]:
 def time_patches(view: View, generated: Sequence[Chosen], nothing_left: bool = False) -> list[Patch]:
     """Patches that show when the latest error came: now, if one was generated; nothing, if none is left."""
     time = view.model.error_time
+    generated = [one for one in generated if one.error.coded]
     if time is None or not (generated or nothing_left):
         return []
-    now, first = _now(view), view.program.layout.areas[time.first.area.name] + time.first.byte
+    first = view.program.layout.areas[time.first.area.name] + time.first.byte
+    return [Patch.whole(first, clock_bytes(view, time.fields) if generated else bytes(len(time.fields)))]
+
+
+def clock_bytes(view: View, fields: Sequence[ClockField]) -> bytes:
+    """The PLC's clock in BCD, a byte for each field."""
+    now = _now(view)
     shown = {
         "second": now.second, "minute": now.minute, "hour": now.hour, "day": now.day, "month": now.month,
         "year": now.year % 100, "century": now.year // 100, "weekday": now.isoweekday() % 7, "zero": 0,
     }  # fmt: skip
-    numbers = [_bcd(shown[field]) if generated else 0 for field in time.fields]
-    return [Patch.whole(first, bytes(numbers))]
+    return bytes(_bcd(shown[field]) for field in fields)
 
 
 def _now(view: View) -> datetime:

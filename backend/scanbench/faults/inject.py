@@ -13,6 +13,7 @@ from scanbench.faults.details import Chosen, choose
 from scanbench.faults.errorlog import log_patches, time_patches
 from scanbench.faults.present import NOTHING, Active, Instances, Origin, Present, Raised, Way, instances_in
 from scanbench.faults.reference import ErrorRef, find_error, parse_reference
+from scanbench.faults.standby import is_repaired, restored, taken_over, takes_over
 from scanbench.faults.switch import switch
 from scanbench.faults.trap_errors import error_of
 from scanbench.plcmodel.hardware import HARDWARE_FILE, can_be_absent, is_fitted
@@ -51,6 +52,8 @@ class Generate(Command):
     the program raised it."""
     anyway: bool = False
     """Although it is not fitted: of what the device reports although it is not there."""
+    standby: bool = False
+    """The standby CPU Unit takes over, so they do not stop the program; `settled` says it."""
 
     def settled(self, view: View) -> "Generate":
         """With what tells its instances apart, and with what gives way."""
@@ -61,7 +64,8 @@ class Generate(Command):
         known = present_choices(view, present)
         gone = (self._gives_way(one, present, known) for one in chosen)
         refs = tuple(raised.ref for each in gone for raised, _ in each)
-        return replace(self, errors=tuple(map(settled_ref, self.errors, chosen)), replaces=refs)
+        standby = self.origin == "simulator" and takes_over(view, _fatal(chosen))
+        return replace(self, errors=tuple(map(settled_ref, self.errors, chosen)), replaces=refs, standby=standby)
 
     def plan(self, view: View) -> Plan | Refusal:
         """Everything that the device would set."""
@@ -85,14 +89,18 @@ class Generate(Command):
         patches = list(switch(view, off=changed, on=chosen, others=_flat(others)))
         patches += log_patches(view, chosen)
         patches += time_patches(view, chosen)
-        fatal = [one for one in chosen if one.error.severity == "fatal"]
-        if fatal:
+        fatal, follows = _fatal(chosen), ""
+        if self.origin == "simulator" and takes_over(view, fatal):
+            more, said = taken_over(view, fatal)
+            patches += more
+            follows = f"; {said}"
+        elif fatal:
             # Stopping comes first: clearing memory must not take back what the error sets.
             patches[:0] = _stop(view, fatal)
+            follows = f"; the program is stopped{_what_is_held(view, fatal)}"
         absent = [one for one in chosen if not is_fitted(view.model.fitted, one.error, one.instance.details)]
         although = f"; {HARDWARE_FILE} does not have {', '.join(str(one.instance) for one in absent)}" if absent else ""
-        stops = f"; the program is stopped{_what_is_held(view, fatal)}" if fatal else ""
-        return Plan(tuple(patches), "generated " + ", ".join(map(describe, chosen)) + although + stops)
+        return Plan(tuple(patches), "generated " + ", ".join(map(describe, chosen)) + although + follows)
 
     def _in_the_way(self, one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
         """What is present so that it cannot be raised."""
@@ -142,7 +150,9 @@ class Recover(Command):
         others = present_choices(view, present)
         ids = tuple(present) if settled.ids is None else settled.ids
         if not ids and not settled.numbers:
-            return Plan((), "no error is generated")
+            back, said = restored(view) if self.ids is None and self.way == "simulator" else ([], "")
+            return Plan(tuple(back), said or "no error is generated")
+        survived = _survived(present, others)
         off = [one for id in ids for one in others.pop(id)]
         named = list(ids)
         for ref in settled.numbers:
@@ -157,14 +167,19 @@ class Recover(Command):
         patches = list(switch(view, off=off, on=[], others=_flat(others)))
         patches += time_patches(view, (), nothing_left=not _flat(others))
         message = _what_went(self.way, ", ".join(named))
-        halt = _halt_after(view, off, _flat(others))
+        left = _flat(others)
+        halt = _halt_after(view, off, left, survived)
         if halt != view.header.halt:
             patches.append(Patch.whole(Layout.FATAL, bytes((halt,))))
             if not halt:
                 patches.append(Patch.whole(Layout.MODE, bytes((Mode.PROGRAM,))))
                 message += "; the program stays stopped: change to MONITOR or RUN, or restart"
-        if halt and _any_fatal(off):
-            message += f"; the program stays stopped: {_why_stopped(view, halt, _flat(others))}"
+        if halt and _any_fatal(_without(off, survived)):
+            message += f"; the program stays stopped: {_why_stopped(view, halt, _without(left, survived))}"
+        if self.way == "simulator" and is_repaired(view.model, off, left):
+            back, said = restored(view)
+            patches += back
+            message += f"; {said}" if said else ""
         return Plan(tuple(patches), message)
 
 
@@ -191,7 +206,7 @@ def _after(instances: Instances, command: Command, scan: int) -> Instances:
         changed = {text: raised for text, raised in instances.items() if not _replaced(raised.ref, command)}
         for ref in command.errors:
             changed.pop(str(ref), None)
-            changed[str(ref)] = Raised(ref, command.author, scan, command.origin)
+            changed[str(ref)] = Raised(ref, command.author, scan, command.origin, command.standby)
         return changed
     if isinstance(command, Recover):
         return {text: raised for text, raised in instances.items() if not takes_back(command, raised.ref)}
@@ -247,7 +262,8 @@ def present_choices(view: View, present: Mapping[str, Active]) -> dict[str, list
 def describe(chosen: Chosen) -> str:
     """An error with code and details, for people."""
     details = f" ({chosen})" if chosen.details else ""
-    return f"{chosen.error.id}{details}, code {chosen.code_text}"
+    code = f"code {chosen.code_text}" if chosen.error.coded else "no code"
+    return f"{chosen.error.id}{details}, {code}"
 
 
 def _choose_all(view: View, refs: Iterable[ErrorRef]) -> list[Chosen] | Refusal:
@@ -354,10 +370,10 @@ def _what_is_held(view: View, fatal: list[Chosen]) -> str:
     return ", outputs off; memory is held, that of the outputs too"
 
 
-def _halt_after(view: View, off: Sequence[Chosen], left: Sequence[Chosen]) -> Halt:
+def _halt_after(view: View, off: Sequence[Chosen], left: Sequence[Chosen], survived: Sequence[Chosen]) -> Halt:
     """What still keeps the program stopped. A trap ends with its error, whoever raised that again meanwhile."""
     halt = view.header.halt
-    last = _any_fatal(off) and not _any_fatal(left)
+    last = _any_fatal(_without(off, survived)) and not _any_fatal(_without(left, survived))
     if last:
         halt &= ~Halt.FATAL_ERROR
     info = view.derived(TRAPPED)
@@ -367,6 +383,24 @@ def _halt_after(view: View, off: Sequence[Chosen], left: Sequence[Chosen]) -> Ha
         if (last and by_instruction) or any(one.error is error for one in off):
             halt &= ~Halt.TRAP
     return halt
+
+
+def _fatal(errors: Iterable[Chosen]) -> list[Chosen]:
+    return [one for one in errors if one.error.severity == "fatal"]
+
+
+def _survived(present: Mapping[str, Active], choices: Choices) -> list[Chosen]:
+    """The errors that are present, and do not stop the program as the standby took over."""
+    return [
+        one
+        for id, several in choices.items()
+        for raised, one in zip(present[id].raised, several, strict=True)
+        if raised.standby and one.error.severity == "fatal"
+    ]
+
+
+def _without(errors: Iterable[Chosen], others: Sequence[Chosen]) -> list[Chosen]:
+    return [one for one in errors if one not in others]
 
 
 def _any_fatal(errors: Iterable[Chosen]) -> bool:

@@ -22,6 +22,8 @@ class Raised:
     by: str
     scan: int
     origin: Origin
+    standby: bool = False
+    """The standby CPU Unit took over for it, so it does not stop the program."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,8 +29,8 @@ def switch(view: View, off: Sequence[Chosen], on: Sequence[Chosen], others: Sequ
 
 
 def shown_code(present: Sequence[Chosen]) -> int:
-    """The code of the most serious error; of one that is present with several numbers the lowest; 0 where none is."""
-    first = min(present, key=rank, default=None)
+    """The code of the most serious error that has one; of one that is present with several numbers the lowest; 0 where none is."""
+    first = min((one for one in present if one.error.coded), key=rank, default=None)
     return 0 if first is None else first.code
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from threading import Lock
 
-from scanbench.plcmodel.model import Instruction, Model
+from scanbench.plcmodel.model import ErrorGroup, Instruction, Model
 
 _KEPT = 32
 _COMMENT = re.compile(r"'(?:\$.|[^$'\n])*'|\"(?:\$.|[^$\"\n])*\"|//[^\n]*|\(\*.*?\*\)|/\*.*?\*/", re.DOTALL)
@@ -34,7 +34,17 @@ def as_used(model: Model, texts: Iterable[str]) -> Model:
 def plain(model: Model) -> Model:
     """The model of a program that uses none of it, and nothing that only instructions ask for: what run files were kept with."""
     first = tuple(each for each in model.instructions if not each.part)
-    return replace(_without(model, says=False, codes=False), instructions=tuple(_silent(first)), queries=())
+    made = _without(model, says=False, codes=False)
+    return replace(made, instructions=tuple(_silent(first)), queries=(), catalogue=_coded(model.catalogue))
+
+
+def _coded(groups: Iterable[ErrorGroup]) -> tuple[ErrorGroup, ...]:
+    """Without the errors that have no code: they came later, and what is entered of them a run keeps."""
+    made = (
+        replace(each, groups=_coded(each.groups), errors=tuple(error for error in each.errors if error.coded))
+        for each in groups
+    )
+    return tuple(each for each in made if each.groups or each.errors)
 
 
 def _saying(model: Model) -> dict[str, str]:

@@ -144,6 +144,9 @@ class ErrorEntry:
     """Its cause lasts: what a tool or program clears shows again at once. Only who holds the cause can recover it."""
     hardware: Hardware = ""
     """What has to be fitted for it, where no detail says which."""
+    coded: bool = True
+    """False: the device has no error code for it. So the code word, the log and its way to clear errors know nothing of it;
+    `code` is 0."""
 
     @property
     def identifying(self) -> tuple[ErrorDetail, ...]:
@@ -157,8 +160,8 @@ class ErrorEntry:
 
     @property
     def code_text(self) -> str:
-        """The code without what details add to it, as the device shows it."""
-        return show_code(self.code, self.form)
+        """The code without what details add to it, as the device shows it; empty where it has none."""
+        return self.show(self.code)
 
     @property
     def code_limit(self) -> int:
@@ -167,11 +170,13 @@ class ErrorEntry:
 
     def show(self, code: int) -> str:
         """A code of this error (details added) as the device shows it."""
-        return show_code(code, self.form)
+        return show_code(code, self.form) if self.coded else ""
 
     @property
     def codes(self) -> tuple[range, ...]:
         """Every code that it can have, details added."""
+        if not self.coded:
+            return ()
         found = [range(self.code, self.code + 1)]
         for detail in self.details:
             if stretches := _additions(detail):

@@ -32,6 +32,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "ErrorLog": ("place", "records", "format", "counter"),
     "ErrorReset": ("reset",),
     "ErrorTime": ("place", "format"),
+    "Standby": ("status", "switches", "time"),
     "Special": ("address", "meaning", "text"),
     "Instruction": ("effect", "numbers", "clearing", "system-errors", "text"),
     "Message": ("numbers", "text"),

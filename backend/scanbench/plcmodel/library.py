@@ -15,6 +15,7 @@ from scanbench.plcmodel.read_catalogue import read_catalogue
 from scanbench.plcmodel.read_facts import read_facts
 from scanbench.plcmodel.read_instructions import instructions, message_instructions, queries, resets
 from scanbench.plcmodel.read_memory import read_memory
+from scanbench.plcmodel.read_standby import standby
 from scanbench.plcmodel.read_system import (
     code_word,
     error_log,
@@ -151,6 +152,7 @@ def _model(layers: list[Reader]) -> Model:
         facts=read_facts(layers, [(elements[id], error) for id, error in errors.items()]),
         queries=queries(layers),
         messages=message_instructions(layers),
+        standby=standby(layers, errors),
     )
 
 

@@ -49,6 +49,7 @@ __all__ = [
     "Role",
     "Severity",
     "Special",
+    "Standby",
     "TextPlace",
     "Who",
     "WordRange",
@@ -116,6 +117,37 @@ class ErrorTime:
 
     first: Location
     fields: tuple[ClockField, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Standby:
+    """A second CPU Unit that runs the same program, and takes over when the active one fails."""
+
+    duplex: Location
+    """On: both run; off: one is left (simplex)."""
+    active: Location | None
+    """On in the CPU Unit that controls: the program always sees it on."""
+    side: Location
+    """Off: the left CPU Unit controls, as at the start; on: the right one."""
+    causes: tuple[tuple[str, Location], ...]
+    """The errors for which the standby takes over, by id, and the bit that says why it did last."""
+    time: Location | None = None
+    """When it took over last, in BCD: a byte for each of `fields`."""
+    fields: tuple[ClockField, ...] = ()
+
+    def takes_over_for(self, error: str) -> bool:
+        """Whether an error of this id does not stop the program while both run."""
+        return any(id == error for id, _ in self.causes)
+
+    @property
+    def places(self) -> tuple[Location, ...]:
+        """Everything that a change between the CPU Units writes."""
+        bits = [self.duplex, self.side, *(place for _, place in self.causes)]
+        if self.active is not None:
+            bits.append(self.active)
+        if self.time is not None:
+            bits.append(self.time._replace(bits=8 * len(self.fields)))
+        return tuple(bits)
 
 
 @dataclass(frozen=True, slots=True)
@@ -256,6 +288,7 @@ class Model:
     """Everything that the model file says about the device, and where it comes from."""
     queries: tuple[QueryInstruction, ...] = ()
     messages: tuple[MessageInstruction, ...] = ()
+    standby: Standby | None = None
     fitted: tuple[Fitted, ...] | None = None
     """What a project says is fitted; None: it does not say."""
 

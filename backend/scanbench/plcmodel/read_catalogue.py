@@ -90,15 +90,20 @@ def _made(branch: _Branch) -> ErrorGroup:
     )
 
 
+def said_code(error: ErrorEntry) -> str:
+    """What a message calls the code of an error."""
+    return f"code {error.code_text}" if error.coded else "an error without a code"
+
+
 def _unique(tree: ErrorGroup, elements: dict[str, Element]) -> None:
     """A pair of code and flag belongs to one error."""
-    pairs: dict[tuple[int, str, int, int | None], str] = {}
+    pairs: dict[tuple[str, str, int, int | None], str] = {}
     for error in tree.walk():
-        pair = (error.code, error.flag.area.name, error.flag.byte, error.flag.bit)
+        pair = (error.code_text, error.flag.area.name, error.flag.byte, error.flag.bit)
         if pair in pairs:
-            message = f"code {error.code_text} with flag {error.flag_text} belongs to {pairs[pair]!r} already"
+            message = f"{said_code(error)} with flag {error.flag_text} belongs to {pairs[pair]!r} already"
             reader, node = elements[error.id]
-            reader.problem("M005", message, node, "ErrorCode")
+            reader.problem("M005", message, node, "ErrorCode" if error.coded else "ErrorFlag")
         pairs.setdefault(pair, error.id)
 
 
@@ -109,7 +114,11 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
     names = [detail.name for detail in details]
     for name in {name for name in names if names.count(name) > 1}:
         reader.problem("M004", f"two details are named {name!r}", node)
-    code = _code(reader, node, sum(_largest_addition(detail) for detail in details))
+    added = sum(_largest_addition(detail) for detail in details)
+    coded = node.get("ErrorCode") is not None
+    if added and not coded:
+        reader.problem("M008", "an error without an ErrorCode has nothing that a detail could add to", node)
+    code = _code(reader, node, added) if coded else 0
     also = tuple(_also(reader, child, details) for child in node.iterchildren("Also"))
     for message in overlaps(flag, node.get("ErrorFlag", ""), details, also):
         reader.problem("M007", message, node)
@@ -133,11 +142,12 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
         wordings=wordings_of(node),
         lasting=node.get("Cause") == "lasting",
         hardware=cast(Hardware, node.get("Hardware", "")),
+        coded=coded,
     )
 
 
 def _code(reader: Reader, node: etree._Element, added: int) -> int:
-    text, form = node.get("ErrorCode", "0"), reader.code_form
+    text, form = node.get("ErrorCode", ""), reader.code_form
     if form == "decimal" and not text.isdigit():
         reader.problem("M007", f"{text!r} is not decimal, as the codes of this model are", node, "ErrorCode")
         return 0

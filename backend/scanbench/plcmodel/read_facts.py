@@ -8,7 +8,13 @@ from scanbench.plcmodel.catalogue import ErrorEntry
 from scanbench.plcmodel.facts import KINDS, Fact, Kind
 from scanbench.plcmodel.reading import LANGUAGE, Element, Reader, merged, nearest, text_of
 
-_SYSTEM = {"Fatal": "fatal", "ErrorLog": "error-log", "ErrorReset": "error-reset", "ErrorTime": "error-time"}
+_SYSTEM = {
+    "Fatal": "fatal",
+    "ErrorLog": "error-log",
+    "ErrorReset": "error-reset",
+    "ErrorTime": "error-time",
+    "Standby": "standby",
+}
 
 
 def read_facts(layers: Sequence[Reader], errors: Iterable[tuple[Element, ErrorEntry]]) -> tuple[Fact, ...]:
@@ -84,6 +90,10 @@ def _part(node: etree._Element) -> Iterator[tuple[str, str]]:
         case "ErrorTime":
             yield "place", node.get("First", "")
             yield "format", node.get("Fields", "")
+        case "Standby":
+            yield "status", " ".join(node.get(each, "") for each in ("Duplex", "Active", "Side") if node.get(each))
+            yield "switches", ", ".join(each.get("Error", "") for each in node.iterchildren("Cause"))
+            yield "time", node.get("Time", "none")
 
 
 def _area(node: etree._Element) -> Iterator[tuple[str, str]]:
@@ -125,13 +135,13 @@ def _numbers(node: etree._Element) -> str:
 
 def _error(node: etree._Element, error: ErrorEntry) -> Iterator[tuple[str, str]]:
     yield "flag", error.flag_text
-    yield "code", error.code_text
+    yield "code", error.code_text or "none"
     yield "severity", error.severity
     yield "priority", str(error.priority)
     yield "cause", "lasting" if error.lasting else "passing"
     if error.severity == "fatal":
         yield "memory", "kept" if error.keeps_memory else "cleared"
-    yield "log", "details" if error.details else "none"
+    yield "log", "details" if error.details and error.coded else "none"
     if error.details:
         yield "details", ", ".join(detail.name for detail in error.details)
     yield from _text(node, "Name")

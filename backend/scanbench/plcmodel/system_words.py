@@ -46,6 +46,8 @@ def _of_the_system(device: Model) -> Iterator[Taken]:
         yield Taken(stretch(device.error_reset.code), "the code of the error to clear")
     if device.fatal.hold is not None:
         yield Taken(stretch(device.fatal.hold), "the hold bit")
+    for told in () if device.standby is None else device.standby.places:
+        yield Taken(stretch(told, -(-told.bits // 16)), "what says which CPU Unit controls")
     for special in device.specials:
         if special.role or special.name in _NAMED:
             yield Taken(stretch(special.location), f"{special.name} of the system")

@@ -19,7 +19,7 @@ from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.load import model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.overlaps import Stretch, stretch, stretches
-from scanbench.plcmodel.read_catalogue import read_catalogue
+from scanbench.plcmodel.read_catalogue import read_catalogue, said_code
 from scanbench.plcmodel.read_hardware import is_hardware, read_hardware
 from scanbench.plcmodel.reading import Reader
 from scanbench.plcmodel.system_words import addresses_of, taken, who_has
@@ -157,8 +157,8 @@ def _compare(reader: Reader, device: Model, groups: Sequence[ErrorGroup]) -> Non
     for error in _all(groups):
         node, twin = nodes[error.id], pairs.get(_pair(error))
         if twin is not None:
-            message = f"code {error.code_text} with flag {error.flag_text} is {twin.id!r} of the {device.name} itself"
-            reader.problem("M005", message, node, "ErrorCode")
+            message = f"{said_code(error)} with flag {error.flag_text} is {twin.id!r} of the {device.name} itself"
+            reader.problem("M005", message, node, "ErrorCode" if error.coded else "ErrorFlag")
         for at, attribute, bits in _written(error, node):
             purpose = who_has(known, bits)
             if purpose and (twin is None or attribute != "ErrorFlag"):
@@ -178,8 +178,8 @@ def _written(error: ErrorEntry, node: etree._Element) -> Iterator[tuple[etree._E
             yield place, "Address", bits
 
 
-def _pair(error: ErrorEntry) -> tuple[int, str, int, int | None]:
-    return error.code, error.flag.area.name, error.flag.byte, error.flag.bit
+def _pair(error: ErrorEntry) -> tuple[str, str, int, int | None]:
+    return error.code_text, error.flag.area.name, error.flag.byte, error.flag.bit
 
 
 def _all(groups: Sequence[ErrorGroup]) -> Iterator[ErrorEntry]:

@@ -8,7 +8,7 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 
 from scanbench.plcmodel.as_used import plain
-from scanbench.plcmodel.model import Area, ErrorAddress, Instruction, Model, ResetInstruction
+from scanbench.plcmodel.model import Area, ErrorAddress, ErrorEntry, Instruction, Model, ResetInstruction
 from scanbench.plcmodel.user_errors import device_of
 from scanbench.program.program import Program
 from scanbench.program.types import Record
@@ -19,8 +19,8 @@ _WORDS = frozenset(
 )
 """What an error is of, and what is fitted, decides what may be entered; what was entered a run keeps."""
 _LATER = frozenset({
-    (Area, "texts"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"), (ResetInstruction, "code"),
-    (Model, "queries"), (Model, "messages"),
+    (Area, "texts"), (ErrorEntry, "coded"), (Instruction, "text"), (Instruction, "texts"), (Instruction, "part"), (ResetInstruction, "code"),
+    (Model, "queries"), (Model, "messages"), (Model, "standby"),
 })  # fmt: skip
 """Fields that came after run files were kept: with their defaults they say nothing, so that runs from before fit."""
 _ENTERED = frozenset({(ErrorAddress, "lasting")})

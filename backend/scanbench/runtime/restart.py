@@ -13,7 +13,7 @@ from scanbench.check.declare.classes import TYPE_NUMBER
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type
-from scanbench.runtime.command import Category, Command, Plan, Refusal, Restarted, RestartKind, View
+from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, Restarted, RestartKind, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Header, Mode, fresh_image
 from scanbench.runtime.modes import held, started
@@ -36,10 +36,24 @@ class Restart(Command):
     kind: RestartKind
 
     def plan(self, view: View) -> Plan | Refusal:
-        """All of it is the effect."""
+        """Nearly all of it is the effect."""
         if self.kind not in _MESSAGES:
             return Refusal(f"{self.kind} is not a kind of restart", tuple(_MESSAGES))
-        return Plan((), _MESSAGES[self.kind], Restarted(self.kind))
+        return Plan(_error_bits_off(view), _MESSAGES[self.kind], Restarted(self.kind))
+
+
+def _error_bits_off(view: View) -> tuple[Patch, ...]:
+    """The bits of device errors in words that are retained, as the program may write them: no error is present any more."""
+    bits: dict[int, int] = {}
+    for error in view.model.errors():
+        for address in () if error.user else (each for detail in error.details for each in detail.addresses):
+            place = address.location
+            if place is None or place.bit is None or not place.area.retain:
+                continue
+            if place.area.access(place.word, "program") == "write":
+                offset = view.program.layout.areas[place.area.name] + place.byte
+                bits[offset] = bits.get(offset, 0) | 1 << place.bit
+    return tuple(Patch(offset, bytes((mask,)), bytes(1)) for offset, mask in sorted(bits.items()))
 
 
 def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:

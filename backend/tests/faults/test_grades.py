@@ -35,11 +35,11 @@ def table() -> dict[str, list[Deserved]]:
 
 
 TABLE = table()
-NONFATAL = [each.id for each in model().errors() if each.severity == "nonfatal"]
+NONFATAL = [each.id for each in model().errors() if each.severity == "nonfatal" and each.coded]
 
 
 def of_each_error(rows: list[Deserved]) -> dict[str, Deserved]:
-    """`*` is every nonfatal error without a row of its own."""
+    """`*` is every nonfatal error that has a code, and no row of its own."""
     own = {row.error: row for row in rows}
     rest = own.pop("*", None)
     return own if rest is None else {**own, **{id: rest for id in NONFATAL if id not in own}}

@@ -56,6 +56,12 @@ DUPLEX = f"""
 0003 A402.14 also A316.02 | {POWER}
 0600 A402.14 also A316.03 | Spin A436[0..15] +
 """
+SERIAL = """
+none A392.04 | List A528.02 A528.03 A528.04 A528.05
+none A392.12 | List A528.10 A528.11 A528.12 A528.13
+"""
+NETWORK = "\n".join(f"none A219.{port:02} | Edit A{203 + port}.00-15 1..65535" for port in range(8))
+"""What has no code: of the built-in serial ports (not on a CJ2M-CPU3x), and of the ports of communications instructions."""
 CJ_CAUSES, CS_CAUSES = "0,1,5,7", "0,1,2,3,4,5"
 NO_RACKS, NO_UNITS = "0,1,7", "0,1"
 INTERRUPTS = {False: "List A426.15-15=1 | Edit A426.00-11 0..95", True: "List A426.15-15=0,1 | Edit A426.00-11 0..255"}
@@ -86,7 +92,12 @@ SHARED = ("80C0 80CE 80CF 80CA", "0003 0010 0011 0600", "0300 03FF", "008A 00D1 
 
 def rows(name: str) -> set[str]:
     missing, extra, rack, slot, causes = MODELS[name]
-    text = f"{FATAL}{NONFATAL}{extra}".replace("RACK", str(rack)).replace("SLOT", str(slot)).replace("CAUSES", causes)
+    ports = {"CJ2M-CPU33": NETWORK, "CP1H-XA40D": ""}.get(name, f"{SERIAL}{NETWORK}")
+    text = (
+        f"{FATAL}{NONFATAL}{extra}\n{ports}".replace("RACK", str(rack))
+        .replace("SLOT", str(slot))
+        .replace("CAUSES", causes)
+    )
     if name == "CJ1M-CPU63":
         text = text.replace(MEMORY, f"{MEMORY} +")
     text = text.replace("INTERRUPT", INTERRUPTS[causes == CS_CAUSES])
@@ -96,8 +107,12 @@ def rows(name: str) -> set[str]:
     return {line for line in text.splitlines() if line and line[:4] not in gone}
 
 
+def coded(model: Model) -> list[ErrorEntry]:
+    return [error for error in model.errors() if error.coded]
+
+
 def shown(error: ErrorEntry) -> str:
-    head = f"{error.code_text} {error.flag_text}" + "".join(f" also {each.text}" for each in error.also)
+    head = f"{error.code_text or 'none'} {error.flag_text}" + "".join(f" also {each.text}" for each in error.also)
     return " | ".join((head, *map(_detail, error.details)))
 
 
@@ -130,7 +145,7 @@ def test_no_omron_with_an_auxiliary_area_is_left_out(models: dict[str, Model]) -
 
 @pytest.mark.parametrize("name", MODELS)
 def test_the_order_of_seriousness(models: dict[str, Model], name: str) -> None:
-    errors = sorted(models[name].errors(), key=lambda error: (error.priority, ORDER.index(error.code_text)))
+    errors = sorted(coded(models[name]), key=lambda error: (error.priority, ORDER.index(error.code_text)))
     codes = [error.code_text for error in errors]
     assert codes == [code for code in ORDER if code in codes]
     by_priority: dict[int, set[str]] = {}
@@ -144,14 +159,16 @@ def test_the_order_of_seriousness(models: dict[str, Model], name: str) -> None:
 def test_the_order_goes_through_a401_and_a402_from_bit_15_down(models: dict[str, Model], name: str) -> None:
     """Errors of one bit share a place, but for 80E9, which comes before 80EA."""
     bits = [f"A{word}.{bit:02}" for word in (401, 402) for bit in reversed(range(16))]
-    places = {
-        (bits.index(error.flag_text), error.code_text == "80EA"): error.priority for error in models[name].errors()
-    }
-    assert all(
-        places[bits.index(error.flag_text), error.code_text == "80EA"] == error.priority
-        for error in models[name].errors()
-    )
+    errors = coded(models[name])
+    places = {(bits.index(error.flag_text), error.code_text == "80EA"): error.priority for error in errors}
+    assert all(places[bits.index(error.flag_text), error.code_text == "80EA"] == error.priority for error in errors)
     assert [places[each] for each in sorted(places)] == sorted(set(places.values()))
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_what_has_no_code_is_the_least_serious(models: dict[str, Model], name: str) -> None:
+    least = max(error.priority for error in coded(models[name]))
+    assert all(error.priority > least for error in models[name].errors() if not error.coded)
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -163,6 +180,8 @@ def test_fatal_is_what_has_a_flag_in_a401(models: dict[str, Model], name: str) -
 CLOCK = {"special clock-second-minute A351", "special clock-hour-day A352", "special clock-month-year A353"}
 PAGE_34 = "A401.15 A401.14 A401.13 A401.12 A401.11 A401.10 A401.09 A401.08 A402.15 A402.13 A402.10 A402.05 A402.03 A402.02".split()
 """Flags that the reference has from a page of the FS manual; and A402.12 from a page of errorlog.net, A402.00 from one of the CP1L."""
+PAGE_1018 = [f"A219.{port:02}" for port in range(8)]
+"""Flags of a page of the W340, which has their completion codes, too."""
 QSD = "SD0 SD1 SD2 SD3 SD4".split()
 PAGE = re.compile(r"\bp\.\d+|\bpage on \S")
 
@@ -177,10 +196,15 @@ def test_only_what_the_reference_has_from_a_page_is_verified(models: dict[str, M
     if name in MODELS:
         every = {error.flag_text for error in model.errors()}
         also = {"A402.12", *(["A402.00"] if name == "CP1H-XA40D" else [])}
-        assert flags == every & {*PAGE_34, *also}
+        assert flags == every & {*PAGE_34, *PAGE_1018, *also}
         assert specials == CLOCK
         assert {fact.of for fact in verified if fact.kind == "system"} == {"records"}
-        assert {fact.of for fact in verified if fact.kind == "error"} == {"flag", "severity"}
+        ports = {error.id for error in model.errors() if error.flag_text in PAGE_1018}
+        assert {fact.of for fact in verified if fact.kind == "error" and fact.subject not in ports} == {
+            "flag",
+            "severity",
+        }
+        assert {fact.of for fact in verified if fact.subject in ports} == ({"flag", "details"} if ports else set())
     elif name == "Q03UD":
         assert {each.rsplit(" ", 1)[1] for each in specials} == set(QSD)
         assert not flags

@@ -3527,6 +3527,8 @@ export interface components {
             past: boolean;
             /** Scan */
             scan: number;
+            /** @description None where the device has one CPU Unit. */
+            standby: components["schemas"]["DeviceStandby"] | null;
         };
         /**
          * DeviceMessage
@@ -3576,6 +3578,33 @@ export interface components {
             /**
              * Time
              * @description The PLC's clock at that moment, `2026-11-24 10:15:02`; empty where the record has no time.
+             */
+            time: string;
+        };
+        /**
+         * DeviceStandby
+         * @description Which CPU Unit controls, of a device with two.
+         */
+        DeviceStandby: {
+            /**
+             * Causes
+             * @description The names of the errors for which the standby took over last; empty where it never did since the start.
+             */
+            causes: string[];
+            /**
+             * Duplex
+             * @description Both run; false: one is left (simplex).
+             */
+            duplex: boolean;
+            /**
+             * Side
+             * @description The CPU Unit that controls.
+             * @enum {string}
+             */
+            side: "left" | "right";
+            /**
+             * Time
+             * @description The PLC's clock when it took over last, `2026-11-24 10:15:02`; empty where it never did, or the memory does not say.
              */
             time: string;
         };

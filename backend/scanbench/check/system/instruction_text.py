@@ -159,7 +159,7 @@ IF {stand_in(made)} <> 0 AND {made.parameter} = {stand_in(made)} THEN
 
 def _codes(model: Model, severity: Severity) -> list[range]:
     """Every code that such an error of the device can have, as stretches that do not touch."""
-    errors = [error for error in model.errors() if error.severity == severity and not error.user]
+    errors = [error for error in model.errors() if error.severity == severity and not error.user and error.coded]
     codes = [code for error in errors for code in (range(error.code, error.code + 1), *error.codes)]
     found: list[range] = []
     for code in sorted(codes, key=lambda each: each.start):

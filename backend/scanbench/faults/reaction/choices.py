@@ -77,9 +77,9 @@ class Choices:
         """Whether the program reads anything of a row of numbers, or has one of their codes: most times it does not."""
         ends = [choose(entry, {detail.name: value}, self._program.layout) for value in (values[0], values[-1])]
         chosen = [each for each in ends if not isinstance(each, Refusal)]
-        codes = [each.code for each in chosen]
+        codes = [each.code for each in chosen if entry.coded]
         offsets = [offset for each in chosen for offset in Watched.of(self._program, each).detail]
-        if any(min(codes) <= number <= max(codes) for number in self._numbers):
+        if codes and any(min(codes) <= number <= max(codes) for number in self._numbers):
             return True
         return bool(offsets) and self._readings.any_in(min(offsets), max(offsets) + 1)
 
@@ -89,7 +89,7 @@ class Choices:
         if isinstance(chosen, Refusal):
             return None
         detail = Watched.of(self._program, chosen).detail
-        code = chosen.code if chosen.code in self._numbers else None
+        code = chosen.code if entry.coded and chosen.code in self._numbers else None
         return self._readings.reads(detail), code
 
     def _looks_at(self, ref: ErrorRef, entry: ErrorEntry) -> bool:
@@ -99,7 +99,9 @@ class Choices:
             return False
         watched = Watched.of(self._program, chosen)
         return bool(
-            self._readings.reads(watched.flag) or self._readings.reads(watched.detail) or chosen.code in self._numbers
+            self._readings.reads(watched.flag)
+            or self._readings.reads(watched.detail)
+            or (entry.coded and chosen.code in self._numbers)
         )
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from scanbench.faults.details import Bits, Chosen, choose, field_bits
 from scanbench.faults.reaction.reaction import What
+from scanbench.faults.standby import standby_bits, watched_bits
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.runtime.command import Patch, Refusal
@@ -40,6 +41,7 @@ def kept_bits(program: Program) -> Words:
             _clear(mask, field_bits(special.location, 0, bits, 0, layout))
     _clear(mask, code_bits(program))
     _clear(mask, log_bits(program))
+    _clear(mask, standby_bits(layout))
     return np.frombuffer(bytes(mask), np.uint64).copy()
 
 
@@ -71,7 +73,7 @@ def log_bits(program: Program) -> list[Bits]:
 def error_bits(program: Program) -> list[Bits]:
     """All that the errors of the model write, whatever their details are."""
     layout = program.layout
-    found = [*code_bits(program), *log_bits(program)]
+    found = [*code_bits(program), *log_bits(program), *standby_bits(layout)]
     for entry in layout.model.errors():
         chosen = choose(entry, {}, layout)
         found += () if isinstance(chosen, Refusal) else chosen.bits
@@ -102,8 +104,10 @@ class Watched:
         """Of an error with its details decided."""
         single = {(part.offset, part.mask) for part in chosen.marks if part.mask & (part.mask - 1) == 0}
         flags = [part for part in chosen.marks if (part.offset, part.mask) in single]
+        flags += watched_bits(program.layout.model, chosen.error.id, program.layout)
         details = [*chosen.contents, *(part for part in chosen.marks if part not in flags)]
-        return Watched(_by_byte(flags), _by_byte(code_bits(program)), _by_byte(details), _by_byte(log_bits(program)))
+        code, log = (code_bits(program), log_bits(program)) if chosen.error.coded else ([], [])
+        return Watched(_by_byte(flags), _by_byte(code), _by_byte(details), _by_byte(log))
 
     @property
     def bits(self) -> Iterator[tuple[int, int]]:

@@ -252,6 +252,8 @@ class _Run:
         serious error hides it; once it was recovered, only its record in the log."""
         if not self._present():
             return _LOG
+        if not self._chosen.error.coded:
+            return _NO_CODE
         code = sum(self._resource.memory[offset] << 8 * index for index, offset in enumerate(self._code_at))
         return _CODE_TOO if code == self._chosen.code else _NO_CODE
 
