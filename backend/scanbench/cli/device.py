@@ -45,11 +45,12 @@ def present(
     device = _device(plc, server, run, scan)
     errors, messages = _objects(device, "errors"), _objects(device, "messages")
     if as_json:
-        typer.echo(json.dumps({key: device[key] for key in ("scan", "code", "errors", "messages")}, ensure_ascii=False))
+        typer.echo(json.dumps({key: device[key] for key in ("scan", "code", "standby", "errors", "messages")}, ensure_ascii=False))
     elif errors:
         rows: list[tuple[str, ...]] = [("CODE", "SEVERITY", "ERROR", "NAME", "DETAILS", "TEXT")]
         rows += [
-            (*_texts(each, "code", "severity", "id", "name"), _details(each), str(each["text"])) for each in errors
+            (str(each["code"] or "-"), *_texts(each, "severity", "id", "name"), _details(each), str(each["text"]))
+            for each in errors
         ]
         typer.echo("\n".join(table(rows)))
     else:
@@ -57,7 +58,18 @@ def present(
     if not as_json:
         for each in messages:
             typer.echo(f"{each['instruction']} {each['number']}: {each['text']}")
+        standby = device["standby"]
+        if isinstance(standby, dict):
+            typer.echo(_standby_text(standby))
     raise typer.Exit(1 if errors else 0)
+
+
+def _standby_text(standby: Mapping[str, object]) -> str:
+    """Which CPU Unit of a device with two controls, and why."""
+    running = "duplex" if standby["duplex"] else "simplex"
+    causes = standby["causes"]
+    why = f"; the standby took over at {standby['time']}: {', '.join(causes)}" if isinstance(causes, list) and causes else ""
+    return f"{running}: the {standby['side']} CPU Unit controls{why}"
 
 
 def log(

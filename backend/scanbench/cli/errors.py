@@ -126,7 +126,7 @@ def list_errors(
     rows = [("ERROR", "CODE", "FLAG", "SEVERITY", "DETAILS", "NAME")]
     for _, entry in entries:
         details = ", ".join(detail.name for detail in entry.details) or "-"
-        rows.append((entry.id, entry.code_text, entry.flag_text, entry.severity, details, entry.name))
+        rows.append((entry.id, entry.code_text or "-", entry.flag_text, entry.severity, details, entry.name))
     typer.echo("\n".join(table(rows)))
 
 

@@ -45,6 +45,8 @@ class ClearErrors(Command):
             return Refusal(
                 f"{WILL_NOT_CLEAR}: the cause of {which} is still there; recover it in the error simulator", near
             )
+        if present and not isinstance(self.what, int):
+            return Plan((), "no error is present that the device clears: what is there has no code")
         if isinstance(self.what, int):
             code = view.model.show_code(self.what)
             return Refusal(f"no error with code {code} is present", tuple(present))

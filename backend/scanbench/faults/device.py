@@ -40,9 +40,7 @@ def _standby(view: View, memory: Memory) -> DeviceStandby | None:
     standby, layout = view.model.standby, view.program.layout
     if standby is None:
         return None
-    causes = tuple(
-        error.name for id in causes_on(view.memory, layout, standby) if (error := view.model.error(id)) is not None
-    )
+    causes = tuple(causes_on(view.memory, layout, standby))
     time = "" if standby.time is None or not causes else clock_text(memory, standby.time, standby.fields)
     return DeviceStandby(is_duplex(view.memory, layout), active_side(view.memory, layout, standby), causes, time)
 

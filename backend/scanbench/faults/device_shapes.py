@@ -79,7 +79,7 @@ class DeviceStandby(Public):
     side: Literal["left", "right"]
     """The CPU Unit that controls."""
     causes: tuple[str, ...]
-    """The names of the errors for which the standby took over last; empty where it never did since the start."""
+    """The errors for which the standby took over last, by id; empty where it never did since the start."""
     time: str
     """The PLC's clock when it took over last, `2026-11-24 10:15:02`; empty where it never did, or the memory does not say."""
 

@@ -262,8 +262,9 @@ def present_choices(view: View, present: Mapping[str, Active]) -> dict[str, list
 def describe(chosen: Chosen) -> str:
     """An error with code and details, for people."""
     details = f" ({chosen})" if chosen.details else ""
-    code = f"code {chosen.code_text}" if chosen.error.coded else "no code"
-    return f"{chosen.error.id}{details}, {code}"
+    if not chosen.error.coded:
+        return f"{chosen.error.id}{details}, no code"
+    return f"{chosen.error.id}{details}, code {chosen.code_text}"
 
 
 def _choose_all(view: View, refs: Iterable[ErrorRef]) -> list[Chosen] | Refusal:

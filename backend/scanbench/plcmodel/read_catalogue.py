@@ -90,18 +90,15 @@ def _made(branch: _Branch) -> ErrorGroup:
     )
 
 
-def said_code(error: ErrorEntry) -> str:
-    """What a message calls the code of an error."""
-    return f"code {error.code_text}" if error.coded else "an error without a code"
-
-
 def _unique(tree: ErrorGroup, elements: dict[str, Element]) -> None:
     """A pair of code and flag belongs to one error."""
     pairs: dict[tuple[str, str, int, int | None], str] = {}
     for error in tree.walk():
         pair = (error.code_text, error.flag.area.name, error.flag.byte, error.flag.bit)
         if pair in pairs:
-            message = f"{said_code(error)} with flag {error.flag_text} belongs to {pairs[pair]!r} already"
+            message = f"code {error.code_text} with flag {error.flag_text} belongs to {pairs[pair]!r} already"
+            if not error.coded:
+                message = f"flag {error.flag_text} without a code belongs to {pairs[pair]!r} already"
             reader, node = elements[error.id]
             reader.problem("M005", message, node, "ErrorCode" if error.coded else "ErrorFlag")
         pairs.setdefault(pair, error.id)

@@ -19,7 +19,7 @@ from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.load import model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.overlaps import Stretch, stretch, stretches
-from scanbench.plcmodel.read_catalogue import read_catalogue, said_code
+from scanbench.plcmodel.read_catalogue import read_catalogue
 from scanbench.plcmodel.read_hardware import is_hardware, read_hardware
 from scanbench.plcmodel.reading import Reader
 from scanbench.plcmodel.system_words import addresses_of, taken, who_has
@@ -157,7 +157,9 @@ def _compare(reader: Reader, device: Model, groups: Sequence[ErrorGroup]) -> Non
     for error in _all(groups):
         node, twin = nodes[error.id], pairs.get(_pair(error))
         if twin is not None:
-            message = f"{said_code(error)} with flag {error.flag_text} is {twin.id!r} of the {device.name} itself"
+            message = f"code {error.code_text} with flag {error.flag_text} is {twin.id!r} of the {device.name} itself"
+            if not error.coded:
+                message = f"flag {error.flag_text} without a code is {twin.id!r} of the {device.name} itself"
             reader.problem("M005", message, node, "ErrorCode" if error.coded else "ErrorFlag")
         for at, attribute, bits in _written(error, node):
             purpose = who_has(known, bits)

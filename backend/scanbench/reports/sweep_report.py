@@ -106,7 +106,7 @@ def sweep_text(result: SweepResult) -> list[str]:
         entry, reaction = result.entry(cell), cell.reaction
         scans = "" if reaction is None or reaction.first_effect is None else str(reaction.first_effect)
         verdict = WORDS[verdict_of(cell)]
-        rows.append((cell.error, result.code(cell.error), entry.severity, cell.point, verdict, scans, reason(cell)))
+        rows.append((cell.error, result.code(cell.error) or "-", entry.severity, cell.point, verdict, scans, reason(cell)))
     head = f"{result.project} on {result.model}: {count(len(result.errors), 'error')}, {count(len(result.states), 'state')}"
     counts = ", ".join(f"{number} {word}" for word, number in result.counts().items())
     return [f"{head}, {result.window} scans each", "", *table(rows), "", counts, *_required_text(result)]
@@ -291,7 +291,8 @@ def sweep_junit(result: SweepResult, severities: Sequence[Severity], required: R
     root = etree.Element("testsuites", totals)
     suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{result.project} on {result.model}"), **totals})
     for cell in result.cells:
-        name = f"{cell.error} ({result.code(cell.error)})"
+        code = result.code(cell.error)
+        name = f"{cell.error} ({code})" if code else cell.error
         about = {"classname": xml_text(f"{result.model}.{cell.point}"), "name": name}
         case = etree.SubElement(suite, "testcase", about)
         if cell in failed:

@@ -74,7 +74,7 @@ def test_the_devices_way_to_clear_errors_does_not_know_it() -> None:
     for command in (ClearErrors("Bob", "all"), ClearErrors("Bob", "current")):
         entry = resource.submit(command)
         assert isinstance(entry, Entry)
-        assert entry.plan.message == "no error is present"
+        assert entry.plan.message == "no error is present that the device clears: what is there has no code"
     assert isinstance(resource.submit(ClearErrors("Bob", 0)), Refusal)
 
 

@@ -229,7 +229,7 @@ def test_the_devices_own_view_says_who_controls() -> None:
     shown = read_device(resource.view)
     assert [(each.id, each.severity, each.code) for each in shown.errors] == [(MEMORY, "fatal", "80F1")]
     assert shown.standby is not None
-    assert (shown.standby.duplex, shown.standby.side, shown.standby.causes) == (False, "right", ("Memory error",))
+    assert (shown.standby.duplex, shown.standby.side, shown.standby.causes) == (False, "right", (MEMORY,))
     assert shown.standby.time == "2000-01-01 00:00:00"
     before = read_device(ran(5).view).standby
     assert before is not None

@@ -3588,7 +3588,7 @@ export interface components {
         DeviceStandby: {
             /**
              * Causes
-             * @description The names of the errors for which the standby took over last; empty where it never did since the start.
+             * @description The errors for which the standby took over last, by id; empty where it never did since the start.
              */
             causes: string[];
             /**

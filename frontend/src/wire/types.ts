@@ -29,6 +29,7 @@ export type DeviceDetail = Shapes["DeviceDetail"];
 export type DeviceError = Shapes["DeviceError"];
 export type DeviceErrors = Shapes["DeviceErrors"];
 export type DeviceRecord = Shapes["DeviceRecord"];
+export type DeviceStandby = Shapes["DeviceStandby"];
 export type Diagnostics = Shapes["Diagnostics"];
 export type Done = Shapes["Done"];
 export type Draft = Shapes["Draft"];

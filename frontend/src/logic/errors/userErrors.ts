@@ -136,12 +136,12 @@ const firstCode = (model: ModelInfo): string => model.catalogue.flatMap((group) 
 
 /** Devices show their codes in four or eight hexadecimal digits, or in decimal with any number of digits. */
 function isDecimal(model: ModelInfo | null): boolean {
-  const codes = model?.catalogue.flatMap((group) => codesOf(group)) ?? [];
+  const codes = model?.catalogue.flatMap(codesOf) ?? [];
   return codes.length > 0 && codes.every((code) => /^\d+$/.test(code)) && new Set(codes.map((c) => c.length)).size > 1;
 }
 
 const codesOf = (group: ModelInfo["catalogue"][number]): string[] => [
-  ...group.errors.map((error) => error.code),
+  ...group.errors.map((error) => error.code).filter(Boolean),
   ...group.groups.flatMap(codesOf),
 ];
 

@@ -37,6 +37,9 @@ export const clearErrorLog = () => report(send({ type: "clear_error_log" }));
 /** Takes an error back at the simulator: its cause is gone, too. */
 export const recoverPresent = (id: string) => report(recoverErrors([id]));
 
+/** The CPU Unit that failed is the standby again; no error is present that would be recovered with it. */
+export const repairStandby = () => report(send({ type: "recover", ids: null }));
+
 async function report(answer: ReturnType<typeof send>): Promise<void> {
   set({ outcome: null });
   const { ok, message } = await answer;

@@ -4,7 +4,7 @@ import { BASIC, BATTERY, CATALOGUE, RAISED, row } from "../../../testing/catalog
 import { button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
-import type { DeviceError, DeviceErrors } from "../../../wire/types";
+import type { DeviceError, DeviceErrors, DeviceStandby } from "../../../wire/types";
 import { DevicePage } from "./DevicePage";
 
 const NOTHING: DeviceErrors = {
@@ -17,6 +17,7 @@ const NOTHING: DeviceErrors = {
   errors: [],
   log: [],
   messages: [],
+  standby: null,
 };
 const FLAT: DeviceError = {
   id: BATTERY.id,
@@ -121,6 +122,32 @@ test("of several units of a kind one is recovered", async () => {
   await waitFor(() => expect(screen.getAllByTitle(t("device.recover.about"))).toHaveLength(2));
   await user.click(button(t("device.recover.of", { error: `${BASIC.name}, Unit number: 7` })));
   expect(server.sentOf("recover")).toMatchObject([{ ids: [instance(7)] }]);
+});
+
+test("of two CPU Units the page says which controls, and the failed one is repaired when no error is left", async () => {
+  const duplex: DeviceStandby = { duplex: true, side: "left", causes: [], time: "" };
+  const { server, user } = await openDevice({ standby: duplex });
+  screen.getByText(t("device.standby.duplex", { side: t("device.standby.left") }));
+  const simplex: DeviceStandby = { duplex: false, side: "right", causes: [BATTERY.id], time: "2026-11-24 10:15:02" };
+  server.say({ type: "device", found: { ...NOTHING, errors: [FLAT], standby: simplex } });
+  const region = await screen.findByRole("region", { name: t("device.standby") });
+  await waitFor(() => expect(textOf(region)).toContain("2026-11-24 10:15:02"));
+  expect(textOf(region)).toContain(BATTERY.name);
+  expect(screen.queryByRole("button", { name: t("device.standby.back") })).toBeNull();
+  server.say({ type: "device", found: { ...NOTHING, standby: simplex } });
+  await user.click(await screen.findByRole("button", { name: t("device.standby.back") }));
+  expect(server.sentOf("recover")).toMatchObject([{ ids: null }]);
+});
+
+test("an error for which the device has no code says so", async () => {
+  const port = { ...BATTERY, id: "port", code: "" };
+  const group = { name: "Ports", groups: [], errors: [port] };
+  const page = await openPage((server) =>
+    server.on("GET", "/instances/*/model", () => ({ ...CATALOGUE, catalogue: [group] })),
+  );
+  render(<DevicePage />);
+  page.server.say({ type: "device", found: { ...NOTHING, errors: [{ ...FLAT, id: "port", code: "" }] } });
+  await waitFor(() => expect(lines(t("device.present"))[1]).toContain(t("errors.nocode")));
 });
 
 test("a model without a log says so", async () => {

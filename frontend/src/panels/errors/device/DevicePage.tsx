@@ -8,6 +8,7 @@ import type { DeviceErrors } from "../../../wire/types";
 import { DeviceLog } from "./DeviceLog";
 import "./device.css";
 import { Present } from "./Present";
+import { Standby } from "./Standby";
 
 /** What a programming tool shows of the PLC's errors: all of it is read from the memory of the PLC. */
 export function DevicePage() {
@@ -25,6 +26,7 @@ function Shown({ found }: { found: DeviceErrors }) {
       <Toolbar found={found} />
       <Outcome />
       <div className="devicebody scroll">
+        {found.standby && <Standby standby={found.standby} clear={found.errors.length === 0} />}
         <Present errors={found.errors} />
         {found.messages.length > 0 && <Messages found={found} />}
         <DeviceLog found={found} />

@@ -1,3 +1,4 @@
+import { codeText } from "../../../logic/errors/codeText";
 import { detailsIn, deviceKey, nameIn } from "../../../logic/errors/device";
 import { keyOf, rowOf } from "../../../logic/plc/errorInstances";
 import { useCatalogue } from "../../../store/errors/catalogue";
@@ -58,7 +59,7 @@ function Line({ error }: { error: DeviceError }) {
       <td>
         <SeverityWord severity={error.severity} />
       </td>
-      <td className="mono">{error.code || "–"}</td>
+      <td className="mono">{known?.code === "" ? codeText("") : error.code || "–"}</td>
       <th scope="row">
         <span className="dname">{name}</span>
         {cause && <span className="cause">{cause}</span>}

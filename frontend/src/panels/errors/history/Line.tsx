@@ -1,4 +1,5 @@
 import { detailsInWords, isSwept, reactionOf } from "../../../logic/errors/catalogue";
+import { codeText } from "../../../logic/errors/codeText";
 import type { HistoryLine } from "../../../logic/errors/history";
 import { dayTime, grouped, wallTime } from "../../../logic/format/numbers";
 import { keyOf } from "../../../logic/plc/errorInstances";
@@ -42,7 +43,7 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
       <td className="num">{reactionOf(line)?.scans ?? ""}</td>
       <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} error={dated ? null : keyOf(line)} />
       <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} error={null} by={line.recovered_by} />
-      <td className="mono c-code">{line.status === "never" ? "" : line.code}</td>
+      <td className="mono c-code">{line.status === "never" ? "" : codeText(line.code)}</td>
       <td className="details" title={details || undefined}>
         {details}
       </td>

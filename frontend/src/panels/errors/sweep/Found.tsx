@@ -28,7 +28,9 @@ export function Facts({ reaction, raised, flag, codeWord, code }: Props) {
         name={flag ? t("sweep.fact.flag", { flag }) : t("errors.flag")}
         value={reads(countReaders(reaction, "flag"))}
       />
-      <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(countReaders(reaction, "code"))} />
+      {code && (
+        <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(countReaders(reaction, "code"))} />
+      )}
       <Fact name={t("sweep.fact.detail")} value={reads(countReaders(reaction, "detail"))} />
       {inLog > 0 && <Fact name={t("sweep.fact.log")} value={reads(inLog)} />}
       <Fact name={t("sweep.fact.outputs")} value={outputs.length === 0 ? t("sweep.fact.none") : outputs.length} />

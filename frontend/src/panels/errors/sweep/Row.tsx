@@ -1,5 +1,6 @@
 import { memo } from "react";
 import { isFinding } from "../../../logic/errors/catalogue";
+import { codeText } from "../../../logic/errors/codeText";
 import { type ErrorRow, isCell, isPresent, type MatrixRow, type Slot } from "../../../logic/errors/sweep";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
@@ -44,7 +45,7 @@ export const Row = memo(function Row({ sweep, row, index, top, states, column, o
         {error.name}
       </span>
       <span role="gridcell" className="swcode mono muted" onClick={select}>
-        {error.code}
+        {codeText(error.code)}
       </span>
       {line ? (
         <Cell

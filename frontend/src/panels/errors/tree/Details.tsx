@@ -1,4 +1,5 @@
 import { detailsInWords } from "../../../logic/errors/catalogue";
+import { codeText } from "../../../logic/errors/codeText";
 import { entriesIn, isEdited, needsDetails, troubles, wireDetails } from "../../../logic/errors/details";
 import { isPlain } from "../../../logic/errors/shapes";
 import { legendOf } from "../../../logic/errors/sources";
@@ -46,7 +47,7 @@ export function Details({ error, of }: { error: ErrorInfo; of: string }) {
         <span className="kv">
           <span>
             {t("errors.code")}
-            <b>{raised?.code ?? error.code}</b>
+            <b>{codeText(raised?.code ?? error.code)}</b>
           </span>
           <span>
             {t("errors.flag")}

@@ -1,3 +1,4 @@
+import { codeText } from "../../../logic/errors/codeText";
 import { type Entries, type Entry, troubles } from "../../../logic/errors/details";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -31,7 +32,7 @@ export function DetailsPage({ error, entries, alike, same, onEntry, onSame }: Pr
         <span className="kv">
           <span>
             {t("errors.code")}
-            <b>{error.code}</b>
+            <b>{codeText(error.code)}</b>
           </span>
           <span>
             {t("errors.flag")}

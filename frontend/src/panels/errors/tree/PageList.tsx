@@ -1,3 +1,4 @@
+import { codeText } from "../../../logic/errors/codeText";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import type { ErrorInfo } from "../../../wire/types";
@@ -32,7 +33,7 @@ export function PageList({ pages, stateOf, now, onPage }: Props) {
                 {error.name}
               </span>
               <small>
-                {error.code} · {error.flag}
+                {codeText(error.code)} · {error.flag}
               </small>
               <span className="sr">{t(`dialog.state.${state}`)}</span>
             </button>

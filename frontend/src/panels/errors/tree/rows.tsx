@@ -2,6 +2,7 @@ import { memo, type ReactNode, useEffect, useRef } from "react";
 import { shallow } from "zustand/shallow";
 import type { GroupRow, LeafRow } from "../../../logic/errors/catalogue";
 import { detailsInWords, inNames } from "../../../logic/errors/catalogue";
+import { codeText } from "../../../logic/errors/codeText";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../../store/errors/simulator";
 import { t } from "../../../text";
@@ -61,7 +62,7 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
         aria-selected={selected}
         data-key={row.key}
         title={[
-          [error.name, row.instance, `${row.code} · ${error.flag}`, error.description],
+          [error.name, row.instance, `${codeText(row.code)} · ${error.flag}`, error.description],
           row.fitted ? [] : [t("errors.absent.about"), t("errors.absent.where")],
         ]
           .flat()
@@ -82,7 +83,7 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
           <span className="cut">{row.instance || error.name}</span>
         </span>
         <span className="mono muted c-code" role="gridcell">
-          {row.code}
+          {codeText(row.code)}
         </span>
         <span className="mono muted c-flag" role="gridcell">
           {error.flag}

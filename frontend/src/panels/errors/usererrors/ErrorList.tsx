@@ -101,7 +101,7 @@ function Row({ index, error, wrong, chosen }: RowProps) {
           </span>
         )}
       </span>
-      <span className="mono">{error.code}</span>
+      <span className="mono">{error.code || "–"}</span>
       <span className="mono">{error.flag}</span>
       <span className={`st ${fatal ? "fatal" : "warning"}`}>
         <Icon name={fatal ? "fatal" : "warning"} small />

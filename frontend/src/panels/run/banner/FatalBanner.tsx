@@ -1,4 +1,5 @@
 import { detailsInWords } from "../../../logic/errors/catalogue";
+import { codeText } from "../../../logic/errors/codeText";
 import { grouped } from "../../../logic/format/numbers";
 import { backTo, modeBefore } from "../../../store/debug/run";
 import { useCatalogue } from "../../../store/errors/catalogue";
@@ -24,7 +25,9 @@ export function FatalBanner({ state }: { state: InstanceState }) {
   const [cause] = fatal;
   const error = cause && byId.get(cause.id);
   const details = [cause?.label, detailsInWords(error, cause?.details ?? "")].filter(Boolean).join(", ");
-  const title = cause ? t("fatal.title", { code: cause.code, name: error?.name ?? cause.name }) : t("fatal.plain");
+  const title = cause
+    ? t("fatal.title", { code: codeText(cause.code), name: error?.name ?? cause.name })
+    : t("fatal.plain");
   const scan = cause?.generated_scan ?? state.scan;
   const mode = modeBefore();
   return (
