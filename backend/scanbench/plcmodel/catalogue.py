@@ -14,7 +14,7 @@ Identifies = Literal["", "several", "one"]
 each; of `one` it has a place for one at a time."""
 Hardware = Literal[
     "", "rack", "slot", "basic-io-unit", "special-io-unit", "cpu-bus-unit", "unit", "inner-board", "serial-port",
-    "sysmac-bus-master", "module", "station", "sensor", "fal", "fals",
+    "communications-port", "sysmac-bus-master", "module", "station", "sensor", "fal", "fals",
 ]  # fmt: skip
 """What a number counts, or what an error needs. `unit`: CPU Bus Units, and from `FIRST_SPECIAL` on Special I/O Units. With `slot`
 goes `rack`; an error of a `basic-io-unit` names both."""
@@ -144,6 +144,8 @@ class ErrorEntry:
     """Its cause lasts: what a tool or program clears shows again at once. Only who holds the cause can recover it."""
     hardware: Hardware = ""
     """What has to be fitted for it, where no detail says which."""
+    hardware_number: int | None = None
+    """Which one of them; None: any."""
     coded: bool = True
     """False: the device has no error code for it. So the code word, the log and its way to clear errors know nothing of it;
     `code` is 0."""

@@ -30,7 +30,7 @@ def fitted_instances(fitted: tuple[Fitted, ...] | None, error: ErrorEntry) -> tu
     if fitted is None:
         return None
     if error.hardware:
-        return ((),) if any(each.kind == error.hardware for each in fitted) else ()
+        return ((),) if any(_is_of(each, error) for each in fitted) else ()
     counted = [each for each in error.identifying if each.hardware]
     if not counted:
         return None
@@ -85,9 +85,14 @@ def fitted_kind(fitted: tuple[Fitted, ...] | None, error: ErrorEntry) -> FittedK
     names: dict[tuple[str, ...], str] = {}
     for each in fitted or ():
         values = [_value(detail, each) for detail in counted]
-        if counted or each.kind == error.hardware:
+        if counted or _is_of(each, error):
             names.setdefault(tuple(value or "-" for value in values), each.name)
     return FittedKind(error, None if instances is None else frozenset(instances), names)
+
+
+def _is_of(each: Fitted, error: ErrorEntry) -> bool:
+    """Whether it is what has to be fitted for an error, where no detail says which."""
+    return each.kind == error.hardware and error.hardware_number in (None, each.number)
 
 
 def _counted(error: ErrorEntry) -> list[ErrorDetail]:

@@ -139,6 +139,7 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
         wordings=wordings_of(node),
         lasting=node.get("Cause") == "lasting",
         hardware=cast(Hardware, node.get("Hardware", "")),
+        hardware_number=None if (number := node.get("HardwareNumber")) is None else int(number),
         coded=coded,
     )
 

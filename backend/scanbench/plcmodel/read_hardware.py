@@ -30,7 +30,9 @@ def ranges(model: Model) -> dict[str, Range]:
     found: dict[str, Range] = {}
     for error in model.errors():
         if error.hardware:
-            found.setdefault(error.hardware, (0, 0))
+            number = error.hardware_number or 0
+            low, high = found.get(error.hardware, (number, number))
+            found[error.hardware] = min(low, number), max(high, number)
         for detail in error.details:
             for kind, low, high in _counted(detail):
                 known = found.get(kind, (low, high))

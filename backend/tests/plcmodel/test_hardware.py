@@ -10,6 +10,9 @@ from scanbench.plcmodel.read_hardware import ranges, read_hardware, write_hardwa
 from scanbench.plcmodel.user_errors import device_of, extended
 from tests.runtime.bench import model
 
+PORTS = (
+    "rs-232c-port-error", "peripheral-port-error", *(f"communications-port-{port}-error" for port in range(8)),
+)  # fmt: skip
 GOLDEN = (Path(__file__).with_name("golden_hardware") / "hardware-1.json").read_text("utf-8")
 
 
@@ -47,11 +50,29 @@ def test_the_errors_of_what_is_fitted() -> None:
         "special-io-unit-error": ["unit=3", "unit=20"],
         "cpu-bus-unit-setting-error": ["unit=2"],
         "special-io-unit-setting-error": ["unit=3", "unit=20"],
+        **dict.fromkeys(PORTS, []),
     }
     fal = known.error("fal")
     assert fal is not None
     assert fitted_kind(known.fitted, fal).name((("number", "42"),)) == "pump overpressure"
     assert device_of(known) == model("CJ1M-CPU13")
+
+
+def test_a_port_is_there_by_its_number() -> None:
+    ports = (
+        '{"kind": "serial-port", "number": 1, "name": "Scanner"}, {"kind": "communications-port", "number": 3}, '
+        '{"kind": "communications-port", "number": 8}'
+    )
+    text = '{"version": 1, "fitted": [%s]}'
+    _, problems = extended(model("CJ1M-CPU13"), {"hardware.json": text % ports})
+    assert [each.message for each in problems] == [
+        "communications-port 8 is outside of the CJ1M-CPU13: its numbers are 0 to 7"
+    ]
+    known, problems = extended(model("CJ1M-CPU13"), {"hardware.json": text % ports.rpartition(", {")[0]})
+    assert problems == []
+    assert [id for id in PORTS if instances(known, id)] == ["rs-232c-port-error", "communications-port-3-error"]
+    names = {id: fitted_kind(known.fitted, error).name(()) for id in PORTS if (error := known.error(id)) is not None}
+    assert {id: name for id, name in names.items() if name} == {"rs-232c-port-error": "Scanner"}
 
 
 def test_a_board_is_fitted_or_not() -> None:

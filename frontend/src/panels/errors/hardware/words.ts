@@ -3,6 +3,7 @@ import { type TextKey, t } from "../../../text";
 
 const KINDS = [
   "basic-io-unit",
+  "communications-port",
   "cpu-bus-unit",
   "fal",
   "fals",
