@@ -45,7 +45,11 @@ def present(
     device = _device(plc, server, run, scan)
     errors, messages = _objects(device, "errors"), _objects(device, "messages")
     if as_json:
-        typer.echo(json.dumps({key: device[key] for key in ("scan", "code", "standby", "errors", "messages")}, ensure_ascii=False))
+        typer.echo(
+            json.dumps(
+                {key: device[key] for key in ("scan", "code", "standby", "errors", "messages")}, ensure_ascii=False
+            )
+        )
     elif errors:
         rows: list[tuple[str, ...]] = [("CODE", "SEVERITY", "ERROR", "NAME", "DETAILS", "TEXT")]
         rows += [
@@ -68,7 +72,11 @@ def _standby_text(standby: Mapping[str, object]) -> str:
     """Which CPU Unit of a device with two controls, and why."""
     running = "duplex" if standby["duplex"] else "simplex"
     causes = standby["causes"]
-    why = f"; the standby took over at {standby['time']}: {', '.join(causes)}" if isinstance(causes, list) and causes else ""
+    why = (
+        f"; the standby took over at {standby['time']}: {', '.join(causes)}"
+        if isinstance(causes, list) and causes
+        else ""
+    )
     return f"{running}: the {standby['side']} CPU Unit controls{why}"
 
 

@@ -15,7 +15,19 @@ from scanbench.program.types import Record
 
 _SAMPLES = 500
 _WORDS = frozenset(
-    {"description", "source", "verified", "wordings", "user", "identifies", "hardware", "hardware_number", "absent", "fitted", "facts"}
+    {
+        "description",
+        "source",
+        "verified",
+        "wordings",
+        "user",
+        "identifies",
+        "hardware",
+        "hardware_number",
+        "absent",
+        "fitted",
+        "facts",
+    }
 )
 """What an error is of, and what is fitted, decides what may be entered; what was entered a run keeps."""
 _LATER = frozenset({

@@ -106,7 +106,9 @@ def sweep_text(result: SweepResult) -> list[str]:
         entry, reaction = result.entry(cell), cell.reaction
         scans = "" if reaction is None or reaction.first_effect is None else str(reaction.first_effect)
         verdict = WORDS[verdict_of(cell)]
-        rows.append((cell.error, result.code(cell.error) or "-", entry.severity, cell.point, verdict, scans, reason(cell)))
+        rows.append(
+            (cell.error, result.code(cell.error) or "-", entry.severity, cell.point, verdict, scans, reason(cell))
+        )
     head = f"{result.project} on {result.model}: {count(len(result.errors), 'error')}, {count(len(result.states), 'state')}"
     counts = ", ".join(f"{number} {word}" for word, number in result.counts().items())
     return [f"{head}, {result.window} scans each", "", *table(rows), "", counts, *_required_text(result)]

@@ -18,7 +18,14 @@ from scanbench.debug.set_value import SetLocal
 from scanbench.faults.absent import GenerateAbsent
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
-from scanbench.faults.device_shapes import DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord
+from scanbench.faults.device_shapes import (
+    DeviceDetail,
+    DeviceError,
+    DeviceErrors,
+    DeviceMessage,
+    DeviceRecord,
+    DeviceStandby,
+)
 from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo
 from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
@@ -92,7 +99,7 @@ _CLASSES: dict[str, type] = {
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
         events.CheckOutcome, Problem, PouInfo, CheckSite, RaisedNumber, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
-        DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord, protocol.DeviceIs, protocol.WantDevice,
+        DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord, DeviceStandby, protocol.DeviceIs, protocol.WantDevice,
         GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
         debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,

@@ -429,7 +429,7 @@ def test_the_projects_own_errors_are_swept_too(project: Path) -> None:
     result = scanbench("errors", "sweep", str(project), "--only", "pump-hot", "--json")
     assert result.returncode == 0, result.stderr
     assert [(each["id"], each["verdict"]) for each in json.loads(result.stdout)["results"]] == [("pump-hot", "acted")]
-    (project / "errors.xml").write_text(OWN.replace(' ErrorCode="C001"', ""), "utf-8")
+    (project / "errors.xml").write_text(OWN.replace(' ErrorFlag="W10.00"', ""), "utf-8")
     for command in ("list", "sweep"):
         broken = scanbench("errors", command, str(project))
         assert broken.returncode == 1

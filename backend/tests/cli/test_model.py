@@ -15,7 +15,7 @@ def test_a_right_file_is_summed_up() -> None:
     assert "CJ1M-CPU63 (omron): Omron SYSMAC CJ1M CPU Unit" in result.stdout
     assert "A A0 A447 read read write yes" in " ".join(result.stdout.split())
     assert "instructions  3: FAL, FALS, MSG" in result.stdout
-    assert "errors        23: 11 fatal, 12 nonfatal" in result.stdout
+    assert "errors        33: 11 fatal, 22 nonfatal" in result.stdout
     assert " facts (" in result.stdout
 
 

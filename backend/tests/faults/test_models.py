@@ -35,10 +35,24 @@ def log_spans(resource: Resource) -> list[tuple[int, int]]:
     return [(first, first + 2 * log.records * log.words), (counter, counter + 2)]
 
 
+def standby_spans(resource: Resource) -> list[tuple[int, int]]:
+    """The words that say which CPU Unit controls, and why."""
+    layout = resource.program.layout
+    places = () if layout.model.standby is None else layout.model.standby.places
+    starts = ((layout.areas[place.area.name] + 2 * place.word, place.bits) for place in places)
+    return [(start, start + 2 * -(-bits // 16)) for start, bits in starts]
+
+
+def taken_over_for(name: str) -> set[str]:
+    """The errors for which a standby takes over, by id."""
+    standby = model(name).standby
+    return set() if standby is None else {id for id, _ in standby.causes}
+
+
 def areas_without_log(resource: Resource) -> bytes:
-    """All areas of the model; the error log, and the time of the latest error, blanked."""
+    """All areas of the model; the error log, the time of the latest error, and which CPU Unit controls, blanked."""
     memory = bytearray(resource.memory)
-    for start, end in log_spans(resource):
+    for start, end in (*log_spans(resource), *standby_spans(resource)):
         memory[start:end] = bytes(end - start)
     areas = resource.program.layout.areas
     return b"".join(memory[areas[area.name] : areas[area.name] + area.size] for area in resource.view.model.areas)
@@ -84,11 +98,12 @@ def test_every_error_with_every_detail(name: str) -> None:
             outcome = resource.submit(Generate("Ada", (ErrorRef(error.id, tuple(details.items())),)))
             assert isinstance(outcome, Entry), (error.id, details, outcome)
             assert bits(resource, error.flag) == 1, error.id
-            assert resource.runnable is (error.severity == "nonfatal")
+            goes_on = error.severity == "nonfatal" or error.id in taken_over_for(name)
+            assert resource.runnable is goes_on
             if known.code_word is not None:
                 assert error.show(bits(resource, known.code_word)) in outcome.plan.message
             assert isinstance(resource.submit(Recover("Bob", (error.id,))), Entry)
-            assert resource.header.mode is (Mode.MONITOR if error.severity == "nonfatal" else Mode.PROGRAM)
+            assert resource.header.mode is (Mode.MONITOR if goes_on else Mode.PROGRAM)
             assert areas_without_log(resource) == start == before, (error.id, details)
 
 
@@ -103,7 +118,10 @@ def test_whatever_happened_nothing_is_left(name: str, data: st.DataObject) -> No
     ids = [error.id for error in model(name).errors()]
     resource = plc(SOURCE, model_name=name)
     before = areas_without_log(resource)
+    fatal = {error.id for error in model(name).errors() if error.severity == "fatal"}
     present: set[str] = set()
+    stopping: set[str] = set()
+    switching, duplex = taken_over_for(name), True
     for _ in range(data.draw(st.integers(1, 12))):
         step = data.draw(_STEPS)
         if step == "generate":
@@ -111,7 +129,13 @@ def test_whatever_happened_nothing_is_left(name: str, data: st.DataObject) -> No
             outcome = resource.submit(Generate("Ada", tuple(map(ErrorRef, wanted))))
             # refused whole, unless all of them are new
             assert isinstance(outcome, Entry) is not bool(present & set(wanted))
-            present |= set(wanted) if isinstance(outcome, Entry) else set()
+            if isinstance(outcome, Entry):
+                present |= set(wanted)
+                now = fatal & set(wanted)
+                if now and duplex and now <= switching:
+                    duplex = False
+                else:
+                    stopping |= now
         elif step == "again" and present:
             id = data.draw(st.sampled_from(sorted(present)))
             error = model(name).error(id)
@@ -120,20 +144,27 @@ def test_whatever_happened_nothing_is_left(name: str, data: st.DataObject) -> No
             if not error.several:
                 assert isinstance(resource.submit(Generate("Bob", (ErrorRef(id, details),))), Refusal)
             assert isinstance(resource.submit(Generate("Bob", (ErrorRef(id, details),), again=True)), Entry)
+            if duplex and id in switching:
+                duplex = False
+                stopping.discard(id)
+            else:
+                stopping |= fatal & {id}
         elif step == "recover" and present:
             gone = data.draw(st.lists(st.sampled_from(sorted(present)), min_size=1, unique=True))
             assert isinstance(resource.submit(Recover("Ada", tuple(gone))), Entry)
             present -= set(gone)
+            stopping -= set(gone)
+            duplex |= bool(switching & set(gone)) and not switching & present
         elif step == "clear":
             assert isinstance(resource.submit(Recover("Ada", None)), Entry)
-            present = set()
+            present, stopping, duplex = set(), set(), True
         elif step in RESTARTS:
             assert isinstance(resource.submit(Restart("Ada", RESTARTS[step])), Entry)
-            present = set()
+            present, stopping, duplex = set(), set(), True
         elif step in Mode.__members__:
-            fatal = any(error.severity == "fatal" for error in model(name).errors() if error.id in present)
-            assert isinstance(resource.submit(SetMode("Ada", step)), Refusal) is (fatal and step == "RUN")
+            assert isinstance(resource.submit(SetMode("Ada", step)), Refusal) is (bool(stopping) and step == "RUN")
         _assert_flags(resource, present)
+        assert bool(resource.header.halt) is bool(stopping)
     resource.submit(Recover("Ada", None))
     assert areas_without_log(resource) == before
     assert resource.memory[Layout.FATAL] == 0
@@ -151,11 +182,10 @@ def _assert_flags(resource: Resource, present: set[str]) -> None:
             assert bits(resource, error.flag) == 0, error.id
     if known.code_word is not None:
         code = bits(resource, known.code_word)
-        assert bool(code) is bool(present)
-        worst = min((error.priority for error in on), default=0)
-        assert not on or any(e.code <= code <= e.code + _most(e) for e in on if e.priority == worst)
-    if any(error.severity == "fatal" for error in on):
-        assert not resource.runnable
+        coded = [error for error in on if error.coded]
+        assert bool(code) is bool(coded)
+        worst = min((error.priority for error in coded), default=0)
+        assert not coded or any(e.code <= code <= e.code + _most(e) for e in coded if e.priority == worst)
 
 
 def _most(error: ErrorEntry) -> int:

@@ -12,7 +12,7 @@ from scanbench.plcmodel.model import ErrorAddress, ErrorEntry, Location
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.resource import Resource
 from tests.amounts import amount
-from tests.faults.test_models import MODELS, SOURCE, every_choice, log_spans
+from tests.faults.test_models import MODELS, SOURCE, every_choice, log_spans, standby_spans
 from tests.runtime.bench import model, plc
 
 Bit = tuple[str, int]
@@ -100,7 +100,8 @@ def expected(name: str, present: Mapping[Key, Details]) -> dict[Bit, int]:
         assert error is not None
         bits, code = told(error, details)
         memory |= bits
-        shown.append((error.priority, code))
+        if error.coded:
+            shown.append((error.priority, code))
     word = model(name).code_word
     if word is not None and shown:
         area, start = first_bit(word)
@@ -120,7 +121,7 @@ def expected(name: str, present: Mapping[Key, Details]) -> dict[Bit, int]:
 def found(resource: Resource) -> dict[Bit, int]:
     """What is not 0 in the memory of the model; the log is another matter."""
     memory = bytearray(resource.memory)
-    for start, end in log_spans(resource):
+    for start, end in (*log_spans(resource), *standby_spans(resource)):
         memory[start:end] = bytes(end - start)
     areas = resource.program.layout.areas
     return {

@@ -50,7 +50,7 @@ def test_the_errors_of_what_is_fitted() -> None:
         "special-io-unit-error": ["unit=3", "unit=20"],
         "cpu-bus-unit-setting-error": ["unit=2"],
         "special-io-unit-setting-error": ["unit=3", "unit=20"],
-        **dict.fromkeys(PORTS, []),
+        **{port: [] for port in PORTS},
     }
     fal = known.error("fal")
     assert fal is not None
