@@ -61,6 +61,8 @@ function after(course: Course, { kind, text }: Mark, fatal: ReadonlySet<string>)
     case "error":
       // An armed error is not raised yet, and a missed one was never raised.
       if (/^(armed|fault) \d+\b/.test(text)) return course;
+      // A second CPU Unit goes on with the program.
+      if (text.includes("; the standby takes over")) return course;
       return { ...course, fatal: new Set([...course.fatal, ...named(text, fatal)]) };
     case "recover":
       return recovered(course, text, named(text, fatal));

@@ -3,6 +3,7 @@ import { codeText } from "../../../logic/errors/codeText";
 import { grouped } from "../../../logic/format/numbers";
 import { backTo, modeBefore } from "../../../store/debug/run";
 import { useCatalogue } from "../../../store/errors/catalogue";
+import { useDevice } from "../../../store/errors/device";
 import { clearFatal, forgetOutcome } from "../../../store/errors/simulator";
 import { usePlc } from "../../../store/plc/plc";
 import { travel } from "../../../store/plc/timeline";
@@ -22,7 +23,11 @@ export function FatalBanner({ state }: { state: InstanceState }) {
   const errors = usePlc((plc) => plc.errors);
   const { byId } = useCatalogue();
   const fatal = [...errors.values()].filter((row) => row.status === "generated" && row.severity === "fatal");
-  const [cause] = fatal;
+  // In simplex the standby took over for the errors before the last one.
+  const simplex = useDevice((device) => device.found?.standby?.duplex === false);
+  const [first] = fatal;
+  const latest = [...fatal].sort((a, b) => (b.generated_scan ?? 0) - (a.generated_scan ?? 0))[0];
+  const cause = simplex ? latest : first;
   const error = cause && byId.get(cause.id);
   const details = [cause?.label, detailsInWords(error, cause?.details ?? "")].filter(Boolean).join(", ");
   const title = cause
