@@ -111,6 +111,7 @@ TABLE: dict[str, str] = {
     "W003": "bits copied, where other tools convert the number",
     "W004": "bytes of a STRING that begin with its length",
     "W005": "character number 0",
+    "W006": "construct that only the dialect of the project allows",
     # R: required reactions
     "R001": "requirement that cannot be checked",
     # X: constructs that are known, and not supported

@@ -16,10 +16,11 @@ from scanbench.symbols.names import names_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.values import format_value, parse_value
 from scanbench.symbols.violations import read_violations
+from scanbench.syntax.language_file import dialect_named, with_dialect
 from scanbench.syntax.literals import date_and_time, duration
 
 HEAD = re.compile(
-    r"^\[(case|source|scans|trap|model|interval|budget|feature|violations|file|clock|start|both)\b\s*(.*?)\]\s*$"
+    r"^\[(case|source|scans|trap|model|interval|budget|dialect|feature|violations|file|clock|start|both)\b\s*(.*?)\]\s*$"
 )
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
 PAIR = re.compile(
@@ -58,6 +59,8 @@ class Case:
     """What the PLC's clock shows at virtual time 0."""
     in_out: Literal["reference", "value", ""] = ""
     """How blocks take their in-outs, when it is not as the model has it."""
+    dialect: str = ""
+    """In which the source is written; empty for the strict language."""
     both: bool = False
     """It holds for both conventions."""
     starts: list[int] = field(default_factory=list)
@@ -109,6 +112,8 @@ def _head(case: Case, part: str, rest: str) -> None:
             case.trap = kind, int(place)
         case "model":
             case.model = rest
+        case "dialect":
+            case.dialect = rest
         case "budget":
             case.budget = int(rest)
         case "feature":
@@ -131,7 +136,12 @@ def build(case: Case) -> Program:
     """The checked program; problems fail the test."""
     model = MODELS[case.model]
     model = replace(model, in_out=case.in_out) if case.in_out else model
-    checked = check_sources({"case.st": case.source, **case.files}, model, case.interval_ns)
+    sources = {"case.st": case.source, **case.files}
+    if case.dialect:
+        dialect = dialect_named(case.dialect)
+        assert dialect is not None, f"there is no dialect {case.dialect}"
+        sources = with_dialect(sources, dialect)
+    checked = check_sources(sources, model, case.interval_ns)
     assert checked.program is not None, "\n".join(map(str, checked.problems))
     return checked.program
 

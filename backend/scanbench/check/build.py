@@ -29,6 +29,7 @@ from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
+from scanbench.check.dialect import DIALECTS, IEC, Dialect
 from scanbench.check.order import Order
 from scanbench.check.system.plant import Plant, plant_files
 from scanbench.check.system.stimuli import Stimuli
@@ -45,6 +46,7 @@ from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
 from scanbench.public import Public
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
+from scanbench.syntax.language_file import dialect_of, is_language_file
 from scanbench.syntax.requirements import is_requirements
 
 RECURSION_LIMIT = 20_000
@@ -86,14 +88,15 @@ class Checked:
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
     """Checks all files of a project together. `interval_ns` is the interval of the task, unless a CONFIGURATION has one."""
     files = [read(name, text) for name, text in program_files(sources).items()]
-    checker = checker_of(files, model)
+    checker = checker_of(files, model, dialect=DIALECTS[dialect_of(sources)[0]])
     return with_user_errors(concluded(files, checker.report, checker.run(interval_ns)), sources, model)
 
 
 def program_files(sources: Mapping[str, str]) -> dict[str, str]:
-    """The sources without the errors that the project defines, what is fitted, and what it requires: these are no part of the
-    program."""
-    return {name: text for name, text in sources.items() if not is_of_catalogue(name) and not is_requirements(name)}
+    """The sources without the errors that the project defines, what is fitted, what it requires, and its dialect: these are no
+    part of the program."""
+    others = (is_of_catalogue, is_requirements, is_language_file)
+    return {name: text for name, text in sources.items() if not any(each(name) for each in others)}
 
 
 def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model) -> Checked:
@@ -103,7 +106,7 @@ def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model)
     """
     if len(program_files(sources)) == len(sources):
         return checked
-    found = extended(model, sources)[1]
+    found = [*extended(model, sources)[1], *dialect_of(sources)[1]]
     problems = sorted((*checked.problems, *found), key=lambda each: (each.span.file, each.span.line, each.span.column))
     if any(problem.severity is Severity.ERROR for problem in found):
         return Checked(None, tuple(problems), checked.pous)
@@ -114,12 +117,12 @@ def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model)
     return replace(checked, program=program, problems=tuple(problems))
 
 
-def checker_of(files: Sequence[Chunked], model: Model, looks: Looks | None = None) -> "Checker":
+def checker_of(files: Sequence[Chunked], model: Model, looks: Looks | None = None, dialect: Dialect = IEC) -> "Checker":
     """What checks these files together."""
     enabling = frozenset(file.name for file in files if ENABLING.search(file.text))
     looked_at = (looks or Looks()).at(chunk for file in files for chunk in file.chunks)
     used = as_used(model, (file.text for file in files))
-    return Checker(Report(), used, [file.file for file in files], enabling, looked_at)
+    return Checker(Report(), used, [file.file for file in files], enabling, looked_at, dialect)
 
 
 def concluded(files: Sequence[Chunked], report: Report, program: Program | None) -> Checked:
@@ -173,6 +176,7 @@ class Checker:
     """Files in whose text EN or ENO occurs."""
     looked_at: frozenset[str] = frozenset()
     """As in `Declarations`."""
+    dialect: Dialect = IEC
     globals: Record = field(default_factory=lambda: Record("GLOBAL", Kind.STRUCT))
     pous: Pous = field(default_factory=Pous)
     declarations: Declarations = field(init=False)
@@ -201,6 +205,7 @@ class Checker:
         self.declarations = declarations_of(self.report, self.model, areas, self._constant)
         self.declarations.reference_of = self._reference
         self.declarations.looked_at = self.looked_at
+        self.declarations.dialect = self.dialect
         self.system = system_of(self.model, areas)
         self.declarations.symbols = self.system.symbols
         self.names = Collector(self.report, self.declarations, self.system.file, self.enabling)

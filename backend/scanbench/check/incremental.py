@@ -23,12 +23,14 @@ from scanbench.check.build import (
 )
 from scanbench.check.context import Report
 from scanbench.check.declare.names import qualified
+from scanbench.check.dialect import DIALECTS, IEC, Dialect
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Pou
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk, Chunked, read
+from scanbench.syntax.language_file import dialect_of
 from scanbench.syntax.parse_file import is_stimulus
 
 _TELLS_PLACE = re.compile(r"\bline \d|:\d+:\d+")
@@ -54,10 +56,11 @@ class Checks:
         return self._changed(sources, model, interval_ns, whole=False)
 
     def _changed(self, files: Mapping[str, str], model: Model, interval_ns: int, whole: bool) -> "Project":
-        sources = program_files(files)
-        project = next((each for each in self._known if each.is_about(sources, model, interval_ns)), None)
+        sources, dialect = program_files(files), DIALECTS[dialect_of(files)[0]]
+        found = (each for each in self._known if each.dialect is dialect and each.is_about(sources, model, interval_ns))
+        project = next(found, None)
         if project is None:
-            project = Project(model, interval_ns)
+            project = Project(model, interval_ns, dialect)
             project.check_all(sources)
         else:
             self._known.remove(project)
@@ -85,6 +88,7 @@ class Project:
 
     model: Model
     interval_ns: int
+    dialect: Dialect = IEC
     files: dict[str, Chunked] = field(init=False)
     checker: Checker = field(init=False)
     checked: Checked = field(init=False)
@@ -101,7 +105,7 @@ class Project:
     def start(self) -> None:
         """Checks everything that was read."""
         files = list(self.files.values())
-        self.checker = checker_of(files, self.model, self.looks)
+        self.checker = checker_of(files, self.model, self.looks, self.dialect)
         with without_collection():
             self.checked = concluded(files, self.checker.report, self.checker.run(self.interval_ns))
         self.whole = True
@@ -165,7 +169,7 @@ class Project:
         if any(each.block_tasks for file in files for conf in file.configurations for each in _programs(conf)):
             return False  # the last pass looks into bodies then
         seeing = self._seeing(edits)
-        before, self.checker = self.checker, checker_of(list(self.files.values()), self.model, self.looks)
+        before, self.checker = self.checker, checker_of(list(self.files.values()), self.model, self.looks, self.dialect)
         self.checker.declare()
         if next(iter(self.checker.pous.classes.methods()), None) is not None or before.pous.dispatchers:
             return False

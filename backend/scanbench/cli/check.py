@@ -1,6 +1,7 @@
 """`scanbench check`: every problem of a program, without running it."""
 
 import json
+from collections.abc import Mapping
 from enum import StrEnum
 from pathlib import Path
 
@@ -8,9 +9,10 @@ import typer
 
 from scanbench.check.build import check_sources, program_files
 from scanbench.cli.check_report import report_files, report_json, report_lines
-from scanbench.cli.inputs import find_model, problem_json, read_sources
+from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources
 from scanbench.faults.reaction.required_rules import problems_of
 from scanbench.problems import Severity
+from scanbench.syntax.language_file import STRICT, guess_dialect, is_language_file
 
 
 class Format(StrEnum):
@@ -26,10 +28,11 @@ def check(
     ),
     format: Format = typer.Option(Format.TEXT, help="text: `file:line:column: code message`, one a line."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
+    dialect: str | None = typer.Option(None, metavar="NAME", help=DIALECT_HELP),
     report: bool = typer.Option(False, help="Count supported and refused constructs per file instead."),
 ) -> None:
     """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
-    sources = read_sources(paths)
+    sources = read_sources(paths, dialect)
     checked = check_sources(sources.texts, find_model(model, sources))
     problems = (*checked.problems, *problems_of(checked.program, sources.texts))
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
@@ -49,4 +52,15 @@ def check(
         others = len(problems) - errors
         note = f" ({others} warning{'s' * (others != 1)})" if others else ""
         typer.echo(f"{errors} error{'s' * (errors != 1)}{note} in {len(sources.texts)} file(s)", err=True)
+        if errors:
+            _tell_dialect(sources.texts)
     raise typer.Exit(1 if errors else 0)
+
+
+def _tell_dialect(texts: Mapping[str, str]) -> None:
+    """Says in which dialect programs are probably written that name none."""
+    likely = guess_dialect(texts)
+    if likely != STRICT and not any(map(is_language_file, texts)):
+        typer.echo(
+            f"scanbench: this looks like {likely}: with --dialect {likely}, what it allows is no error", err=True
+        )

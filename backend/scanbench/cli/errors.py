@@ -11,6 +11,7 @@ import typer
 from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import (
+    DIALECT_HELP,
     below,
     find_model,
     find_model_named,
@@ -152,6 +153,7 @@ def _entry_json(groups: Iterable[ErrorGroup], entry: ErrorEntry) -> dict[str, ob
 def sweep_errors(
     project: Path = typer.Argument(metavar="PROJECT", help="A folder with a program, or a program file."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
+    dialect: str | None = typer.Option(None, metavar="NAME", help=DIALECT_HELP),
     states: Path | None = typer.Option(None, metavar="FILE", help="States to begin from (JSON, docs/error-sweep.md); else 100 scans from a cold start."),
     window: int = typer.Option(WINDOW, min=1, max=100_000, metavar="N", help="Scans that the program gets to react."),
     present: list[str] = typer.Option([], "--while", metavar="ERROR", help="Also from each state with this error present; may be given several times: with --only for both, a pair is tried in both orders."),
@@ -172,7 +174,7 @@ def sweep_errors(
     """
     for path in filter(None, (junit, html)):
         must_be_writable(path)
-    sources = read_sources([project])
+    sources = read_sources([project], dialect)
     plc = find_model(model, sources)
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
     program = _program(given, plc, as_json)

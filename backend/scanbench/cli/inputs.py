@@ -15,9 +15,11 @@ from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.server.archive import unpack
 from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
+from scanbench.syntax.language_file import DIALECTS, LANGUAGE_FILE, dialect_named, with_dialect
 from scanbench.wire.refused import Refused
 
 ARCHIVE = ".zip"
+DIALECT_HELP = f"Dialect of the programs: {', '.join(DIALECTS)}; else language.json's, else iec."
 DAMAGED = 4
 """Exit code where a run file is damaged: what was looked at is right, but a part of the run is lost."""
 
@@ -69,8 +71,11 @@ def with_near(message: str, near: Sequence[str]) -> str:
     return ended if not near or "id you mean" in message else f"{ended} Near: {', '.join(near)}."
 
 
-def read_sources(paths: list[Path]) -> Sources:
-    """A file is taken whatever its ending; a folder or zip file gives every program file in it, and its own errors."""
+def read_sources(paths: list[Path], dialect: str | None = None) -> Sources:
+    """A file is taken whatever its ending; a folder or zip file gives every program file in it, and its own errors.
+
+    `dialect` goes before what the project itself says.
+    """
     texts: dict[str, str] = {}
     model = None
     try:
@@ -84,6 +89,12 @@ def read_sources(paths: list[Path]) -> Sources:
             model = model or project_model(path)
     except Refused as error:
         usage(str(error))
+    if dialect is not None:
+        named = dialect_named(dialect)
+        if named is None:
+            usage(f"there is no dialect {dialect}: write one of {', '.join(DIALECTS)}")
+        folder = paths[0] if paths[0].is_dir() or paths[0].suffix.lower() == ARCHIVE else paths[0].parent
+        texts = with_dialect(texts, named, str(folder / LANGUAGE_FILE))
     return Sources(texts, model)
 
 

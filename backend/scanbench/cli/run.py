@@ -9,7 +9,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
-from scanbench.cli.inputs import Sources, below, find_model, problem_json, read_sources, usage, with_near
+from scanbench.cli.inputs import DIALECT_HELP, Sources, below, find_model, problem_json, read_sources, usage, with_near
 from scanbench.cli.interrupt import interruptible, leaving
 from scanbench.cli.progress import progress
 from scanbench.cli.record import check_whole, recorded
@@ -61,6 +61,7 @@ def run(
     path: Path = typer.Argument(metavar="FILE|DIR|ZIP", help="A program file (.st, .TcPOU, ...), or a folder or zip file with some."),
     scans: int = typer.Option(..., min=0, help="How many scans to run."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
+    dialect: str | None = typer.Option(None, metavar="NAME", help=DIALECT_HELP),
     interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Write before a scan (0 if none is named). Text with an @ in it: PATH='a@1'."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Force from a scan on."),
@@ -81,7 +82,7 @@ def run(
     Exit 0 when it ran; 1: it does not compile; 2: wrong usage, a command was refused, or --until was never met; 3: the
     engines differ; 4: the PLC trapped; 130: interrupted by Ctrl-C, what is printed is of the scans that ran.
     """
-    sources = read_sources([path])
+    sources = read_sources([path], dialect)
     program, problems = _compiled(sources, find_model(model, sources), read_interval(interval), as_json)
     commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine)
     shown = [(each, find_symbol(program, each)) for each in show]

@@ -30,6 +30,7 @@ from scanbench.jobs import history as history_job
 from scanbench.jobs import verification as verify_job
 from scanbench.jobs.retrospective import record
 from scanbench.jobs.starting import checked_program, model_of, point_in, reaction_in
+from scanbench.plcmodel.user_errors import is_of_catalogue
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import Program
 from scanbench.recording.format import RunFileError
@@ -136,7 +137,7 @@ class Job:
 
     def _numbers(self, sources: Sources) -> tuple[RaisedNumber, ...] | None:
         """Those that the program raises errors with, whatever is wrong with what is fitted."""
-        files = check.program_files(sources.files)
+        files = {name: text for name, text in sources.files.items() if not is_of_catalogue(name)}
         program = self._checks.check(files, model_of(sources), sources.interval_ns).program
         return None if program is None else raised_numbers(program)
 

@@ -41,6 +41,7 @@ from typing import TYPE_CHECKING
 from scanbench.problems import Span
 from scanbench.program.sites import CheckSite, TrapSite
 from scanbench.program.types import Elementary, Member, Record, Reference, Section, StringType, Type
+from scanbench.syntax.language_file import DialectName
 
 if TYPE_CHECKING:
     from scanbench.program.layout import Layout
@@ -432,6 +433,8 @@ class Program:
     """Phase 2: the project's `plant/`: programs and stimuli that drive the inputs, before the forces."""
     tasked: tuple[Pou, ...] = ()
     """Those of `pous` that the tasks run, themselves or through others; the plant may run them too."""
+    dialect: DialectName = "iec"
+    """In which it is written: what people type about it is understood in the same way."""
 
     @property
     def instances(self) -> tuple["ProgramInstance", ...]:

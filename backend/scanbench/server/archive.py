@@ -19,6 +19,7 @@ from uuid import NAMESPACE_URL, uuid5
 from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
+from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, guess_dialect, language_text
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
@@ -132,7 +133,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
     compiled, missing = (None, list[str]()) if PROJECT_FILE in inside else _compiled(archive, inside)
     files, panels = {}, {}
     for path, each in sorted(inside.items()):
-        if path in (*CATALOGUE_FILES, REQUIREMENTS) or (
+        if path in (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS) or (
             is_program_file(path) and (compiled is None or path in compiled)
         ):
             files[path] = decode(_read(archive, each))
@@ -144,6 +145,8 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
         raise Refused(f"the TwinCAT project compiles files that are not in this archive: {', '.join(missing)}")
     if not any(map(is_program_file, files)):
         raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in this archive")
+    if PROJECT_FILE not in inside and LANGUAGE_FILE not in files and (guess := guess_dialect(files, named)) != STRICT:
+        files[LANGUAGE_FILE] = language_text(guess)
     about = _about(_read(archive, inside[PROJECT_FILE]) if PROJECT_FILE in inside else None)
     name, model, watch = about.get("name"), about.get("model"), about.get("watch")
     return Archive(

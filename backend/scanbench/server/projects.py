@@ -14,6 +14,7 @@ from scanbench.server.samples import templates
 from scanbench.session.session import Session
 from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
+from scanbench.syntax.language_file import LANGUAGE_FILE
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
@@ -247,11 +248,11 @@ def _question(changes: Sequence[Change]) -> str:
 
 def _check_path(path: str) -> None:
     parts = path.split("/")
-    known = is_program_file(path) or path in (*CATALOGUE_FILES, REQUIREMENTS) or is_panel_file(path)
+    known = is_program_file(path) or path in (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS) or is_panel_file(path)
     odd = any(part.strip(". ") == "" or part.rstrip(". ").lower() == ".git" for part in parts)
     if not known or len(path) > 200 or odd:
         raise Refused(
             f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
             f"the project's own errors are in {USER_ERRORS}, what must happen then in {REQUIREMENTS}, its hardware in "
-            f"{HARDWARE_FILE}, operator panels in files like belt{PANEL_ENDING}"
+            f"{HARDWARE_FILE}, its dialect in {LANGUAGE_FILE}, operator panels in files like belt{PANEL_ENDING}"
         )

@@ -23,6 +23,7 @@ from scanbench.server.working_tree import Foreign, write
 from scanbench.store.connected import check
 from scanbench.store.records import NotFound
 from scanbench.store.store import Store
+from scanbench.syntax.language_file import LANGUAGE_FILE
 from scanbench.syntax.parse_file import is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
@@ -258,7 +259,11 @@ def _is_text(path: str) -> bool:
 
 
 def _is_ours(path: str) -> bool:
-    return path in (PROJECT_FILE, *CATALOGUE_FILES, REQUIREMENTS) or is_program_file(path) or is_panel_file(path)
+    return (
+        path in (PROJECT_FILE, *CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS)
+        or is_program_file(path)
+        or is_panel_file(path)
+    )
 
 
 def _changes(before: Mapping[str, str], now: Mapping[str, str]) -> list[FileChange]:

@@ -8,10 +8,11 @@ from importlib.resources.abc import Traversable
 
 from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.operator_panels import is_panel_file
+from scanbench.syntax.language_file import LANGUAGE_FILE
 from scanbench.syntax.parse_file import is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 
-_OTHERS = (*CATALOGUE_FILES, REQUIREMENTS)
+_OTHERS = (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS)
 
 
 @dataclass(frozen=True, slots=True)

@@ -96,12 +96,13 @@ def _simple(c: Cursor, name: bool) -> tree.Statement:
     target = expression(c)
     if c.accept(":="):
         value = expression(c)
+        also = []
+        while c.accept(":="):
+            also.append(value)
+            value = expression(c)
         span = c.span_from(start)
-        if c.is_(":="):
-            c.report("X001", "Several assignments in one (`a := b := c`) are not supported; write one for each.", span)
-            raise Unexpected
         c.close(";", "at the end of the assignment")
-        return tree.Assignment(target, value, span)
+        return tree.Assignment(target, value, span, also=tuple(also))
     return _other(c, start, target)
 
 
@@ -144,9 +145,11 @@ def _refused(c: Cursor, word: str) -> None:
 
 def _exit(c: Cursor) -> tree.Statement:
     start = c.take()
+    leaves = c.texts[start] == "EXIT"
+    condition = expression(c) if not leaves and c.is_("(") else None
     c.close(";", f"after {c.texts[start]}")
     span = c.span_of(start)
-    return tree.ExitStatement(span) if c.texts[start] == "EXIT" else tree.ReturnStatement(span)
+    return tree.ExitStatement(span) if leaves else tree.ReturnStatement(span, condition)
 
 
 def _condition(c: Cursor, keyword: str) -> tree.Expression:

@@ -445,6 +445,8 @@ class Assignment:
     value: Expression
     span: Span
     operator: str = ":="
+    also: tuple[Expression, ...] = ()
+    """Of `a := b := c`, what follows the first variable: `b`; `value` is `c`."""
 
 
 @node
@@ -508,7 +510,10 @@ class ContinueStatement:
 
 @node
 class ReturnStatement:
+    """`condition` as vendors have it: `RETURN(done)`."""
+
     span: Span
+    condition: Expression | None = None
 
 
 Statement = (

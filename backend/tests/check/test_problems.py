@@ -4,6 +4,7 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.problems import TABLE
+from scanbench.syntax.language_file import with_dialect
 from tests.caseformat import MODELS
 
 MAIN = "PROGRAM Main\nVAR x : INT; b : BOOL; a : ARRAY[1..3] OF INT; r : REAL; t : TON; s : STRING; END_VAR\n{}\nEND_PROGRAM\n"
@@ -28,6 +29,8 @@ BODIES = [
     ("T012", "b := s[-1] = 'x';", 3),
     ("W003", "r := DWORD_TO_REAL(16#3F800000);", 3),
     ("W005", "b := s[0] = 'x';", 3),
+    ("W006", "x := DINT#5;", 3),
+    ("X001", "x := a[1] := 5;", 3),
     ("T004", "t(IM := b);", 3),
     ("T004", "x := ABS();", 3),
     ("T006", "IF x THEN x := 1; END_IF;", 3),
@@ -115,7 +118,8 @@ def test_declaration(code: str, text: str, line: int) -> None:
 
 
 def expect(code: str, text: str, line: int) -> None:
-    checked = check_sources({"a.st": text}, MODELS["CJ1M-CPU63" if code == "T011" else "GENERIC-IEC"])
+    sources = with_dialect({"a.st": text}, "codesys" if code == "W006" else "iec")
+    checked = check_sources(sources, MODELS["CJ1M-CPU63" if code == "T011" else "GENERIC-IEC"])
     found = [(problem.code, problem.span.line) for problem in checked.problems]
     assert (code, line) in found, "\n".join(map(str, checked.problems))
     assert (checked.program is None) == any(not each.startswith("W") for each, _ in found)

@@ -7,6 +7,7 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.problems import TABLE, Severity
+from scanbench.syntax.language_file import DialectName, with_dialect
 from tests.caseformat import MODELS
 
 PAGES = Path(__file__).parents[3] / "docs/problems"
@@ -28,7 +29,9 @@ def test_every_problem_has_a_page_with_its_title() -> None:
 @pytest.mark.parametrize("code", LANGUAGE)
 def test_the_failing_example_fails_and_the_corrected_one_does_not(code: str) -> None:
     model = MODELS["CJ1M-CPU63" if code == "T011" else "GENERIC-IEC"]
-    failing, corrected = (check_sources({"a.st": text}, model).problems for text in examples(code))
+    dialect: DialectName = "codesys" if code == "W006" else "iec"
+    sources = (with_dialect({"a.st": text}, dialect) for text in examples(code))
+    failing, corrected = (check_sources(each, model).problems for each in sources)
     assert code in {problem.code for problem in failing}, failing
     assert [problem for problem in corrected if problem.severity is Severity.ERROR or problem.code == code] == []
 

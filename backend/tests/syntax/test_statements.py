@@ -37,7 +37,6 @@ REFUSED = [
     ("JMP there;", "X001 2:1 JMP is not supported; use IF and loops."),
     ("there: x := 1;", "X001 2:1 `there:` is a label to jump to, which is not supported; use IF and loops."),
     ("GOTO there;", "X001 2:1 GOTO is not supported; use IF and loops."),
-    ("a := b := c;", "X001 2:1 Several assignments in one (`a := b := c`) are not supported; write one for each."),
     ("REGION Some name\n", "X001 2:1 REGION is not supported; remove it, and its END_REGION."),
     (
         "INITIAL_STEP start:\nEND_STEP",

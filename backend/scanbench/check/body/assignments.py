@@ -1,8 +1,10 @@
 """Assignments: `:=` of everything that can be copied, `S=` and `R=`."""
 
+import re
 from contextlib import suppress
 from dataclasses import replace
 
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.arguments import together
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body, Found
@@ -13,6 +15,7 @@ from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.subrange_checks import keeping, noting
 from scanbench.check.body.targets import declared_target, note_written
 from scanbench.check.context import Rejected
+from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Stmt
 from scanbench.program.shown import shown
@@ -43,6 +46,8 @@ def _bind(body: Body, target: tree.Expression, value: tree.Expression, span: Spa
 
 def assign(body: Body, node: tree.Assignment) -> Stmt:
     """One assignment, by any operator."""
+    if node.also:
+        return _chained(body, node)
     match node.operator:
         case "S=" | "R=":
             return latch(body, node, condition(body, node.value))
@@ -63,6 +68,49 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
         return copied if note is None else together([copied, Assign(note, Load(target), node.span)], node.span)
     value = as_type(body, node.value, target.type, what)
     return Assign(target, keeping(value, note, node.span), node.span)
+
+
+def _chained(body: Body, node: tree.Assignment) -> Stmt:
+    """`a := b := c`: `c` into `b`, and that into `a`. Types that differ, and an index that is assigned, would need a rule."""
+    targets = (node.target, *node.also)
+    values = [*map(shown, node.also), shown(node.value)]
+    instead = " ".join(f"{shown(each)} := {value};" for each, value in reversed([*zip(targets, values, strict=True)]))
+    if not allowed(body, Allowance.CHAINED_ASSIGNMENT, node.span, "This is several assignments in one", f"`{instead}`"):
+        message = "Several assignments in one (`a := b := c`) are not supported; write one for each."
+        raise body.report.reject("X001", message, node.span)
+    names = {re.split(r"\W", shown(each).upper())[0] for each in targets}
+    types = {_target(body, replace(node, target=each))[0].type for each in targets}
+    if len(types) > 1 or any(_indexed_by(each, names) for each in targets):
+        raise body.report.reject(
+            "T002",
+            f"In several assignments in one, all variables are of one type, and none is an index of the others: what "
+            f"{body.dialect.title} does else is not documented. Write one assignment for each.",
+            node.span,
+        )
+    made, value = [], node.value
+    for each in reversed(targets):
+        made.append(assign(body, replace(node, target=each, value=value, also=())))
+        value = each
+    return together(made, node.span)
+
+
+def _indexed_by(node: tree.Expression, names: set[str]) -> bool:
+    """Whether an index of the variable is one of these, or a call."""
+    match node:
+        case tree.IndexOf(array, indices):
+            return _indexed_by(array, names) or any(_mentions(each, names) for each in indices)
+        case tree.MemberOf(owner=owner) | tree.PartialAccess(owner=owner):
+            return _indexed_by(owner, names)
+        case tree.Name():
+            return False
+    return True
+
+
+def _mentions(node: tree.Expression, names: set[str]) -> bool:
+    if isinstance(node, tree.Literal):
+        return False
+    plain = isinstance(node, tree.Name | tree.MemberOf | tree.BinaryOp)
+    return not plain or not names.isdisjoint(re.findall(r"\w+", shown(node).upper()))
 
 
 def _target(body: Body, node: tree.Assignment) -> Found:

@@ -1,7 +1,8 @@
 """An expression where a value of some type is required: it is settled, converted, or refused."""
 
-from scanbench.check.body import fold
+from scanbench.check.body import wide
 from scanbench.check.body.context import Body
+from scanbench.check.body.lenient import coerced
 from scanbench.check.body.literals import as_text, literal_as
 from scanbench.check.body.references import as_reference
 from scanbench.check.body.subrange_checks import into, plain
@@ -62,7 +63,10 @@ def coerce(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr:
         if isinstance(type, StringType):
             return expr
         assert isinstance(type, Elementary)
-        return fold.convert(type, expr)
+        return wide.converted(body, type, expr)
+    lenient = coerced(body, expr, type, span, what)
+    if lenient is not None:
+        return lenient
     if isinstance(source, Reference) and isinstance(source.target, Record) and source.target.open:
         raise Rejected  # who knows what it is derived from
     said = "nothing" if source is None else str(settle(expr).type)

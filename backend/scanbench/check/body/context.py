@@ -11,6 +11,7 @@ from typing import Protocol, TypeAlias
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
+from scanbench.check.dialect import IEC, Dialect
 from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr, Place, Pou
@@ -100,6 +101,15 @@ class Body:
     """Control variables of the FOR loops around."""
     loops: int = 0
     """Loops around."""
+    peeked: list[Span] = field(default_factory=list)
+    """Variables of blocks that can be read from outside by the dialect only; nobody writes them there."""
+    wide: dict[int, tuple[Expr, Expr]] = field(default_factory=dict)
+    """By identity, values that were cut to their type, and what they were cut from; see `wide.py`."""
+
+    @property
+    def dialect(self) -> Dialect:
+        """What this text may do: the library is written in the strict language."""
+        return IEC if self.pou is not None and self.pou.inline else self.declarations.dialect
 
     def trap(self, kind: TrapKind, span: Span, message: str) -> int:
         """The number of a new trap site."""

@@ -93,15 +93,18 @@ def parse_name(name: str, find: Callable[[str], Type | None] = lambda name: None
     return None
 
 
-def convert(expr: Expr, target: Type, way: str, library: Library, raw: bool = False) -> Expr | str:
+def convert(
+    expr: Expr, target: Type, way: str, library: Library, raw: bool = False, by_number: bool = False
+) -> Expr | str:
     """The conversion of a value, or the text to add to the message `There is no conversion X_TO_Y`.
 
-    `raw`: in the library itself, where a number of nanoseconds becomes a long time as it is.
+    `raw`: in the library itself, where a number of nanoseconds becomes a long time as it is. `by_number`: REAL and DWORD, LREAL and LWORD convert by
+    their number, as some vendors have it.
     """
     if isinstance(expr.type, Enumeration):
         expr = fold.convert(ELEMENTARY[expr.type.base_name], expr)
     if isinstance(target, Enumeration | Subrange):
-        made = convert(expr, ELEMENTARY[target.base_name], way, library)
+        made = convert(expr, ELEMENTARY[target.base_name], way, library, by_number=by_number)
         return fold.convert(target, made) if isinstance(target, Enumeration) and not isinstance(made, str) else made
     source = expr.type
     if not isinstance(source, Elementary | StringType) or not isinstance(target, Elementary | StringType):
@@ -112,7 +115,7 @@ def convert(expr: Expr, target: Type, way: str, library: Library, raw: bool = Fa
         return _from_bcd(expr, source, target, library) if way == "from_bcd" else _to_bcd(expr, source, target, library)
     if raw and isinstance(target, Elementary) and _is_raw(source, target):
         return fold.convert(target, expr)
-    made_or_none = _Converter(library).convert(expr, target)
+    made_or_none = _Converter(library, by_number).convert(expr, target)
     return ": it has no meaning." if made_or_none is None else made_or_none
 
 
@@ -159,8 +162,8 @@ def _to_bcd(expr: Expr, source: Type, target: Type, library: Library) -> Expr | 
 class _Converter:
     """Conversions between elementary types and strings; each gives None where there is none."""
 
-    def __init__(self, library: Library) -> None:
-        self.library = library
+    def __init__(self, library: Library, by_number: bool = False) -> None:
+        self.library, self._by_number = library, by_number
 
     def convert(self, expr: Expr, target: Elementary | StringType) -> Expr | None:
         source = expr.type
@@ -173,7 +176,7 @@ class _Converter:
             return expr
         if Kind.REF in (source.kind, target.kind):
             return None
-        if (source.name, target.name) in BITCASTS:
+        if (source.name, target.name) in BITCASTS and not self._by_number:
             return Intrinsic("BITCAST", target, (expr,))
         if source.kind in TIMES or target.kind in TIMES:
             return self._time(expr, source, target)

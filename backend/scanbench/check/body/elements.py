@@ -5,6 +5,7 @@ from dataclasses import replace
 from scanbench.check.body import fold
 from scanbench.check.body.context import Body, Found
 from scanbench.check.body.harmless import harmless
+from scanbench.check.body.lenient import index as lenient_index
 from scanbench.check.body.references import moved, target_of
 from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place
 from scanbench.program.shown import shown
@@ -83,6 +84,7 @@ def _character_place(body: Body, place: Place, type: StringType, node: tree.Expr
 
 def _index_value(body: Body, node: tree.Expression) -> Expr:
     index = settle(body.expression(node))
+    index = lenient_index(body, index, node.span, "An index") or index
     if not isinstance(index.type, Elementary) or index.type.kind not in (Kind.INT, Kind.UINT):
         raise body.report.reject("T002", f"An index is an integer, not {index.type}.", node.span)
     return index

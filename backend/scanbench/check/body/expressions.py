@@ -9,6 +9,7 @@ from scanbench.check.body.elements import character_index, character_of, element
 from scanbench.check.body.enumerations import enumeration_value, is_value_name, typed, value_of_type
 from scanbench.check.body.forms import form
 from scanbench.check.body.harmless import harmless
+from scanbench.check.body.lenient import inverted, negative
 from scanbench.check.body.literals import literal
 from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate
 from scanbench.check.body.parts import part, part_type
@@ -191,11 +192,13 @@ def _unary(body: Body, node: tree.UnaryOp, wanted: Type | None) -> Expr:
             return fold.unary("not", type, operand)
         if is_untyped(operand) and isinstance(wanted, Elementary) and wanted.kind in (Kind.BOOL, Kind.BITS):
             return fold.unary("not", wanted, coerce(body, operand, wanted, node.span, "The operand"))
+        if (bits := inverted(body, operand, node.span)) is not None:
+            return bits
         raise body.report.reject(
             "T002", f"NOT needs BOOL or a bit string, not {settle(operand).type}.", node.operand.span
         )
     if isinstance(type, Elementary) and type.kind in (*NUMERIC, Kind.TIME):
-        return operand if node.op == "plus" else fold.unary("neg", type, operand)
+        return operand if node.op == "plus" else negative(body, type, operand)
     raise body.report.reject("T002", f"A sign needs a number, not {type}.", node.operand.span)
 
 

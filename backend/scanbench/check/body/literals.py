@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from scanbench.check.body.context import Body
 from scanbench.check.body.enumerations import typed
+from scanbench.check.body.lenient import enumerated
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.context import did_you_mean
 from scanbench.problems import Span
@@ -127,6 +128,8 @@ def literal_as(body: Body, expr: Const, type: Elementary, span: Span, what: str)
             raise body.report.reject("S004", f"{value} does not fit {type}.", span)
         return Const(type, rounded)
     if isinstance(type, Enumeration):
+        if (made := enumerated(body, expr, type, span, what)) is not None:
+            return made
         example = next((f" Write {type}#{name}." for name, number in type.values if number == value), "")
         raise body.report.reject("T002", f"{what} is {type}, but this is the number {value}.{example}", span)
     if expr.type == ANY_REAL or type.kind in (Kind.TIME, Kind.DATE, Kind.CHAR, Kind.REF):

@@ -1,11 +1,14 @@
 """Operators -> typed operations: both operands brought to one type, every conversion written out."""
 
-from scanbench.check.body import fold
+from scanbench.check.body import fold, wide
+from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce, conversion_hint
 from scanbench.check.body.context import Body
+from scanbench.check.body.lenient import LOGIC, counted, logical
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
 from scanbench.check.body.references import compare_references, pointer_arithmetic
 from scanbench.check.body.subrange_checks import plain
+from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Assign, Binary, Compare, Const, Convert, Expr, If, Intrinsic, Load, Sequence
@@ -46,8 +49,12 @@ def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Ty
         return _time(body, op, left, right, span)
     if op == "pow":
         return _power(body, left, right, span, wanted)
-    left, right, type = _same(body, op, _number(left), _number(right), span, wanted)
-    if op in ("and", "or", "xor"):
+    left, right = _number(left), _number(right)
+    if op in LOGIC and (made := logical(body, op, left, right, span)) is not None:
+        return made
+    left, right, bits = counted(body, op, left, right, span)
+    left, right, type = _same(body, op, left, right, span, wanted)
+    if op in LOGIC:
         fits = type.kind in (Kind.BOOL, Kind.BITS) or type == ANY_INT
         need = "BOOL or bit strings"
     else:
@@ -55,7 +62,10 @@ def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Ty
         need = "integers" if op == "mod" else "numbers"
     if not fits:
         raise body.report.reject("T002", f"`{OPERATORS[op]}` needs {need}, not {type}.{_unsigned(type)}", span)
-    return _arithmetic(body, op, type, left, right, span)
+    result = _arithmetic(body, op, type, left, right, span)
+    if bits is None or type.kind is Kind.REAL or type.size > bits.size:
+        return result
+    return wide.converted(body, bits, result)
 
 
 def _compare(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
@@ -75,7 +85,10 @@ def _compare(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
         raise body.report.reject(
             "T002", f"`{OPERATORS[op]}` cannot join {a} and {b}: they are different enumerations.", span
         )
-    left, right, _ = _same(body, op, _number(left), _number(right), span)
+    left, right, _ = counted(body, op, _number(left), _number(right), span)
+    left, right, type = _same(body, op, left, right, span)
+    if wide.is_wide(body, left, right):
+        left, right = wide.sixty_four(body, type, left), wide.sixty_four(body, type, right)
     return fold.compare(op, BOOL, left, right)
 
 
@@ -96,6 +109,10 @@ def _arithmetic(body: Body, op: str, type: Elementary, left: Expr, right: Expr, 
             raise body.report.reject("S004", "This divides by the constant zero.", span)
         if not isinstance(right, Const):
             trap = body.trap(TrapKind.DIVISION, span, "division by zero")
+    if type.kind in wide.WHOLE and type.size and may(body, Allowance.WIDE_RESULTS):
+        if op in wide.WIDENING or wide.is_wide(body, left, right):
+            operands = wide.sixty_four(body, type, left), wide.sixty_four(body, type, right)
+            return wide.cut(body, type, fold.binary(op, wide.wide_of(type), *operands, trap))
     made = fold.binary(op, type, left, right, trap)
     return in_64_bits(body, made, span) if isinstance(made, Const) and type == ANY_INT else made
 
@@ -121,7 +138,7 @@ def _same(
     if type_or_none is None:
         hint = conversion_hint(right.type, left.type)
         raise body.report.reject("T002", f"`{OPERATORS[op]}` cannot join {left.type} and {right.type}.{hint}", span)
-    return fold.convert(type_or_none, left), fold.convert(type_or_none, right), type_or_none
+    return wide.converted(body, type_or_none, left), wide.converted(body, type_or_none, right), type_or_none
 
 
 def _beside(body: Body, literal: Expr, type: Elementary, span: Span, wanted: Type | None) -> Expr:

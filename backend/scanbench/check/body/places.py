@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.context import Body, Found
 from scanbench.check.body.elements import element
 from scanbench.check.body.objects import qualified_place
@@ -9,6 +10,7 @@ from scanbench.check.body.parts import PARTED, WIDTHS, named_part, part
 from scanbench.check.body.references import target_of
 from scanbench.check.body.variables import INSTANCE, no_member
 from scanbench.check.declare.addresses import offset_of
+from scanbench.check.dialect import Allowance
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Base, Load, Place
@@ -110,6 +112,16 @@ def _may_use(body: Body, record: Record, member: Member, span: Span) -> None:
     if record.kind is not Kind.BLOCK or member.section in (Section.INPUT, Section.OUTPUT):
         return
     if body.lookup.may_use(body, record, member):
+        return
+    if (
+        member.section is Section.VAR
+        and not member.hidden
+        and member.access != "PRIVATE"
+        and allowed(
+            body, Allowance.BLOCK_VARIABLES, span, f"`{member.name}` is internal of {record.name}", "`VAR_OUTPUT`"
+        )
+    ):
+        body.peeked.append(span)
         return
     what = "an in-out" if member.section is Section.IN_OUT else "internal"
     raise body.report.reject(

@@ -3,16 +3,21 @@
 import re
 from dataclasses import replace
 
-from scanbench.check.body import fold
+from scanbench.check.body import fold, lenient
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.context import did_you_mean
-from scanbench.check.standard.functions import Row
+from scanbench.check.dialect import Allowance
+from scanbench.check.standard.functions import Row, StringFunction
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, Expr, Load, Stmt
 from scanbench.program.types import LINT, Elementary, Kind, StringType, Type
 from scanbench.program.untyped import ANY_REAL, common, is_untyped, real_beside, settle
 from scanbench.syntax import tree
+
+VENDOR_NAMES = {"STR": "IN", "STR1": "IN1", "STR2": "IN2", "SIZE": "L", "LEN": "L", "POS": "P"}
+"""Names that CODESYS has for the arguments of string functions."""
 
 
 def ordered(body: Body, node: tree.Call, name: str, row: Row) -> list[tree.Expression]:
@@ -47,6 +52,11 @@ def _position(body: Body, argument: tree.Argument, name: str, row: Row) -> int:
         further = int(key[len(last.group(1)) :]) - int(last.group(2))
         if further > 0:
             return len(row.formals) - 1 + further
+    vendor = VENDOR_NAMES.get(key) if isinstance(row, StringFunction) else None
+    if vendor in row.formals:
+        what = f"`{argument.name}` is the argument `{vendor}` of `{name}`"
+        if allowed(body, Allowance.ARGUMENT_NAMES, argument.span, what, f"`{name}({vendor} := ...)`"):
+            return row.formals.index(vendor)
     hint = did_you_mean(key, row.formals) or f" It takes {', '.join(row.formals) or 'nothing'}."
     raise body.report.reject("T004", f"`{name}` has no argument `{argument.name}`.{hint}", argument.span)
 
@@ -91,6 +101,7 @@ def _join(body: Body, values: list[Expr], span: Span, name: str) -> Type:
 def integer(body: Body, value: Expr, span: Span, name: str) -> Expr:
     """A count, position or selector, as LINT."""
     value = settle(value)
+    value = lenient.index(body, value, span, f"A number that `{name}` takes") or value
     if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.INT, Kind.UINT):
         raise body.report.reject("T002", f"`{name}` needs an integer here, not {value.type}.", span)
     return fold.convert(LINT, value)

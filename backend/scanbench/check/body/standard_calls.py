@@ -3,13 +3,16 @@
 import re
 from functools import partial
 
-from scanbench.check.body import conversions, fold, standard_fold
+from scanbench.check.body import conversions, fold, standard_fold, wide
+from scanbench.check.body.allowed import may, used
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.lenient import inverted, shifted
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, integer, ordered
 from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel
 from scanbench.check.context import did_you_mean
+from scanbench.check.dialect import Allowance
 from scanbench.check.standard.functions import (
     FUNCTIONS,
     INTERNAL,
@@ -117,13 +120,18 @@ def _shift(body: Body, node: tree.Call, name: str, row: Shift, wanted: Type | No
         bits = coerce(body, bits, typed, bits_tree.span, "`IN`")
     elif isinstance(bits, Const) and isinstance(wanted, Elementary) and wanted.kind is Kind.BITS:
         bits = coerce(body, bits, wanted, bits_tree.span, "`IN`")
-    type = settle(bits).type
+    whole = shifted(body, row.intrinsic, bits, bits_tree.span)
+    if whole is not None:
+        count = integer(body, body.expression(count_tree), count_tree.span, name)
+        value, type, result = whole
+        return fold.convert(result, standard_fold.intrinsic(row.intrinsic, type, (value, count)))
+    given = settle(bits).type
     if not isinstance(bits.type, Elementary) or bits.type.kind is not Kind.BITS or not bits.type.size:
         hint = ""
-        if isinstance(type, Elementary) and type.kind in (Kind.INT, Kind.UINT):
-            same = {1: "BYTE", 2: "WORD", 4: "DWORD", 8: "LWORD"}[type.size]
-            hint = f" Convert it with {type}_TO_{same}, or write {same}#..."
-        raise body.report.reject("T002", f"`{name}` needs a bit string, not {type}.{hint}", bits_tree.span)
+        if isinstance(given, Elementary) and given.kind in (Kind.INT, Kind.UINT):
+            same = {1: "BYTE", 2: "WORD", 4: "DWORD", 8: "LWORD"}[given.size]
+            hint = f" Convert it with {given}_TO_{same}, or write {same}#..."
+        raise body.report.reject("T002", f"`{name}` needs a bit string, not {given}.{hint}", bits_tree.span)
     count = integer(body, body.expression(count_tree), count_tree.span, name)
     return standard_fold.intrinsic(row.intrinsic, bits.type, (bits, count))
 
@@ -184,6 +192,8 @@ def _not(body: Body, node: tree.Call, value: Expr, wanted: Type | None) -> Expr:
     value = settle(value) if wanted is None else value
     if isinstance(wanted, Elementary) and wanted.kind is Kind.BITS and isinstance(value, Const):
         value = coerce(body, value, wanted, node.span, "`IN`")
+    if (made := inverted(body, value, node.span)) is not None:
+        return made
     if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.BOOL, Kind.BITS):
         raise body.report.reject("T002", f"`NOT` needs BOOL or a bit string, not {settle(value).type}.", node.span)
     return fold.unary("not", value.type, value)
@@ -244,11 +254,17 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
         whole = isinstance(wanted, Elementary) and wanted.kind in (Kind.INT, Kind.UINT)
         target = wanted if whole and wanted is not None else DINT
     raw = in_library(node.span)
-    result = conversions.convert(value, target, parsed.way, partial(_library, body), raw)
+    by_number = may(body, Allowance.NUMBER_OF_BITS)
+    value = wide.settled(body, value)
+    result = conversions.convert(value, target, parsed.way, partial(_library, body), raw, by_number)
     if isinstance(result, str):
         raise body.report.reject("T002", f"There is no conversion {name}{result}", node.span)
     if not raw and isinstance(value.type, Elementary) and (value.type.name, target.name) in conversions.BITCASTS:
         number = "UDINT" if value.type.size == 4 else "ULINT"
+        if by_number:
+            instead = f"`{number}_TO_{target}({value.type}_TO_{number}(...))`"
+            used(body, Allowance.NUMBER_OF_BITS, node.span, f"`{name}` converts the number", instead)
+            return result
         body.report.warn(
             "W003",
             f"`{name}` copies the bits, as the standard says; other tools convert the number. For the number write "

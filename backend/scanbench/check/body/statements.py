@@ -4,12 +4,15 @@ from bisect import bisect
 from dataclasses import replace
 
 from scanbench.check.body import targets
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.assignments import assign, condition
+from scanbench.check.body.bare import bare_call
 from scanbench.check.body.calls import call_statement
 from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.context import Rejected
+from scanbench.check.dialect import Allowance
 from scanbench.program.program import Case, Const, Continue, Exit, Expr, For, If, Limit, Repeat, Return, Stmt, While
 from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
@@ -62,8 +65,20 @@ def statement(body: Body, node: tree.Statement) -> Stmt | None:
             if body.loops == 0:
                 raise body.report.reject("T009", "CONTINUE is in no loop; RETURN leaves the POU.", span)
             return Continue(span)
-        case tree.ReturnStatement(span):
-            return Return(span)
+        case tree.ReturnStatement():
+            return _return(body, node)
+
+
+def _return(body: Body, node: tree.ReturnStatement) -> Stmt:
+    if node.condition is None:
+        return Return(node.span)
+    test = condition(body, node.condition)
+    instead = f"`IF {shown(node.condition)} THEN RETURN; END_IF`"
+    if not allowed(body, Allowance.RETURN_CONDITION, node.span, "RETURN has a condition", instead):
+        raise body.report.reject(
+            "S003", f"`;` expected after RETURN. Where it depends on something, write {instead}.", node.span
+        )
+    return If(((test, (Return(node.span),)),), (), node.span)
 
 
 def _loop(body: Body, inner: tuple[tree.Statement, ...]) -> tuple[Stmt, ...]:
@@ -76,6 +91,8 @@ def _loop(body: Body, inner: tuple[tree.Statement, ...]) -> tuple[Stmt, ...]:
 
 def _expression(body: Body, node: tree.ExpressionStatement) -> Stmt | None:
     call = node.expression
+    if not isinstance(call, tree.Call) and (bare := bare_call(body, call)) is not None:
+        call = bare
     if not isinstance(call, tree.Call):
         try:
             body.expression(call)

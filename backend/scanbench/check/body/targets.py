@@ -19,9 +19,20 @@ def target(body: Body, node: tree.Expression, how: str = "", reader: Symbol | No
 def declared_target(body: Body, node: tree.Expression, how: str = "", reader: Symbol | None = None) -> Found:
     """The same, and the declared variable that it is, or is inside of."""
     place, member = body.place(node)
+    _not_peeked(body, node)
     note_written(body, node)
     body.effects.assignable(body, place, member, node.span, how, reader)
     return place, member
+
+
+def _not_peeked(body: Body, node: tree.Expression) -> None:
+    """Refuses to write what the dialect lets be read only."""
+    while body.peeked and isinstance(node, tree.IndexOf | tree.PartialAccess | tree.MemberOf):
+        if node.span in body.peeked:
+            raise body.report.reject(
+                "T003", "A variable of a block can be read from outside, but only its block writes it.", node.span
+            )
+        node = node.array if isinstance(node, tree.IndexOf) else node.owner
 
 
 def note_written(body: Body, node: tree.Expression, may_read: bool = False) -> None:

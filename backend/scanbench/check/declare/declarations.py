@@ -8,6 +8,7 @@ from typing import TypeAlias
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified
+from scanbench.check.dialect import IEC, Dialect
 from scanbench.check.uses import Symbol
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
@@ -54,6 +55,8 @@ class Declarations:
     """The records under declaration: their bounds and initial values can use constants declared above."""
     looked_at: frozenset[str] = frozenset()
     """Names of variables that have a note, in upper case; see `notes`."""
+    dialect: Dialect = IEC
+    """What the programs may do beyond the standard."""
     incomplete: bool = False
     """Whether any variable waits for its address."""
     start_references: list[tuple[Record, Member, tree.Expression]] = field(default_factory=list)

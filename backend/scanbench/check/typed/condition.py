@@ -22,6 +22,7 @@ from scanbench.check.body.subrange_checks import plain
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declare import declarations_of
 from scanbench.check.declare.scopes import Pous, Scope
+from scanbench.check.dialect import DIALECTS
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.typed.looking import NOWHERE, Looking
 from scanbench.check.typed.passed_on import Unclear, passed_on, through_copies
@@ -275,6 +276,7 @@ def program_body(visible: Visible, report: Report, scope: Scope, lookup: Lookup,
     """What checks an expression in a scope that is made of a whole program; nothing of it is changed."""
     layout = visible.program.layout
     declarations = declarations_of(report, layout.model, layout.areas, lambda node, type: constant(body, node, type))
+    declarations.dialect = DIALECTS[visible.program.dialect]
     for each in visible.enumerations:
         declarations.types[each.name.upper()] = each
         declarations.values.add_inline("GLOBAL", each)

@@ -181,7 +181,7 @@ class Locals:
             return bad_condition(parser.problems[0])
         made = []
         for each in found:
-            if not isinstance(each, tree.Assignment) or each.operator in ("REF=", "?="):
+            if not isinstance(each, tree.Assignment) or each.operator in ("REF=", "?=") or each.also:
                 span = each.span
                 return Bad("Only assignments are allowed here: `a := a + 1; b := TRUE;`.", (), span.column)
             made.append(each)

@@ -12,6 +12,7 @@ from pygls.protocol import LanguageServerProtocol
 import scanbench
 from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.from_disk import PROJECT_FILE
+from scanbench.syntax.language_file import LANGUAGE_FILE
 from scanbench.syntax.parse_file import ENDINGS
 from scanbench.translation.inside import Path, at_paths, wanted
 from scanbench.web.lsp import annotations, calls, completion, crossing, mending, navigation, outline, renaming
@@ -117,7 +118,7 @@ async def watch(server: LanguageServer) -> None:
     globs = [
         *(f"**/*{ending}" for ending in ENDINGS),
         f"**/{PROJECT_FILE}",
-        *(f"**/{name}" for name in CATALOGUE_FILES),
+        *(f"**/{name}" for name in (*CATALOGUE_FILES, LANGUAGE_FILE)),
     ]
     options = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(each) for each in globs])
     wanted = types.Registration("files", types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)

@@ -1,0 +1,228 @@
+"""Types that do not fit by the standard, and fit in some dialects: bit strings as numbers, integers as bits, lossy conversions.
+
+Where the value depends on something that no documentation of the vendor tells, it is refused, as it is in the strict language.
+"""
+
+from scanbench.check.body import fold, wide
+from scanbench.check.body.allowed import allowed, may, used
+from scanbench.check.body.context import Body
+from scanbench.check.dialect import Allowance
+from scanbench.problems import Span
+from scanbench.program.program import Const, Expr
+from scanbench.program.shown import OPERATORS
+from scanbench.program.types import ELEMENTARY, REAL, Elementary, Enumeration, Kind, Subrange, Type, base_of
+from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped
+
+WHOLE = (Kind.INT, Kind.UINT)
+INTEGRAL = (*WHOLE, Kind.BITS)
+CALCULATIONS = ("add", "sub", "mul", "div", "mod")
+LOGIC = ("and", "or", "xor")
+NUMBERS = {1: "USINT", 2: "UINT", 4: "UDINT", 8: "ULINT"}
+BITS = {1: "BYTE", 2: "WORD", 4: "DWORD", 8: "LWORD"}
+
+
+def unsigned(type: Elementary) -> Elementary:
+    """The unsigned integer of the same size."""
+    return ELEMENTARY[NUMBERS[type.size]]
+
+
+def bits_of(type: Elementary) -> Elementary:
+    """The bit string of the same size."""
+    return ELEMENTARY[BITS[type.size]]
+
+
+def counted(body: Body, op: str, left: Expr, right: Expr, span: Span) -> tuple[Expr, Expr, Elementary | None]:
+    """Bit strings among the operands as numbers, where the dialect has them so; and the bit string that the result is."""
+    kinds = [each.type.kind for each in (left, right) if isinstance(each.type, Elementary)]
+    if Kind.BITS not in kinds or len(kinds) < 2 or not set(kinds) <= {*INTEGRAL, Kind.REAL}:
+        return left, right, None
+    literal = is_untyped(left) or is_untyped(right)
+    if op not in CALCULATIONS and (kinds[0] is kinds[1] or (literal and not wide.is_wide(body, left, right))):
+        return left, right, None  # compared bit by bit, which is the same
+    first = next(
+        each.type for each in (left, right) if isinstance(each.type, Elementary) and each.type.kind is Kind.BITS
+    )
+    what = f"`{OPERATORS[op]}` takes {first} as the unsigned number {unsigned(first)}"
+    if not may(body, Allowance.BIT_NUMBERS):
+        return left, right, None
+    if op not in wide.WIDENING:
+        _same_sign(body, op, left, right, span)
+    name = unsigned(first).name
+    used(body, Allowance.BIT_NUMBERS, span, what, f"`{first}_TO_{name}(...)`, and back with `{name}_TO_{first}(...)`")
+    both = all(kind is Kind.BITS for kind in kinds) or literal
+    largest = max((each.type for each in (left, right) if _is_bits(each)), key=_size, default=first)
+    real = any(each.type == ANY_REAL for each in (left, right))
+    return _as_number(body, left), _as_number(body, right), largest if both and not real else None  # type: ignore[return-value]
+
+
+def _is_bits(expr: Expr) -> bool:
+    return isinstance(expr.type, Elementary) and expr.type.kind is Kind.BITS
+
+
+def _size(type: Type | None) -> int:
+    return type.size if type is not None else 0
+
+
+def _as_number(body: Body, expr: Expr) -> Expr:
+    if isinstance(expr.type, Elementary) and expr.type.kind is Kind.BITS:
+        return wide.converted(body, unsigned(expr.type), expr)
+    return expr
+
+
+def _same_sign(body: Body, op: str, left: Expr, right: Expr, span: Span) -> None:
+    """Refuses a comparison or division of a bit string and a signed integer that does not hold all its values."""
+    for bits, other in ((left, right), (right, left)):
+        if not _is_bits(bits) or not isinstance(other.type, Elementary) or other.type.kind is not Kind.INT:
+            continue
+        if is_untyped(other) or other.type.size > _size(bits.type):
+            continue
+        if isinstance(other, Const) and isinstance(other.value, int) and other.value >= 0:
+            continue
+        raise body.report.reject(
+            "T002",
+            f"`{OPERATORS[op]}` of {bits.type} and {other.type}: what {body.dialect.title} computes with a negative number here is "
+            f"not documented. Convert one of them by its name, e.g. {bits.type}_TO_{other.type}.",
+            span,
+        )
+
+
+def logical(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr | None:
+    """AND, OR, XOR of integers, bit by bit, where the dialect has that; None where it is a matter of the strict language."""
+    a, b = left.type, right.type
+    if not isinstance(a, Elementary) or not isinstance(b, Elementary):
+        return None
+    typed = [each for each in (a, b) if each not in (ANY_INT, ANY_REAL)]
+    if not any(each.kind in WHOLE for each in typed) or any(each.kind not in INTEGRAL for each in typed):
+        return None
+    if not may(body, Allowance.INTEGER_BITS):
+        return None
+    result = _joined(body, typed, left, right, span)
+    if result is None:
+        return None
+    whole = next(each for each in typed if each.kind in WHOLE)
+    name = bits_of(whole).name
+    used(
+        body, Allowance.INTEGER_BITS, span, f"`{OPERATORS[op]}` works on the bits of {whole}",
+        f"`{whole}_TO_{name}(...)`, and back with `{name}_TO_{whole}(...)`",
+    )  # fmt: skip
+    bits = bits_of(result)
+    made = fold.binary(op, bits, fold.convert(bits, left), fold.convert(bits, right))
+    return fold.convert(result, made)
+
+
+def _joined(body: Body, typed: list[Elementary], left: Expr, right: Expr, span: Span) -> Elementary | None:
+    """The type of the result: of two integers what both widen to, with a bit string the larger bit string."""
+    for each in (left, right):
+        if each.type == ANY_REAL:
+            return None
+        if each.type == ANY_INT and isinstance(each, Const):
+            number, size = int(each.value), typed[0].size
+            fits = -(1 << 8 * size - 1) <= number < 1 << 8 * size
+            return typed[0] if fits else None
+    first, second = typed
+    if Kind.BITS not in (first.kind, second.kind):
+        signed, other = (first, second) if first.kind is Kind.INT else (second, first)
+        clear = (
+            first.kind is second.kind or signed.size > other.size
+        )  # else the sign decides, in a way that nobody documents
+        return common(first, second) if clear else None
+    whole, bits = (first, second) if first.kind in WHOLE else (second, first)
+    return bits if whole.size <= bits.size else bits_of(whole)
+
+
+def inverted(body: Body, expr: Expr, span: Span) -> Expr | None:
+    """NOT of an integer, bit by bit, where the dialect has that."""
+    type = expr.type
+    if not isinstance(type, Elementary) or type.kind not in WHOLE or is_untyped(expr):
+        return None
+    bits = bits_of(type)
+    instead = f"`{bits}_TO_{type}(NOT {type}_TO_{bits}(...))`"
+    if not allowed(body, Allowance.INTEGER_BITS, span, f"`NOT` works on the bits of {type}", instead):
+        return None
+    return fold.convert(type, fold.unary("not", bits, fold.convert(bits, expr)))
+
+
+def negative(body: Body, type: Elementary, operand: Expr) -> Expr:
+    """`-x`, in 64 bits where the dialect has sums so."""
+    if type.kind is Kind.INT and type.size and may(body, Allowance.WIDE_RESULTS):
+        return wide.cut(body, type, fold.unary("neg", wide.wide_of(type), wide.sixty_four(body, type, operand)))
+    return fold.unary("neg", type, operand)
+
+
+def enumerated(body: Body, expr: Const, type: Enumeration, span: Span, what: str) -> Const | None:
+    """A literal number as a value of an enumeration, where the dialect has that."""
+    low, high = bounds(base_of(type))
+    if not isinstance(expr.value, int) or not low <= expr.value <= high or expr.type == ANY_REAL:
+        return None
+    named = next((f"`{type}#{name}`" for name, number in type.values if number == expr.value), "")
+    if not allowed(body, Allowance.ENUM_NUMBERS, span, f"{what} is {type}, and this is the number {expr.value}", named):
+        return None
+    return Const(type, expr.value)
+
+
+def shifted(body: Body, name: str, expr: Expr, span: Span) -> tuple[Expr, Elementary, Elementary] | None:
+    """An integer as the bits that a shift moves, their type, and the type of the result, where the dialect has that."""
+    type = expr.type
+    if not isinstance(type, Elementary) or type.kind not in WHOLE or is_untyped(expr):
+        return None
+    if not may(body, Allowance.INTEGER_BITS):
+        return None
+    bits = bits_of(type)
+    if name == "SHR" and type.kind is Kind.INT:
+        raise body.report.reject(
+            "T002",
+            f"SHR of {type}: whether {body.dialect.title} fills with zeros or with the sign is not documented. Convert the value: "
+            f"{type}_TO_{bits} for zeros, or divide it by a power of two.",
+            span,
+        )
+    instead = f"`{bits}_TO_{type}({name}({type}_TO_{bits}(...), ...))`"
+    used(body, Allowance.INTEGER_BITS, span, f"`{name}` works on the bits of {type}", instead)
+    return fold.convert(bits, expr), bits, type
+
+
+def index(body: Body, expr: Expr, span: Span, what: str) -> Expr | None:
+    """A bit string as an index or a count, where the dialect has that."""
+    type = expr.type
+    if not isinstance(type, Elementary) or type.kind is not Kind.BITS:
+        return None
+    if not allowed(body, Allowance.BIT_NUMBERS, span, f"{what} is {type}", f"`{type}_TO_{unsigned(type)}(...)`"):
+        return None
+    return fold.convert(unsigned(type), expr)
+
+
+def coerced(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr | None:
+    """The value as one of `type`, where only the dialect converts it; None where that does not either."""
+    source = expr.type
+    if not isinstance(type, Elementary) or not isinstance(source, Elementary) or isinstance(type, Subrange):
+        return None
+    if isinstance(type, Enumeration):
+        return _enumerated(body, expr, source, type, span, what)
+    allowance = _allowance(base_of(source), type)
+    if allowance is None or is_untyped(expr):
+        return None
+    name = base_of(source).name
+    if not allowed(body, allowance, span, f"{what} is {type}, and this is {source}", f"`{name}_TO_{type}(...)`"):
+        return None
+    if type.kind is Kind.REAL and base_of(source).kind is Kind.BITS:
+        return fold.convert(type, _as_number(body, expr))
+    return wide.converted(body, type, fold.convert(base_of(source), expr) if source is not base_of(source) else expr)
+
+
+def _allowance(source: Elementary, target: Elementary) -> Allowance | None:
+    """What allows a conversion without a name that the standard does not have."""
+    if source.kind in INTEGRAL and target.kind in INTEGRAL:
+        if target.size < source.size:
+            return Allowance.NARROWING
+        return Allowance.NARROWING if Kind.BITS not in (source.kind, target.kind) else Allowance.BIT_CONVERSION
+    if target.kind is Kind.REAL and source.kind in INTEGRAL:
+        return Allowance.REAL_CONVERSION
+    return Allowance.REAL_CONVERSION if source.kind is Kind.REAL and target == REAL else None
+
+
+def _enumerated(body: Body, expr: Expr, source: Elementary, type: Enumeration, span: Span, what: str) -> Expr | None:
+    if isinstance(source, Enumeration) or source.kind not in WHOLE:
+        return None
+    instead = f"`{type}#{type.values[0][0]}`" if type.values else ""
+    if not allowed(body, Allowance.ENUM_NUMBERS, span, f"{what} is {type}, and this is a number", instead):
+        return None
+    return fold.convert(type, expr)

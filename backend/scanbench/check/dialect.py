@@ -1,0 +1,134 @@
+"""Dialects of Structured Text: what each allows beyond IEC 61131-3. This table is the one place that says so.
+
+A construct that a dialect allows is taken with the warning W006, which names the rule of the standard and how a strict program
+writes the same. What a vendor's tool computes there is known from its documentation (`docs/dialects.md` has the sources); where
+it is not known, the dialect does not allow it.
+"""
+
+from dataclasses import dataclass
+from enum import Enum, auto
+
+from scanbench.syntax.language_file import DialectName
+
+
+class Allowance(Enum):
+    """Something that a dialect allows; `RULES` says what the standard has instead."""
+
+    BIT_NUMBERS = auto()
+    BIT_CONVERSION = auto()
+    NARROWING = auto()
+    REAL_CONVERSION = auto()
+    INTEGER_BITS = auto()
+    ENUM_NUMBERS = auto()
+    NUMBER_OF_BITS = auto()
+    WIDE_RESULTS = auto()
+    ARGUMENT_NAMES = auto()
+    CHAINED_ASSIGNMENT = auto()
+    RETURN_CONDITION = auto()
+    BARE_CALLS = auto()
+    BLOCK_VARIABLES = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A rule of IEC 61131-3 that a dialect does not have."""
+
+    allowed: str
+    """What the dialect allows."""
+    strict: str
+    """What the standard says."""
+    instead: str
+    """How a strict program writes it, by an example."""
+
+
+RULES: dict[Allowance, Rule] = {
+    Allowance.BIT_NUMBERS: Rule(
+        "BYTE, WORD, DWORD and LWORD as unsigned numbers, in calculations, comparisons, indices and counts",
+        "a bit string is no number",
+        "`UINT_TO_WORD(WORD_TO_UINT(w) + 1)`",
+    ),
+    Allowance.BIT_CONVERSION: Rule(
+        "a bit string where an integer of the same or a larger size is wanted, and the other way round",
+        "bit strings and integers are converted by name",
+        "`i := WORD_TO_INT(w)`",
+    ),
+    Allowance.NARROWING: Rule(
+        "an integer or bit string where a smaller one, or an integer with the other sign, is wanted: the low bits are taken",
+        "only what loses nothing is converted without a name",
+        "`i := DINT_TO_INT(d)`",
+    ),
+    Allowance.REAL_CONVERSION: Rule(
+        "an LREAL, or a large integer, where a REAL is wanted, and a DWORD or LWORD as a number: the nearest value is taken",
+        "only what loses nothing is converted without a name",
+        "`r := LREAL_TO_REAL(l)`",
+    ),
+    Allowance.INTEGER_BITS: Rule(
+        "AND, OR, XOR, NOT, SHL, ROL and ROR on integers, and SHR on unsigned ones",
+        "these operations are for bit strings",
+        "`WORD_TO_UINT(SHL(UINT_TO_WORD(u), 2))`",
+    ),
+    Allowance.ENUM_NUMBERS: Rule(
+        "a number where a value of an enumeration is wanted",
+        "an enumeration has only the values that it names",
+        "`state := State#Ready`",
+    ),
+    Allowance.NUMBER_OF_BITS: Rule(
+        "`DWORD_TO_REAL`, `REAL_TO_DWORD` and their like convert the number",
+        "such conversions copy the bits",
+        "`UDINT_TO_REAL(DWORD_TO_UDINT(d))`",
+    ),
+    Allowance.WIDE_RESULTS: Rule(
+        "sums, differences and products of integers are computed in 64 bits, and cut where they are stored or converted",
+        "their results have the type of their operands",
+        "`INT_TO_DINT(i) + INT_TO_DINT(j)`",
+    ),
+    Allowance.ARGUMENT_NAMES: Rule(
+        "the vendor's names for the arguments of string functions: STR, STR1, STR2, SIZE, LEN, POS",
+        "these arguments are IN, IN1, IN2, L and P",
+        "`LEFT(IN := s, L := 3)`",
+    ),
+    Allowance.CHAINED_ASSIGNMENT: Rule(
+        "several assignments in one, `a := b := c`",
+        "an assignment has one variable",
+        "`b := c; a := b;`",
+    ),
+    Allowance.RETURN_CONDITION: Rule(
+        "a condition after RETURN, `RETURN(done)`",
+        "RETURN has none",
+        "`IF done THEN RETURN; END_IF`",
+    ),
+    Allowance.BARE_CALLS: Rule(
+        "a call of a method, action or function without parentheses, where it needs no arguments",
+        "a call has parentheses",
+        "`reset();`",
+    ),
+    Allowance.BLOCK_VARIABLES: Rule(
+        "variables in VAR of a function block read from outside",
+        "only inputs and outputs can be used there",
+        "`VAR_OUTPUT`",
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """What the programs of a project may do."""
+
+    name: DialectName
+    title: str
+    allows: frozenset[Allowance] = frozenset()
+
+
+_CODESYS = frozenset(Allowance)
+DIALECTS: dict[DialectName, Dialect] = {
+    each.name: each
+    for each in (
+        Dialect("iec", "IEC 61131-3"),
+        Dialect("codesys", "CODESYS", _CODESYS),
+        Dialect("twincat", "TwinCAT", _CODESYS),
+        Dialect("siemens", "Siemens SCL", frozenset({Allowance.CHAINED_ASSIGNMENT})),
+        Dialect("rockwell", "Rockwell Logix", frozenset({Allowance.INTEGER_BITS})),
+        Dialect("omron", "Omron Sysmac"),
+    )
+}
+IEC = DIALECTS["iec"]

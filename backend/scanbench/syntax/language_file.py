@@ -1,0 +1,101 @@
+"""`language.json`: which dialect of Structured Text the programs of a project are written in; and a guess for imported programs.
+
+It is one of the project's files, so each version, archive and run file has the dialect that its programs were checked in.
+"""
+
+import json
+import posixpath
+import re
+from collections.abc import Iterable, Mapping
+from typing import Literal, get_args
+
+from scanbench.problems import Problem, Severity, Span
+from scanbench.syntax.parse_file import XML_ENDINGS, is_program_file
+
+LANGUAGE_FILE = "language.json"
+"""The name of the file, at the top of a project."""
+FORMAT = 1
+DialectName = Literal["iec", "codesys", "twincat", "siemens", "rockwell", "omron"]
+DIALECTS: tuple[DialectName, ...] = get_args(DialectName)
+STRICT: DialectName = "iec"
+"""The dialect of a project that names none: IEC 61131-3 as it is."""
+_KEYS = ("version", "dialect")
+_TWINCAT_MARKS = re.compile(r"\bTc[23]_\w+|\bT_MaxString\b|\bT_AmsNetId\b")
+_CODESYS_MARKS = re.compile(
+    r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|SYMFILEFLAGS)\b|^\s*\{attribute\s+'", re.MULTILINE
+)
+
+
+def is_language_file(path: str) -> bool:
+    """Whether a file of this path says in which dialect its project is written."""
+    return posixpath.basename(path.replace("\\", "/")) == LANGUAGE_FILE
+
+
+def language_text(dialect: DialectName) -> str:
+    """The text of the file for a dialect."""
+    return json.dumps({"version": FORMAT, "dialect": dialect}, indent=2) + "\n"
+
+
+def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = LANGUAGE_FILE) -> dict[str, str]:
+    """The sources, in this dialect whatever they say themselves; `name` is that of the file if they have none."""
+    own = next((each for each in sources if is_language_file(each)), name)
+    return {**sources, own: language_text(dialect)}
+
+
+def dialect_named(name: str) -> DialectName | None:
+    """The dialect of this name, in any case."""
+    return next((each for each in DIALECTS if each == name.strip().lower()), None)
+
+
+def dialect_of(sources: Mapping[str, str]) -> tuple[DialectName, list[Problem]]:
+    """The dialect that these files are written in, and what is wrong with the file that says so."""
+    names = [name for name in sources if is_language_file(name)]
+    if not names:
+        return STRICT, []
+    found = _read(sources[names[0]], names[0])
+    problems = [] if isinstance(found, str) else [found]
+    for name in names[1:]:
+        message = f"A program has one {LANGUAGE_FILE}, and {names[0]} is it already: delete this one."
+        problems.append(_problem(name, message))
+    return (found if isinstance(found, str) else STRICT), problems
+
+
+def _read(text: str, file: str) -> DialectName | Problem:
+    choice = f'Write {{"version": {FORMAT}, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        return _problem(file, f"This is no JSON ({error}). {choice}", getattr(error, "lineno", 1))
+    if not isinstance(content, dict):
+        return _problem(file, f"This does not name a dialect. {choice}")
+    version = content.get("version", FORMAT)
+    if isinstance(version, int) and version > FORMAT:
+        return _problem(file, f"This is version {version} of {LANGUAGE_FILE}, which a newer Scanbench reads.")
+    unknown = next((key for key in content if key not in _KEYS), None)
+    if unknown is not None:
+        return _problem(file, f"There is no setting `{unknown}`. {choice}")
+    name = content.get("dialect", STRICT)
+    dialect = dialect_named(name) if isinstance(name, str) else None
+    return dialect or _problem(file, f"There is no dialect `{name}`. {choice}")
+
+
+def _problem(file: str, message: str, line: int = 1) -> Problem:
+    return Problem("S003", message, Span(file, line, 1, line, 2), Severity.ERROR)
+
+
+def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> DialectName:
+    """The dialect that imported programs are probably written in; `others` are files that were not taken over."""
+    names = [name.lower() for name in (*files, *others)]
+    if any(name.endswith((".plcproj", ".tsproj", *XML_ENDINGS)) for name in names):
+        return "twincat"
+    programs = [text for name, text in files.items() if is_program_file(name)]
+    if any(map(_TWINCAT_MARKS.search, programs)):
+        return "twincat"
+    exported = any(name.endswith((".exp", ".project", ".export")) for name in names)
+    if exported or any(map(_CODESYS_MARKS.search, programs)):
+        return "codesys"
+    if any(name.endswith((".scl", ".udt", ".db", ".awl")) for name in names):
+        return "siemens"
+    if any(name.endswith((".l5x", ".acd")) for name in names):
+        return "rockwell"
+    return "omron" if any(name.endswith((".smc2", ".cxp", ".cxt")) for name in names) else STRICT

@@ -1,0 +1,201 @@
+"""Dialects: what each allows and how it is told, what stays refused, and where a project says which it is."""
+
+from pathlib import Path
+
+import pytest
+
+from scanbench.check.build import Checked, check_sources
+from scanbench.check.dialect import DIALECTS, RULES, Allowance
+from scanbench.check.incremental import Checks
+from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
+from scanbench.problems import Severity
+from scanbench.syntax.language_file import (
+    DIALECTS as NAMES,
+)
+from scanbench.syntax.language_file import (
+    LANGUAGE_FILE,
+    DialectName,
+    guess_dialect,
+    language_text,
+    with_dialect,
+)
+from tests.caseformat import MODELS
+
+MODEL = MODELS["GENERIC-IEC"]
+DOCS = Path(__file__).parents[3] / "docs"
+HEAD = """TYPE State : (Off, On); END_TYPE
+FUNCTION_BLOCK Unit
+VAR level : INT; END_VAR
+METHOD reset
+level := 0;
+END_METHOD
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR
+  b : BYTE; w : WORD; dw : DWORD; i, j : INT; u : UINT; d : DINT; r : REAL; l : LREAL; s : STRING; ok : BOOL; state : State;
+  unit : Unit; numbers : ARRAY[1..3] OF INT;
+END_VAR
+"""
+LINE = HEAD.count("\n") + 1
+
+USES = [
+    (Allowance.BIT_NUMBERS, "w := w + 1;", "WORD_TO_UINT"),
+    (Allowance.BIT_NUMBERS, "ok := b > u;", "BYTE_TO_USINT"),
+    (Allowance.BIT_NUMBERS, "i := numbers[b];", "BYTE_TO_USINT"),
+    (Allowance.BIT_NUMBERS, "s := LEFT(s, b);", "BYTE_TO_USINT"),
+    (Allowance.BIT_CONVERSION, "i := w;", "WORD_TO_INT(...)"),
+    (Allowance.BIT_CONVERSION, "dw := i;", "INT_TO_DWORD(...)"),
+    (Allowance.NARROWING, "i := d;", "DINT_TO_INT(...)"),
+    (Allowance.NARROWING, "u := i;", "INT_TO_UINT(...)"),
+    (Allowance.NARROWING, "b := w;", "WORD_TO_BYTE(...)"),
+    (Allowance.REAL_CONVERSION, "r := l;", "LREAL_TO_REAL(...)"),
+    (Allowance.REAL_CONVERSION, "r := d;", "DINT_TO_REAL(...)"),
+    (Allowance.INTEGER_BITS, "i := i AND j;", "INT_TO_WORD(...)"),
+    (Allowance.INTEGER_BITS, "i := NOT i;", "WORD_TO_INT(NOT INT_TO_WORD(...))"),
+    (Allowance.INTEGER_BITS, "u := SHR(u, 2);", "WORD_TO_UINT(SHR(UINT_TO_WORD(...), ...))"),
+    (Allowance.ENUM_NUMBERS, "state := 1;", "State#On"),
+    (Allowance.ENUM_NUMBERS, "state := i;", "State#Off"),
+    (Allowance.ARGUMENT_NAMES, "s := LEFT(IN := s, SIZE := 3);", "LEFT(L := ...)"),
+    (Allowance.CHAINED_ASSIGNMENT, "i := j := 5;", "j := 5; i := j;"),
+    (Allowance.RETURN_CONDITION, "RETURN(ok);", "IF ok THEN RETURN; END_IF"),
+    (Allowance.BLOCK_VARIABLES, "i := unit.level;", "VAR_OUTPUT"),
+]
+"""What the strict language refuses, and a dialect allows; and what the warning says to write."""
+DIFFERENT = [
+    (Allowance.BARE_CALLS, "unit.reset;", "unit.reset();"),
+    (Allowance.NUMBER_OF_BITS, "r := DWORD_TO_REAL(dw);", "UDINT_TO_REAL(DWORD_TO_UDINT(...))"),
+]
+"""What the strict language warns of, as it means something different."""
+
+REFUSED = [
+    "i := r;",
+    "ok := i;",
+    "i := ok;",
+    "i := SHR(i, 1);",  # zeros or the sign?
+    "ok := dw > d;",  # a negative d
+    "dw := dw / d;",
+    "i := i AND u;",  # a negative i
+    "i := u := 5;",  # of different types
+    "i := numbers[i] := 2;",  # before or after i is assigned?
+    "unit.level := 3;",
+    "state := 300.0;",
+    "w := -w;",
+]
+"""What no dialect allows, as no documentation says what it computes."""
+
+
+def checked(body: str, dialect: DialectName) -> Checked:
+    return check_sources(with_dialect({"a.st": f"{HEAD}{body}\nEND_PROGRAM\n"}, dialect), MODEL)
+
+
+@pytest.mark.parametrize(
+    ("allowance", "body", "instead"), [*USES, *DIFFERENT], ids=[each[1] for each in [*USES, *DIFFERENT]]
+)
+def test_what_a_dialect_allows_is_told(allowance: Allowance, body: str, instead: str) -> None:
+    strict = checked(body, "iec").problems
+    assert strict, "the strict language says something"
+    if (allowance, body, instead) in USES:
+        assert any(problem.severity is Severity.ERROR for problem in strict)
+    for dialect in DIALECTS.values():
+        found = checked(body, dialect.name).problems
+        if allowance not in dialect.allows:
+            assert [each.code for each in found] == [each.code for each in strict]
+            continue
+        assert [(each.code, each.span.line, each.severity) for each in found] == [("W006", LINE, Severity.WARNING)]
+        assert dialect.title in found[0].message
+        assert RULES[allowance].strict in found[0].message
+        assert instead in found[0].message
+
+
+@pytest.mark.parametrize("body", REFUSED)
+def test_what_no_documentation_tells_stays_refused(body: str) -> None:
+    for name in NAMES:
+        found = checked(body, name)
+        assert found.program is None, name
+        assert all(each.span.line == LINE for each in found.problems)
+
+
+def test_every_allowance_has_a_rule_and_a_test() -> None:
+    assert set(RULES) == set(Allowance)
+    assert {each for each, _, _ in [*USES, *DIFFERENT]} == set(Allowance) - {Allowance.WIDE_RESULTS}
+
+
+def test_the_library_is_strict_in_every_dialect() -> None:
+    body = "s := TIME_TO_STRING(T#1s500ms); w := INT_TO_WORD(FIND(s, 'a')); r := STRING_TO_REAL(s);"
+    assert {checked(body, name).problems for name in NAMES} == {()}
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{", "This is no JSON"),
+        ("[]", "This does not name a dialect"),
+        ('{"version": 1, "dialect": "codesis"}', "There is no dialect `codesis`"),
+        ('{"version": 2, "dialect": "codesys"}', "which a newer Scanbench reads"),
+        ('{"dialekt": "codesys"}', "There is no setting `dialekt`"),
+    ],
+)
+def test_a_broken_language_file_is_told(text: str, message: str) -> None:
+    found = check_sources({"a.st": "PROGRAM Main\nEND_PROGRAM\n", LANGUAGE_FILE: text}, MODEL)
+    assert found.program is None
+    assert [(each.code, each.span.file) for each in found.problems] == [("S003", LANGUAGE_FILE)]
+    assert message in found.problems[0].message
+
+
+def test_a_change_of_the_dialect_checks_everything_again() -> None:
+    sources = {"a.st": f"{HEAD}w := w + 1;\nEND_PROGRAM\n"}
+    checks = Checks()
+    assert checks.check(sources, MODEL, 10_000_000).program is None
+    assert checks.check(with_dialect(sources, "twincat"), MODEL, 10_000_000).program is not None
+    assert checks.check(with_dialect(sources, "iec"), MODEL, 10_000_000).program is None
+
+
+def test_what_people_type_is_understood_in_the_dialect_of_the_program() -> None:
+    text = "DWORD_TO_REAL(Main.dw) = 3.0"
+    cases: list[tuple[DialectName, bool]] = [("iec", False), ("codesys", True)]
+    for dialect, same in cases:
+        program = checked("dw := 3;", dialect).program
+        assert program is not None
+        made = compile_condition(program, text)
+        assert isinstance(made, Condition)
+        assert ("BITCAST" in repr(made.expr)) != same
+    strict = checked("dw := 3;", "iec").program
+    lenient = checked("dw := 3;", "codesys").program
+    assert strict is not None
+    assert lenient is not None
+    assert isinstance(compile_condition(strict, "Main.w + 1 > 5"), BadCondition)
+    assert isinstance(compile_condition(lenient, "Main.w + 1 > 5"), Condition)
+
+
+@pytest.mark.parametrize(
+    ("files", "dialect"),
+    [
+        ({"POUs/Main.TcPOU": ""}, "twincat"),
+        ({"a.st": "VAR x : T_MaxString; END_VAR"}, "twincat"),
+        ({"a.exp": ""}, "codesys"),
+        ({"a.st": "(* @NESTEDCOMMENTS := 'Yes' *)\nPROGRAM Main"}, "codesys"),
+        ({"a.st": "{attribute 'qualified_only'}\nVAR_GLOBAL\nEND_VAR"}, "codesys"),
+        ({"a.st": "", "b.scl": ""}, "siemens"),
+        ({"a.st": "", "b.L5X": ""}, "rockwell"),
+        ({"a.st": "", "b.smc2": ""}, "omron"),
+        ({"a.st": "PROGRAM Main\nEND_PROGRAM"}, "iec"),
+    ],
+)
+def test_the_dialect_of_imported_files_is_guessed(files: dict[str, str], dialect: DialectName) -> None:
+    assert guess_dialect(files) == dialect
+
+
+def test_the_page_of_the_docs_has_the_table_of_the_code() -> None:
+    page = (DOCS / "dialects.md").read_text("utf-8")
+    titles = [each.title for each in DIALECTS.values() if each.name != "iec"]
+    rows = [f"| allowed | in IEC 61131-3 | strict | {' | '.join(titles)} |"]
+    for allowance, rule in RULES.items():
+        marks = ["x" if allowance in each.allows else "" for each in DIALECTS.values() if each.name != "iec"]
+        rows.append(f"| {rule.allowed} | {rule.strict} | {rule.instead} | {' | '.join(marks)} |")
+    missing = [row for row in rows if row not in page]
+    assert not missing, "\n".join(missing)
+
+
+def test_the_text_of_the_language_file_names_the_dialect() -> None:
+    for name in NAMES:
+        assert check_sources({"a.st": "PROGRAM Main\nEND_PROGRAM\n", LANGUAGE_FILE: language_text(name)}, MODEL).program
