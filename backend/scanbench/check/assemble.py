@@ -99,11 +99,10 @@ def assemble(
     image = _initial_image(layout, declarations, variables, [*common, *instances, *plant])
     traps, checks = tuple(report.traps), tuple(report.checks)
     program = Program(
-        tuple(needed), tasks, interval, traps, layout, image, checks, common=common, plant=plant, tasked=tuple(tasked),
-        dialect=declarations.dialect.name,
-    )  # fmt: skip
+        tuple(needed), tasks, interval, traps, layout, image, checks, common=common, plant=plant, tasked=tuple(tasked)
+    )
     program = Settings(report, declarations, program, resources).apply(configuration)
-    return replace(program, checks=tuple(report.checks))
+    return replace(program, checks=tuple(report.checks), dialect=declarations.dialect.name)
 
 
 def _tasks(

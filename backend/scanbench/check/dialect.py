@@ -95,7 +95,7 @@ RULES: dict[Allowance, Rule] = {
     Allowance.RETURN_CONDITION: Rule(
         "a condition after RETURN, `RETURN(done)`",
         "RETURN has none",
-        "`IF done THEN RETURN; END_IF`",
+        "an IF around it, `IF done THEN RETURN; END_IF`",
     ),
     Allowance.BARE_CALLS: Rule(
         "a call of a method, action or function without parentheses, where it needs no arguments",

@@ -174,8 +174,7 @@ def sweep_errors(
     """
     for path in filter(None, (junit, html)):
         must_be_writable(path)
-    sources = read_sources([project], dialect)
-    plc = find_model(model, sources)
+    plc = find_model(model, sources := read_sources([project], dialect))
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
     program = _program(given, plc, as_json)
     chosen = _chosen(program.layout.model, only)

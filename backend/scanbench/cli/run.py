@@ -86,8 +86,7 @@ def run(
     program, problems = _compiled(sources, find_model(model, sources), read_interval(interval), as_json)
     commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine)
     shown = [(each, find_symbol(program, each)) for each in show]
-    begun: list[Resource] = []
-    sample = values if as_json else texts
+    begun, sample = list[Resource](), values if as_json else texts
     condition = None if until is None else read_condition(program, until)
     try:
         with (

@@ -19,7 +19,7 @@ from uuid import NAMESPACE_URL, uuid5
 from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
-from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, guess_dialect, language_text
+from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, DialectName, guess_dialect
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
@@ -52,6 +52,8 @@ class Archive:
     """The same of each operator panel."""
     left_out: tuple[str, ...]
     """Files that are no programs, or not compiled by their TwinCAT project."""
+    dialect: DialectName = STRICT
+    """The one that its programs are probably written in, where no file of it says so; of what Scanbench packed the strict one."""
 
 
 def pack(name: str, model: str, watch: Sequence[str], files: Mapping[str, str]) -> bytes:
@@ -145,8 +147,6 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
         raise Refused(f"the TwinCAT project compiles files that are not in this archive: {', '.join(missing)}")
     if not any(map(is_program_file, files)):
         raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in this archive")
-    if PROJECT_FILE not in inside and LANGUAGE_FILE not in files and (guess := guess_dialect(files, named)) != STRICT:
-        files[LANGUAGE_FILE] = language_text(guess)
     about = _about(_read(archive, inside[PROJECT_FILE]) if PROJECT_FILE in inside else None)
     name, model, watch = about.get("name"), about.get("model"), about.get("watch")
     return Archive(
@@ -156,6 +156,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
         files,
         panels,
         tuple(left_out),
+        STRICT if PROJECT_FILE in inside else guess_dialect(files, named),
     )
 
 

@@ -14,7 +14,7 @@ from scanbench.server.samples import templates
 from scanbench.session.session import Session
 from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
-from scanbench.syntax.language_file import LANGUAGE_FILE
+from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, language_text
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
@@ -168,7 +168,8 @@ class Projects:
 
     async def from_archive(self, name: str, model: str, archive: Archive, author: str) -> ProjectRow:
         """A project with the files of an archive, which are not built yet."""
-        texts = {**archive.files, **archive.panels}
+        guessed = {} if archive.dialect == STRICT else {LANGUAGE_FILE: language_text(archive.dialect)}
+        texts = {**guessed, **archive.files, **archive.panels}
         for path in texts:
             _check_path(path)
         for path, text in archive.panels.items():

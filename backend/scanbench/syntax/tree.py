@@ -439,14 +439,14 @@ class Stimulus:
 
 @node
 class Assignment:
-    """`operator` is `:=`, `S=` and `R=` (latch and unlatch), `REF=` (bind a reference), or `?=` (assignment attempt)."""
+    """`operator` is `:=`, `S=` and `R=` (latch and unlatch), `REF=` (bind a reference), or `?=` (assignment attempt).
+    Of `a := b := c`, `also` is `b`."""
 
     target: Expression
     value: Expression
     span: Span
     operator: str = ":="
     also: tuple[Expression, ...] = ()
-    """Of `a := b := c`, what follows the first variable: `b`; `value` is `c`."""
 
 
 @node
@@ -510,21 +510,11 @@ class ContinueStatement:
 
 @node
 class ReturnStatement:
-    """`condition` as vendors have it: `RETURN(done)`."""
-
     span: Span
     condition: Expression | None = None
 
 
 Statement = (
-    Assignment
-    | ExpressionStatement
-    | IfStatement
-    | CaseStatement
-    | ForStatement
-    | WhileStatement
-    | RepeatStatement
-    | ExitStatement
-    | ContinueStatement
-    | ReturnStatement
-)
+    Assignment | ExpressionStatement | IfStatement | CaseStatement | ForStatement | WhileStatement
+    | RepeatStatement | ExitStatement | ContinueStatement | ReturnStatement
+)  # fmt: skip

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from scanbench.syntax.language_file import DialectName
 from scanbench.web.messages_base import Wire
 
 
@@ -26,3 +27,9 @@ class ProjectArchive(Wire):
     model: str = Field(description="the same")
     files: list[str]
     left_out: list[str] = Field(description="no programs, or not compiled by their TwinCAT project")
+
+
+class ProjectDialect(Wire):
+    """What the programs of a project are written in; `iec` is the strict language."""
+
+    dialect: DialectName

@@ -1,5 +1,8 @@
 """A project goes out as one file, and comes in again as a project."""
 
+import io
+import zipfile
+
 import httpx
 import pytest
 
@@ -25,6 +28,32 @@ def test_a_project_goes_out_and_comes_in_again(server: Server) -> None:
     assert server.http.get(f"/api/projects/{again}/files/Main.st").json()["text"] == MAIN
     assert server.http.get(f"/api/projects/{again}/files/Belt.panel.json").json()["text"] == panel["text"]
     assert server.http.post(f"/api/projects/{again}/build", json={}).json()["ok"]
+
+
+def test_an_imported_project_has_the_dialect_of_its_files_and_a_packed_one_its_own(server: Server) -> None:
+    pou = '<TcPlcObject><POU Name="Main"><Declaration><![CDATA[PROGRAM Main\nVAR w : WORD; END_VAR]]></Declaration>'
+    pou += "<Implementation><ST><![CDATA[w := w + 1;]]></ST></Implementation></POU></TcPlcObject>"
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w") as archive:
+        archive.writestr("Main.TcPOU", pou)
+    first = _taken(server, "tc", made.getvalue())
+    assert server.http.get(f"/api/projects/{first}/dialect").json() == {"dialect": "twincat"}
+    problems = server.http.post(f"/api/projects/{first}/check", json={"files": {}}).json()["problems"]
+    assert [(each["code"], each["severity"]) for each in problems] == [("W006", "warning")]
+    assert server.http.put(f"/api/projects/{first}/dialect", json={"dialect": "iec"}).json() == {"dialect": "iec"}
+    problems = server.http.post(f"/api/projects/{first}/check", json={"files": {}}).json()["problems"]
+    assert [(each["code"], each["severity"]) for each in problems] == [("T002", "error")]
+    again = _taken(server, "tc again", server.http.get(f"/api/projects/{first}/archive").content)
+    assert server.http.get(f"/api/projects/{again}/dialect").json() == {"dialect": "iec"}
+    assert server.http.put(f"/api/projects/{first}/dialect", json={"dialect": "basic"}).status_code == 422
+
+
+def _taken(server: Server, name: str, content: bytes) -> int:
+    params = {"name": name, "model": "GENERIC-IEC"}
+    reply = server.http.post("/api/archives/projects", params=params, content=content)
+    assert reply.status_code == 201, reply.text
+    project: int = reply.json()["id"]
+    return project
 
 
 @pytest.mark.parametrize(

@@ -45,6 +45,7 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "/templates", none);
   on("GET", "/instances/*/program", () => ({ version: 1, files: {}, pous: [] }));
   on("GET", "/instances/*/history/versions", none);
+  on("GET", "/projects/*/dialect", () => ({ dialect: "iec" as const }));
   on("GET", "/projects/*/versions", () => []);
   on("GET", "/projects/*/git", () => ({ missing: "", folder: "", branch: "", head: "", elsewhere: [], changes: [] }));
   on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems: [] }));

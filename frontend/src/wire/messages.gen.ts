@@ -1485,6 +1485,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/dialect": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The dialect that the programs of a project are written in
+         * @description The dialect that the programs of a project are written in.
+         */
+        get: operations["get_project_dialect"];
+        /**
+         * Changes the dialect: writes the project's `language.json`
+         * @description Changes the dialect: writes the project's `language.json`.
+         */
+        put: operations["save_project_dialect"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/files": {
         parameters: {
             query?: never;
@@ -5813,6 +5837,17 @@ export interface components {
              * @description as its project file says; empty without one
              */
             name: string;
+        };
+        /**
+         * ProjectDialect
+         * @description What the programs of a project are written in; `iec` is the strict language.
+         */
+        ProjectDialect: {
+            /**
+             * Dialect
+             * @enum {string}
+             */
+            dialect: "iec" | "codesys" | "twincat" | "siemens" | "rockwell" | "omron";
         };
         /**
          * ProjectTemplate
@@ -11293,6 +11328,72 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CheckResult"];
+                };
+            };
+        };
+    };
+    get_project_dialect: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectDialect"];
+                };
+            };
+        };
+    };
+    save_project_dialect: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ProjectDialect"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectDialect"];
                 };
             };
         };

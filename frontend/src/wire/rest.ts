@@ -29,6 +29,7 @@ import type {
   ProgramText,
   Project,
   ProjectArchive,
+  ProjectDialect,
   ProjectTemplate,
   ProjectVersion,
   Reaction,
@@ -167,6 +168,9 @@ export const rest = {
   describeVersion: (project: number, version: number, label: string, message: string) =>
     json<ProjectVersion>("PATCH", `/projects/${project}/versions/${version}`, { label, message }),
   packProject: (project: number) => blob(`/projects/${project}/archive`),
+  dialect: (project: number) => json<ProjectDialect>("GET", `/projects/${project}/dialect`),
+  changeDialect: (project: number, dialect: ProjectDialect["dialect"]) =>
+    json<ProjectDialect>("PUT", `/projects/${project}/dialect`, { dialect }),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),
   file: (project: number, path: string) => json<FileText>("GET", filePath(project, path)),
   /** `draft`: that the text is of; without one the server makes a change of its draft of it. */

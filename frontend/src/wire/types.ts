@@ -51,6 +51,7 @@ export type HistoryVersion = Shapes["HistoryVersion"];
 export type ImportedInstance = Shapes["ImportedInstance"];
 export type ImportedRecord = Shapes["ImportedRecord"];
 export type ProjectArchive = Shapes["ProjectArchive"];
+export type ProjectDialect = Shapes["ProjectDialect"];
 export type ProjectTemplate = Shapes["ProjectTemplate"];
 export type ProjectVersion = Shapes["ProjectVersion"];
 export type CommitText = Shapes["CommitText"];

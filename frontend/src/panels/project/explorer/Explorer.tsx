@@ -10,6 +10,7 @@ import { Tree } from "../../../ui/Tree";
 import { PastNote } from "../PastNote";
 import { AddFiles, AddingFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
+import { DialectChoice } from "./DialectChoice";
 import { NewFile } from "./NewFile";
 import { NewPanel } from "./NewPanel";
 import { Outline } from "./Outline";
@@ -76,6 +77,7 @@ export function Explorer() {
       </div>
       <AddingFiles adding={adding} />
       <PastNote of="files" />
+      {project !== null && <DialectChoice project={project} />}
       {looked !== null && <Look text={looked} onText={setLooked} />}
       {rows.length === 0 && looked && <p className="lonely faint">{t("explorer.search.none", { text: looked })}</p>}
       <Tree label={t("explorer.label")} rows={rows} />
