@@ -22,6 +22,7 @@ class Allowance(Enum):
     ENUM_NUMBERS = auto()
     NUMBER_OF_BITS = auto()
     WIDE_RESULTS = auto()
+    STRING_FROM_ZERO = auto()
     ARGUMENT_NAMES = auto()
     CHAINED_ASSIGNMENT = auto()
     RETURN_CONDITION = auto()
@@ -81,6 +82,11 @@ RULES: dict[Allowance, Rule] = {
         "sums, differences and products of integers are computed in 64 bits, and cut where they are stored or converted",
         "their results have the type of their operands",
         "`INT_TO_DINT(i) + INT_TO_DINT(j)`",
+    ),
+    Allowance.STRING_FROM_ZERO: Rule(
+        "characters of a string counted from 0, and read as BYTE or WORD",
+        "the first character has number 1, and is a CHAR",
+        "`s[i + 1]`",
     ),
     Allowance.ARGUMENT_NAMES: Rule(
         "the vendor's names for the arguments of string functions: STR, STR1, STR2, SIZE, LEN, POS",

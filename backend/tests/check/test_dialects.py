@@ -15,6 +15,7 @@ from scanbench.syntax.language_file import (
 from scanbench.syntax.language_file import (
     LANGUAGE_FILE,
     DialectName,
+    dialect_of,
     guess_dialect,
     language_text,
     with_dialect,
@@ -32,7 +33,7 @@ END_METHOD
 END_FUNCTION_BLOCK
 PROGRAM Main
 VAR
-  b : BYTE; w : WORD; dw : DWORD; i, j : INT; u : UINT; d : DINT; r : REAL; l : LREAL; s : STRING; ok : BOOL; state : State;
+  b : BYTE; w : WORD; dw : DWORD; i, j : INT; u : UINT; d : DINT; r : REAL; l : LREAL; s : STRING; ok : BOOL; state : State; t : TIME;
   unit : Unit; numbers : ARRAY[1..3] OF INT;
 END_VAR
 """
@@ -43,6 +44,10 @@ USES = [
     (Allowance.BIT_NUMBERS, "ok := b > u;", "BYTE_TO_USINT"),
     (Allowance.BIT_NUMBERS, "i := numbers[b];", "BYTE_TO_USINT"),
     (Allowance.BIT_NUMBERS, "s := LEFT(s, b);", "BYTE_TO_USINT"),
+    (Allowance.BIT_NUMBERS, "FOR b := 1 TO 3 DO i := i + 1; END_FOR", "b : USINT"),
+    (Allowance.BIT_CONVERSION, "d := MAX(w, d);", "WORD_TO_DINT"),
+    (Allowance.BIT_NUMBERS, "t := t * w;", "WORD_TO_UINT"),
+    (Allowance.STRING_FROM_ZERO, "b := s[i];", "i + 1"),
     (Allowance.BIT_CONVERSION, "i := w;", "WORD_TO_INT(...)"),
     (Allowance.BIT_CONVERSION, "dw := i;", "INT_TO_DWORD(...)"),
     (Allowance.NARROWING, "i := d;", "DINT_TO_INT(...)"),
@@ -80,6 +85,7 @@ REFUSED = [
     "unit.level := 3;",
     "state := 300.0;",
     "w := -w;",
+    "d := MAX(dw, d);",  # a negative d
 ]
 """What no dialect allows, as no documentation says what it computes."""
 
@@ -113,6 +119,13 @@ def test_what_no_documentation_tells_stays_refused(body: str) -> None:
         found = checked(body, name)
         assert found.program is None, name
         assert all(each.span.line == LINE for each in found.problems)
+
+
+def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refused() -> None:
+    for body, code in (("s[0] := 65;", "T003"), ("p := ADR(s);", "T013")):
+        text = HEAD.replace("ok : BOOL;", "ok : BOOL; p : POINTER TO BYTE;")
+        found = check_sources(with_dialect({"a.st": f"{text}{body}\nEND_PROGRAM\n"}, "codesys"), MODEL).problems
+        assert [each.code for each in found if each.severity is Severity.ERROR] == [code]
 
 
 def test_every_allowance_has_a_rule_and_a_test() -> None:
@@ -199,3 +212,8 @@ def test_the_page_of_the_docs_has_the_table_of_the_code() -> None:
 def test_the_text_of_the_language_file_names_the_dialect() -> None:
     for name in NAMES:
         assert check_sources({"a.st": "PROGRAM Main\nEND_PROGRAM\n", LANGUAGE_FILE: language_text(name)}, MODEL).program
+
+
+def test_the_golden_file_is_read() -> None:
+    golden = Path(__file__).parents[1] / "syntax/golden" / LANGUAGE_FILE
+    assert dialect_of({LANGUAGE_FILE: golden.read_text("utf-8")}) == ("twincat", [])

@@ -3,10 +3,12 @@
 from dataclasses import replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.allowed import may, used
 from scanbench.check.body.context import Body, Found
 from scanbench.check.body.harmless import harmless
 from scanbench.check.body.lenient import index as lenient_index
 from scanbench.check.body.references import moved, target_of
+from scanbench.check.dialect import Allowance
 from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place
 from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
@@ -53,6 +55,9 @@ def element(body: Body, place: Place, member: Member | None, node: tree.IndexOf)
 def character_index(body: Body, node: tree.Expression, type: StringType) -> Expr:
     """The position of a character, which counts from 1."""
     index = fold.convert(LINT, _index_value(body, node))
+    if may(body, Allowance.STRING_FROM_ZERO):
+        index = fold.binary("add", LINT, index, Const(LINT, 1))
+        used(body, Allowance.STRING_FROM_ZERO, node.span, f"`{shown(node)}` counts from 0", f"`{shown(node)} + 1`")
     if isinstance(index, Const):
         number = int(index.value)
         if number == 0:
@@ -68,6 +73,13 @@ def character_index(body: Body, node: tree.Expression, type: StringType) -> Expr
 
 def _character_place(body: Body, place: Place, type: StringType, node: tree.Expression) -> Place:
     """A character that is there: what is beyond the current length cannot be written or referred to."""
+    if may(body, Allowance.STRING_FROM_ZERO):
+        raise body.report.reject(
+            "T003",
+            f"In {body.dialect.title} a string ends at its first 16#00, which can be written by index; here a string has a length. "
+            "Make the text with LEFT, MID, REPLACE and CONCAT.",
+            node.span,
+        )
     index = character_index(body, node, type)
     if not harmless(Load(place)):
         raise body.report.reject(

@@ -3,13 +3,14 @@
 from dataclasses import replace
 
 from scanbench.check.body import fold
+from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.elements import character_index, character_of, element
 from scanbench.check.body.enumerations import enumeration_value, is_value_name, typed, value_of_type
 from scanbench.check.body.forms import form
 from scanbench.check.body.harmless import harmless
-from scanbench.check.body.lenient import inverted, negative
+from scanbench.check.body.lenient import BITS, inverted, negative
 from scanbench.check.body.literals import literal
 from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate
 from scanbench.check.body.parts import part, part_type
@@ -19,6 +20,7 @@ from scanbench.check.body.subrange_checks import as_written, plain, read
 from scanbench.check.body.variables import INSTANCE
 from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import decode
+from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.own_variables import SYSTEM
 from scanbench.program.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, RefOf, Sequence
@@ -26,6 +28,7 @@ from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
+    ELEMENTARY,
     LINT,
     LWORD,
     NULL,
@@ -178,7 +181,8 @@ def _character_at(body: Body, place: Place, type: StringType, node: tree.Express
     here = Load(replace(place, type=kind, offset=place.offset + 2, indices=(*place.indices, one)))
     length = Intrinsic("LEN", LINT, (Load(place),))
     value = Intrinsic("SEL", kind, (fold.compare("le", BOOL, index, length), Const(kind, 0), here))
-    return Sequence(tuple(before), value) if before else value
+    made: Expr = Sequence(tuple(before), value) if before else value
+    return fold.convert(ELEMENTARY[BITS[kind.size]], made) if may(body, Allowance.STRING_FROM_ZERO) else made
 
 
 def _unary(body: Body, node: tree.UnaryOp, wanted: Type | None) -> Expr:

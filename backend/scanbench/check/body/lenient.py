@@ -190,6 +190,21 @@ def index(body: Body, expr: Expr, span: Span, what: str) -> Expr | None:
     return fold.convert(unsigned(type), expr)
 
 
+def joined(body: Body, one: Type | None, other: Type | None) -> Elementary | None:
+    """The type that a bit string and a number as arguments of one function have in common, where the dialect converts them."""
+    if not isinstance(one, Elementary) or not isinstance(other, Elementary) or not may(body, Allowance.BIT_NUMBERS):
+        return None
+    kinds = {one.kind, other.kind}
+    if Kind.BITS not in kinds or len(kinds) < 2 or not kinds <= {*INTEGRAL, Kind.REAL}:
+        return None
+    bits = one if one.kind is Kind.BITS else other
+    signed = next((each for each in (one, other) if each.kind is Kind.INT), None)
+    if signed is not None and signed.size <= bits.size:  # a negative one: not documented
+        return None
+    first, second = (unsigned(each) if each.kind is Kind.BITS else each for each in (one, other))
+    return common(first, second)
+
+
 def coerced(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr | None:
     """The value as one of `type`, where only the dialect converts it; None where that does not either."""
     source = expr.type

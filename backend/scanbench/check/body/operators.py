@@ -4,7 +4,7 @@ from scanbench.check.body import fold, wide
 from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce, conversion_hint
 from scanbench.check.body.context import Body
-from scanbench.check.body.lenient import LOGIC, counted, logical
+from scanbench.check.body.lenient import LOGIC, counted, index, logical
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
 from scanbench.check.body.references import compare_references, pointer_arithmetic
 from scanbench.check.body.subrange_checks import plain
@@ -200,6 +200,7 @@ def _moments(op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> 
 
 def _scaled(body: Body, op: str, time: Expr, type: Elementary, factor: Expr, span: Span) -> Expr:
     factor = settle(factor)
+    factor = index(body, factor, span, "The number that scales a TIME") or factor
     if isinstance(factor.type, Elementary) and factor.type.kind in (Kind.INT, Kind.UINT):
         return _arithmetic(body, op, type, time, fold.convert(type, factor), span)
     if isinstance(factor.type, Elementary) and factor.type.kind is Kind.REAL:

@@ -1,8 +1,10 @@
 """Values that refer to a variable: references, pointers, interfaces; their comparison, and arithmetic in bytes."""
 
 from scanbench.check.body import fold
+from scanbench.check.body.allowed import may
 from scanbench.check.body.context import Body
 from scanbench.check.context import Rejected
+from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Base, Const, Expr, Load, Place, RefOf
 from scanbench.program.sites import TrapKind
@@ -55,6 +57,13 @@ def as_reference(body: Body, expr: Expr, type: Reference, span: Span) -> Expr | 
     if isinstance(expr.type, Reference) and _fits(expr.type, type):
         source = expr.type.target
         if isinstance(source, StringType) and type.target is not None and not isinstance(type.target, StringType):
+            if may(body, Allowance.STRING_FROM_ZERO):
+                raise body.report.reject(
+                    "T013",
+                    f"In {body.dialect.title} the first byte of a string is its first character; here a {source} begins with its "
+                    "length, so this pointer would read different bytes. Take characters with `s[0]` or MID.",
+                    span,
+                )
             body.report.warn(
                 "W004",
                 f"A {source} begins with its length, in two bytes; its characters follow. In other tools the first byte "

@@ -87,7 +87,7 @@ def unify(body: Body, values: list[Expr], span: Span, name: str, wanted: Type | 
 def _join(body: Body, values: list[Expr], span: Span, name: str) -> Type:
     type = values[0].type
     for value in values[1:]:
-        joined = _common(type, value)
+        joined = _common(type, value) or lenient.joined(body, type, value.type)
         if joined is None:
             raise body.report.reject(
                 "T002", f"The arguments of `{name}` have no common type: {type} and {value.type}.", span

@@ -10,10 +10,25 @@ from scanbench.check.body.bare import bare_call
 from scanbench.check.body.calls import call_statement
 from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
+from scanbench.check.body.lenient import unsigned
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
-from scanbench.program.program import Case, Const, Continue, Exit, Expr, For, If, Limit, Repeat, Return, Stmt, While
+from scanbench.program.program import (
+    Case,
+    Const,
+    Continue,
+    Exit,
+    Expr,
+    For,
+    If,
+    Limit,
+    Place,
+    Repeat,
+    Return,
+    Stmt,
+    While,
+)
 from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import Elementary, Enumeration, Kind, Subrange, base_of
@@ -159,6 +174,7 @@ def _plain_label(body: Body, expr: Const, type: Elementary, node: tree.Expressio
 def _for(body: Body, node: tree.ForStatement) -> Stmt:
     counter = targets.target(body, node.variable)
     body.report.lent.append(targets.variable(node.variable).span)
+    counter = _counted(body, counter, node)
     type = counter.type
     plain = isinstance(type, Elementary) and type.kind in COUNTED and not isinstance(type, Enumeration)
     if not plain or counter.indices or counter.reference is not None:
@@ -179,6 +195,18 @@ def _for(body: Body, node: tree.ForStatement) -> Stmt:
     body.counters.pop()
     limits = (type.low, type.high) if isinstance(type, Subrange) else None
     return For(counter, start, end, step, inner, _leaves(inner, outer=True), trap, node.span, limits)
+
+
+def _counted(body: Body, counter: Place, node: tree.ForStatement) -> Place:
+    """A bit string that counts, as the unsigned integer of its size, where the dialect has that."""
+    type = counter.type
+    if not isinstance(type, Elementary) or type.kind is not Kind.BITS or counter.bit is not None:
+        return counter
+    what = f"`{shown(node.variable)}`, which counts a FOR loop, is {type}"
+    number = unsigned(type)
+    if not allowed(body, Allowance.BIT_NUMBERS, node.variable.span, what, f"`{shown(node.variable)} : {number}`"):
+        return counter
+    return replace(counter, type=number)
 
 
 def _for_end(body: Body, node: tree.ForStatement, type: Subrange, end: Expr, step: Expr) -> Expr:
