@@ -213,6 +213,7 @@ def _power(body: Body, left: Expr, right: Expr, span: Span, wanted: Type | None)
     if is_untyped(left) and isinstance(wanted, Elementary) and wanted.kind is Kind.REAL:
         left = Const(wanted, round_real(float(_plain(left)), wanted))
     left, right = settle(left), settle(right)
+    right = index(body, right, span, "The exponent") or right
     types = (left.type, right.type)
     if not all(isinstance(type, Elementary) and type.kind in NUMERIC for type in types):
         raise body.report.reject("T002", f"`**` needs numbers, not {types[0]} and {types[1]}.", span)
