@@ -1,0 +1,56 @@
+"""`--dialect`, and the dialect that a folder says itself: `check` and `run`."""
+
+from pathlib import Path
+
+from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
+from tests.cli.calling import scanbench
+
+WORDS = "PROGRAM Main\nVAR w : WORD := 65535; d : DWORD; END_VAR\nd := w + 1;\nEND_PROGRAM\n"
+TWINCAT = (
+    '<TcPlcObject><POU Name="Main"><Declaration><![CDATA[PROGRAM Main\nVAR w : WORD; END_VAR]]></Declaration>'
+    "<Implementation><ST><![CDATA[w := w + 1;]]></ST></Implementation></POU></TcPlcObject>"
+)
+
+
+def test_a_dialect_is_named_for_a_file_and_for_a_folder(tmp_path: Path) -> None:
+    (tmp_path / "Main.st").write_text(WORDS)
+    for path in (tmp_path, tmp_path / "Main.st"):
+        strict = scanbench("check", str(path))
+        assert (strict.returncode, strict.stdout.count("T002")) == (1, 1)
+        named = scanbench("check", str(path), "--dialect", "CODESYS")
+        assert (named.returncode, named.stdout.count("W006 warning")) == (0, 1)
+        ran = scanbench("run", str(path), "--scans", "1", "--dialect", "codesys", "--print", "Main.d")
+        assert (ran.returncode, "16#00010000" in ran.stdout) == (0, True), ran
+
+
+def test_a_folder_says_its_dialect_and_the_command_line_goes_before_it(tmp_path: Path) -> None:
+    (tmp_path / "Main.st").write_text(WORDS)
+    (tmp_path / LANGUAGE_FILE).write_text(language_text("twincat"))
+    assert scanbench("check", str(tmp_path)).returncode == 0
+    assert scanbench("check", str(tmp_path), "--dialect", "iec").returncode == 1
+
+
+def test_an_unknown_dialect_is_told_with_those_that_there_are(tmp_path: Path) -> None:
+    (tmp_path / "Main.st").write_text(WORDS)
+    said = scanbench("check", str(tmp_path), "--dialect", "basic")
+    assert said.returncode == 2
+    assert "there is no dialect basic: write one of iec, codesys" in said.stderr
+
+
+def test_nothing_is_guessed_but_the_likely_dialect_is_named(tmp_path: Path) -> None:
+    (tmp_path / "Main.TcPOU").write_text(TWINCAT)
+    said = scanbench("check", str(tmp_path))
+    assert (said.returncode, said.stdout.count("T002")) == (1, 1)
+    assert "--dialect twincat" in said.stderr
+    assert "--dialect" not in scanbench("check", str(tmp_path), "--dialect", "twincat").stderr
+
+
+def test_a_recorded_run_is_replayed_in_its_dialect(tmp_path: Path) -> None:
+    (tmp_path / "Main.st").write_text(WORDS)
+    run = tmp_path / "kept.run"
+    ran = scanbench(
+        "run", str(tmp_path / "Main.st"), "--scans", "3", "--dialect", "codesys", "--record", str(run), "--hash"
+    )
+    assert ran.returncode == 0, ran
+    again = scanbench("replay", str(run))
+    assert again.returncode == 0, again
