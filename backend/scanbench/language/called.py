@@ -51,8 +51,10 @@ def _reaching(statements: Sequence[tree.Statement], start: int, end: int) -> Ite
 def _parts(statement: tree.Statement) -> tuple[list[tree.Expression], list[Sequence[tree.Statement]]]:
     """The expressions of a statement, and the statements inside of it."""
     match statement:
-        case tree.Assignment(target=target, value=value):
-            return [target, value], []
+        case tree.Assignment(target=target, value=value, also=also):
+            return [target, *also, value], []
+        case tree.ReturnStatement(condition=condition) if condition is not None:
+            return [condition], []
         case tree.ExpressionStatement(expression=expression):
             return [expression], []
         case tree.IfStatement(branches=branches, orelse=orelse):

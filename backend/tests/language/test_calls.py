@@ -54,6 +54,14 @@ def test_a_function_is_called_where_its_name_is_called() -> None:
     assert not called
 
 
+def test_a_condition_after_return_calls() -> None:
+    text = TEXT.replace("END_PROGRAM\nPROGRAM Listed", "RETURN(Twice(i) > 1);\nEND_PROGRAM\nPROGRAM Listed")
+    reading, position = marked(text.replace("FUNCTION Twice", "FUNCTION |Twice"))
+    party = party_at(reading, FILE, position)
+    assert party is not None
+    assert shown(reading, incoming(reading, party.symbol))["Main"] == ["23 Twice"]
+
+
 def test_an_instance_that_is_called_calls_its_block() -> None:
     for where in ("FUNCTION_BLOCK I|nc", "i|ncs[i](by", "VAR inc : |Inc"):
         reading, callers, called = asked(where)
