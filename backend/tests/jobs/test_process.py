@@ -265,7 +265,7 @@ def test_a_fault_of_our_own_is_logged_and_told_as_one(
         raise error
 
     monkeypatch.setattr(starting, "react", broken)
-    monkeypatch.setattr(job_process, "sweep", broken)
+    monkeypatch.setattr(job_process, "sweep_side_by_side", broken)
     answers = io.BytesIO()
     process = job_process.Job(None, answers)
     process.on_request(FindReaction(1, str(tmp_path / "1.run"), "basic-io-error", entry.scan, entry.scan + 20, 20))
