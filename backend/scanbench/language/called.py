@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Sequence
 
+from scanbench.check.body.arguments import by_position
 from scanbench.check.uses import Symbol
 from scanbench.language.declared import member_of
 from scanbench.language.describe import library_declared
@@ -14,7 +15,7 @@ from scanbench.syntax.chunks import Chunk
 from scanbench.syntax.source import Stretch
 
 _NUMBERED = re.compile(r"([A-Z]+)(\d+)")
-_PASSED = (Section.INPUT, Section.IN_OUT)
+_GIVEN = (Section.INPUT, Section.IN_OUT, Section.OUTPUT)
 
 
 def calls(chunk: Chunk, start: int, end: int) -> Iterator[tree.Call]:
@@ -137,9 +138,9 @@ def parameters(reading: Reading, symbol: Symbol, count: int) -> list[str]:
     else:
         pou = reading.project.checker.pous.functions.get(symbol.name) if symbol.kind == "pou" else None
         if pou is None:
-            return _written(reading, symbol)
+            return _written(reading, symbol, count)
         members = [pou.frame.members[key] for key in pou.parameters]
-    return [each.name for each in members if each.section in _PASSED and not each.hidden]
+    return [each.name for each in by_position(members, count)]
 
 
 def _counted(formals: tuple[str, ...], count: int) -> list[str]:
@@ -149,10 +150,12 @@ def _counted(formals: tuple[str, ...], count: int) -> list[str]:
     return [*formals, *(f"{last[1]}{int(last[2]) + each}" for each in more if last is not None)]
 
 
-def _written(reading: Reading, symbol: Symbol) -> list[str]:
+def _written(reading: Reading, symbol: Symbol, count: int) -> list[str]:
     """Of a method, or of a FUNCTION that takes several types."""
     found = reading.declared(symbol) or library_declared(symbol)
     pou = found[0].node if found else None
     if not isinstance(pou, tree.PouDeclaration):
         return []
-    return [each.name for part in pou.sections if part.keyword in _PASSED for each in part.variables]
+    names = [(part.keyword, each.name) for part in pou.sections if part.keyword in _GIVEN for each in part.variables]
+    inward = [name for keyword, name in names if keyword != Section.OUTPUT]
+    return [name for _, name in names] if count > len(inward) else inward

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from scanbench.check.body.arguments import by_position
 from scanbench.check.uses import Symbol, variable_symbol
 from scanbench.language.called import block_of, calls_of, parameters, symbol_of
 from scanbench.language.declared import member_of
@@ -13,12 +14,14 @@ from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk
 from scanbench.syntax.source import Stretch
 
+PARAMETERS = (Section.INPUT, Section.IN_OUT, Section.OUTPUT)
+
 
 def passed(reading: Reading, symbols: Sequence[Symbol]) -> list[Occurrence]:
-    """The arguments by position that these variables get; nothing for what is no input or in-out."""
+    """The arguments by position that these variables get, or outputs give; nothing for what is no parameter."""
     members = ((symbol, member_of(reading.project.checker, symbol)) for symbol in symbols)
     sections = {symbol: member.section for symbol, member in members if member is not None}
-    wanted = {symbol for symbol, section in sections.items() if section in (Section.INPUT, Section.IN_OUT)}
+    wanted = {symbol for symbol, section in sections.items() if section in PARAMETERS}
     if not wanted:
         return []
     found = []
@@ -49,27 +52,26 @@ def _in_il(reading: Reading, pou: tree.PouDeclaration) -> Iterator[tuple[object,
             continue
         operands = [] if each.operand is None else [each.operand]
         spans = [each.span, *(one.span for one in operands), *(one.span for one in each.arguments)]
-        yield from zip(spans, _of_function(called), strict=False)
+        yield from zip(spans, _of_function(called, len(spans)), strict=False)
 
 
 def _inputs(reading: Reading, callee: Symbol, count: int) -> list[Symbol]:
     """The variables that take so many arguments by position, in order."""
     if callee.kind == "variable":
         record = block_of(reading, callee)
-        return [] if record is None else _of_record(record)
+        return [] if record is None else _of_record(record, count)
     function = reading.project.checker.pous.functions.get(callee.name) if callee.kind == "pou" else None
     if function is not None:
-        return _of_function(function)
+        return _of_function(function, count)
     owner = f"{callee.owner}.{callee.name}" if callee.kind == "method" else callee.name
     return [Symbol("variable", owner, name.upper()) for name in parameters(reading, callee, count)]
 
 
-def _of_record(record: Record) -> list[Symbol]:
-    taken = (each for each in record.members.values() if each.section in (Section.INPUT, Section.IN_OUT))
-    return [variable_symbol(each, record) for each in taken if not each.hidden]
+def _of_record(record: Record, count: int) -> list[Symbol]:
+    members = [each for each in record.members.values() if each.section is not Section.VAR]
+    return [variable_symbol(each, record) for each in by_position(members, count)]
 
 
-def _of_function(pou: Pou) -> list[Symbol]:
-    members = (pou.frame.members[key] for key in pou.parameters)
-    taken = (each for each in members if each.section in (Section.INPUT, Section.IN_OUT) and not each.hidden)
-    return [variable_symbol(each, pou.frame) for each in taken]
+def _of_function(pou: Pou, count: int) -> list[Symbol]:
+    members = [pou.frame.members[key] for key in pou.parameters]
+    return [variable_symbol(each, pou.frame) for each in by_position(members, count)]

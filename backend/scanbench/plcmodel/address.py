@@ -3,7 +3,8 @@
 Two notations live side by side. Vendor: a prefix, a number, and for a bit of a word a dot and 00 to 15 (`A402.12`,
 also `A40212`) or 0 to F (`D100.F`). What the number counts, words or bits, and to which base, is the area's business
 (`X1F` is the 32nd bit of X on a MELSEC; 16 of them from X20 on are `K4X20`). IEC: `%`, the letter of a map, a width and a
-number that counts in that width (`%MW3` is bytes 6 and 7, `%MX3.2` is bit 2 of byte 3). A model has either or both, and
+number that counts in that width (`%MW3` is bytes 6 and 7, `%MX3.2` is bit 2 of byte 3). Plain areas count bits where there is one number (`%IX11` is `%IX1.3`), and
+have modules where there is one more (`MODULE_BYTES`). A model has either or both, and
 names of special places besides (`_ErrSta.7`).
 """
 
@@ -15,7 +16,9 @@ from scanbench.plcmodel.areas import Area, IecMap, Location
 WIDTHS = {"X": 1, "B": 8, "W": 16, "D": 32, "L": 64}
 LETTERS = {bits: letter for letter, bits in WIDTHS.items()}
 
-_IEC = re.compile(r"%([IQM])([XBWDL]?)(\d{1,9})(?:\.(\d{1,9}))?")
+_IEC = re.compile(r"%([IQM])([XBWDL]?)(\d{1,9})(?:\.(\d{1,9}))?(?:\.(\d{1,9}))?")
+MODULE_BYTES = 64
+"""Of a module in the plain areas: `%IX1.2.3` is bit 3 of byte 2 of module 1, `%IW1.2` its word 2."""
 _VENDOR = re.compile(
     r"%?(?:K(16|[248]))?([A-Z]+[0-9A-F]{0,2}_|[A-Z]*) ?(\d[0-9A-F]{0,8})(?:\.([0-9A-F]{1,2})(?:-(\d{2}))?)?"
 )
@@ -36,11 +39,12 @@ def parse(
     vendor = _VENDOR.fullmatch(plain)
     known = [area for area in areas if vendor and _means(area, vendor)]
     if iec := _IEC.fullmatch(plain):
-        letter, width, number, bit = iec.groups()
-        bare = not width and bit is None and known  # %M100 where M is an area of the vendor's
+        letter, width, *levels = iec.groups()
+        numbers = [int(each) for each in levels if each is not None]
+        bare = not width and len(numbers) == 1 and known  # %M100 where M is an area of the vendor's
         for entry in maps:
             if entry.letter == letter and not bare:
-                return _iec(entry, text, width or "X", int(number), None if bit is None else int(bit))
+                return _iec(entry, text, width or "X", numbers)
     if vendor and known:
         return _vendor(known, text, vendor)
     raise NoSuchPlace(f"{text!r} is not an address of this model: {_known(areas, maps)}")
@@ -61,18 +65,25 @@ def _bit_of(place: Location, text: str, bit: int) -> Location:
     return Location(place.area, place.byte + bit // 8, bit % 8, 1)
 
 
-def _iec(entry: IecMap, text: str, width: str, number: int, bit: int | None) -> Location:
+def _iec(entry: IecMap, text: str, width: str, numbers: list[int]) -> Location:
+    plain = entry.area.name == entry.letter  # as the standard has it, by no vendor
+    bit: int | None = None
     if width == "X":
-        if bit is None:
-            raise NoSuchPlace(f"{text!r} names a bit and needs one: %{entry.letter}X{number}.0 to .7")
+        if len(numbers) == 1 and not plain:
+            raise NoSuchPlace(f"{text!r} names a bit and needs one: %{entry.letter}X{numbers[0]}.0 to .7")
+        *levels, bit = numbers if len(numbers) > 1 else divmod(numbers[0], 8)
         if bit > 7:
             raise NoSuchPlace(f"{text!r}: bit {bit} does not exist, a byte has bits 0 to 7")
-        byte, size = number, 1
     else:
-        if bit is not None:
-            raise NoSuchPlace(f"{text!r}: only %{entry.letter}X has a bit after the dot")
-        size = WIDTHS[width] // 8
-        byte = number * size
+        levels = numbers
+    size = max(1, WIDTHS[width] // 8)
+    if len(levels) > 1 and (not plain or len(levels) > 2):
+        raise NoSuchPlace(f"{text!r}: only %{entry.letter}X has a bit after the dot")
+    module, number = levels if len(levels) > 1 else (0, levels[0])
+    if len(levels) > 1 and (number + 1) * size > MODULE_BYTES:
+        last = MODULE_BYTES // size - 1
+        raise NoSuchPlace(f"{text!r}: a module has {MODULE_BYTES} bytes, so the number after it goes up to {last}")
+    byte = module * MODULE_BYTES + number * size
     if byte + size > entry.words * 2:
         last = f"{entry.words * 2 // size - 1}{'.7' if width == 'X' else ''}"
         raise NoSuchPlace(f"{text!r} is outside of the area: the last one is %{entry.letter}{width}{last}")

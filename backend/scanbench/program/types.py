@@ -237,8 +237,15 @@ class Member:
     hidden in-out beside it refers to (`actual_name`)."""
     note: "Member | None" = None
     """The hidden variable beside it that keeps what was written before a check limited it; see `check/body/notes.py`."""
+    output: bool = False
+    """An ARRAY[*] that is declared as VAR_OUTPUT: bound as an in-out, and given as an output."""
     incomplete: str = ""
     """`%I*`: VAR_CONFIG gives each instance its address. The type is a REFERENCE TO what was declared."""
+
+    @property
+    def given(self) -> Section:
+        """The section that a call sees: it decides how the argument is written."""
+        return Section.OUTPUT if self.output else self.section
 
     @property
     def located(self) -> bool:

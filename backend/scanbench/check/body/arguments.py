@@ -81,11 +81,11 @@ class Bindings:
 def by_formal(
     body: Body, node: tree.Call, formals: list[Member], owner: Record, callee: str
 ) -> dict[str, tree.Argument]:
-    """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order. `owner` has the formals."""
+    """Arguments by upper-case formal name. `owner` has the formals."""
     formals = [each for each in formals if not each.hidden]
     given: dict[str, tree.Argument] = {}
     named = False
-    positions = [member for member in formals if member.section in (Section.INPUT, Section.IN_OUT)]
+    positions = by_position(formals, sum(each.name is None for each in node.arguments))
     for index, argument in enumerate(node.arguments):
         if argument.name is None:
             if named:
@@ -94,7 +94,7 @@ def by_formal(
                 if owner.open or any(name == owner.name.upper() for name, _ in body.declarations.broken):
                     raise Rejected
                 raise body.report.reject(
-                    "T004", f"`{callee}` takes {_count(len(positions))}, not {len(node.arguments)}.", argument.span
+                    "T004", f"`{callee}` takes {_taken(formals)}, not {len(node.arguments)}.", argument.span
                 )
             given[positions[index].name.upper()] = argument
             continue
@@ -110,6 +110,20 @@ def by_formal(
     return given
 
 
+def by_position(formals: list[Member], count: int) -> list[Member]:
+    """What so many arguments by position go to: inputs and in-outs in order; where there are more, outputs take their part, too."""
+    shown = [each for each in formals if not each.hidden]
+    inward = [each for each in shown if each.given in (Section.INPUT, Section.IN_OUT)]
+    outward = (Section.INPUT, Section.IN_OUT, Section.OUTPUT)
+    every = [each for each in shown if each.given in outward and each.name.upper() != "ENO" and not _of_system(each)]
+    return every if count > len(inward) else inward
+
+
+def _of_system(member: Member) -> bool:
+    """Whether it is an output of a model's instruction, which has arguments of its own kind only."""
+    return member.section is Section.OUTPUT and is_system(member.span)
+
+
 def _formal(
     body: Body, argument: tree.Argument, name: str, formals: list[Member], owner: Record, callee: str
 ) -> Member:
@@ -119,10 +133,10 @@ def _formal(
     if member is None:
         hint = did_you_mean(name, [each.name for each in formals])
         raise body.report.reject("T004", f"`{callee}` has no argument `{name}`.{hint}", argument.span)
-    if argument.output != (member.section is Section.OUTPUT):
-        arrow = "=>" if member.section is Section.OUTPUT else ":="
+    if argument.output != (member.given is Section.OUTPUT):
+        arrow = "=>" if member.given is Section.OUTPUT else ":="
         raise body.report.reject(
-            "T004", f"`{member.name}` is {member.section.value}: write `{member.name} {arrow} ...`.", argument.span
+            "T004", f"`{member.name}` is {member.given.value}: write `{member.name} {arrow} ...`.", argument.span
         )
     return member
 
@@ -221,7 +235,7 @@ def in_out(
 ) -> Place:
     """What an in-out of `owner` is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
     if value is None:
-        what = "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
+        what = "output" if member.output else "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
         raise body.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
     if member.constant:
         return _constant_in_out(body, member, value, before)
@@ -291,5 +305,8 @@ def _takes(target: Type, output: Type) -> bool:
     )
 
 
-def _count(number: int) -> str:
-    return "1 argument" if number == 1 else f"{number} arguments"
+def _taken(formals: list[Member]) -> str:
+    """How many arguments there may be by position, for people."""
+    inward, every = len(by_position(formals, 0)), len(by_position(formals, len(formals) + 1))
+    least = "1 argument" if inward == 1 else f"{inward} arguments"
+    return least if inward == every else f"{least}, or {every} with the outputs"

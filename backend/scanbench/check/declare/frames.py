@@ -50,8 +50,8 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
                 declared.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
                 continue
             constant = "CONSTANT" in section.qualifiers
-            if function and kind is Section.INPUT and isinstance(variable.type, tree.OpenArraySpec):
-                declare(declared, record, variable, Section.IN_OUT, constant=True)  # referred to, and only read
+            if function and kind in (Section.INPUT, Section.OUTPUT) and isinstance(variable.type, tree.OpenArraySpec):
+                _open_array(declared, record, variable, output=kind is Section.OUTPUT)
                 continue
             member = declare(declared, record, variable, kind, constant)
             if member and kind is not Section.IN_OUT and has_instance(member.type):
@@ -69,3 +69,10 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
             declared.broken.add((record.name.upper(), declaration.name.upper()))
     record.close()
     return record
+
+
+def _open_array(declared: Declarations, record: Record, variable: tree.Variable, output: bool) -> None:
+    """An input or output whose size comes with each call is referred to; an input is only read."""
+    member = declare(declared, record, variable, Section.IN_OUT, constant=not output)
+    if member is not None:
+        member.output = output

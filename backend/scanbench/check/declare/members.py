@@ -62,7 +62,7 @@ def _declare(
         if isinstance(made, OpenArray) and section is not Section.IN_OUT:
             raise declared.report.reject(
                 "D008",
-                "ARRAY[*] is for VAR_IN_OUT, and for VAR_INPUT of a FUNCTION or METHOD; state the bounds here.",
+                "ARRAY[*] is for VAR_IN_OUT, and for VAR_INPUT and VAR_OUTPUT of a FUNCTION or METHOD; state the bounds here.",
                 variable.span,
             )
     except Rejected:
