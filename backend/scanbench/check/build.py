@@ -228,6 +228,7 @@ class Checker:
     def recheck(self, pou: Pou, declaration: tree.PouDeclaration) -> None:
         """Checks a new body of a POU whose declarations are unchanged; the caller then calls `finish`."""
         self.report.undo(self.declared)
+        self.report.compared = 0
         members, size, align = self.frames[pou]
         pou.frame.members.clear()
         pou.frame.members.update(members)

@@ -1,12 +1,13 @@
 """What all parts of the checker share: problems met, sites of traps and subrange checks, near matches."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import lru_cache
 from heapq import nlargest
 from itertools import pairwise
+from operator import itemgetter
 from typing import NamedTuple
 
 from scanbench.check.uses import Symbol, Use
@@ -21,6 +22,13 @@ class Rejected(Exception):
 
 Mark = tuple[int, int, int, int, int, int, int]
 """Lengths of the lists of a report."""
+
+UNKNOWN = ("T001", "D002")
+REPEATED = 3
+"""How often a name that is not known is reported in one POU: it is one mistake, wherever the name is used."""
+
+Told = dict[tuple[str, str], list[Problem]]
+"""Errors by code and message."""
 
 
 class Borrowed(NamedTuple):
@@ -48,6 +56,11 @@ class Report:
     borrowed: list[Borrowed] = field(default_factory=list)
     parts: dict[Pou, "Report"] = field(default_factory=dict)
     """What was met in the body of each POU; its sites are numbered from 1 there."""
+    compared: int = 0
+    """Names that unknown ones were compared with in this check, see `MOST_COMPARED`."""
+    _told: Told = field(default_factory=dict)
+    _near: dict[tuple[str, str], str] = field(default_factory=dict)
+    """What was meant by a name, by its kind and itself: it is often wrong in many places."""
 
     @contextmanager
     def apart(self) -> Iterator["Report"]:
@@ -56,11 +69,14 @@ class Report:
         before, inner = (self.problems, self.traps, self.checks), Report()
         self.problems, self.traps, self.checks = inner.problems, inner.traps, inner.checks
         self.uses, self.written, self.lent, self.borrowed = inner.uses, inner.written, inner.lent, inner.borrowed
+        known = self._told, self._near
+        self._told, self._near = inner._told, inner._near
         try:
             yield inner
         finally:
             self.problems, self.traps, self.checks = before
             self.uses, self.written, self.lent, self.borrowed = names
+            self._told, self._near = known
 
     def join(self, order: Iterable[Pou]) -> None:
         """Takes over the parts of these POUs, whose sites then count from the end of what is there."""
@@ -76,7 +92,9 @@ class Report:
 
     def error(self, code: str, message: str, span: Span) -> None:
         problem = Problem(code, message, span)
-        if problem not in self.problems:
+        same = self._told.setdefault((code, problem.message), [])
+        if problem not in same and (code not in UNKNOWN or len(same) < REPEATED):
+            same.append(problem)
             self.problems.append(problem)
 
     def warn(self, code: str, message: str, span: Span) -> None:
@@ -109,6 +127,10 @@ class Report:
     def undo(self, mark: Mark) -> None:
         """Forgets what was reported since, before the same is checked once more."""
         problems, traps, checks, uses, written, lent, borrowed = mark
+        for each in self.problems[problems:]:
+            same = self._told.get((each.code, each.message), [])
+            if each in same:
+                same.remove(each)
         del self.problems[problems:], self.traps[traps:], self.checks[checks:]
         del self.uses[uses:], self.written[written:], self.lent[lent:], self.borrowed[borrowed:]
 
@@ -117,31 +139,47 @@ class Report:
         self.checks[number - 1] = replace(self.checks[number - 1], needless=why)
 
 
-COMPARED = 32
-"""Names that are compared letter by letter with one that is not known: that takes long, and there may be thousands of both."""
+    def near(self, name: str, known: Callable[[], Iterable[str]], kind: str = "") -> str:
+        """` Did you mean ...?` or nothing. `kind` says what the name would be, so that the answer is found once in a POU.
+
+        Only the first unknown names of a check are compared with others: nobody reads thousands of answers.
+        """
+        key = (kind, name.upper())
+        if key not in self._near and self.compared < MOST_COMPARED:
+            names = tuple(known())
+            self.compared += len(names) + LETTERS
+            self._near[key] = did_you_mean(name, names)
+        return self._near.get(key, "")
+
+
+MOST_COMPARED = 60_000
+"""Names that the unknown ones of a check are compared with in all: about 50 ms."""
+COMPARED = 12
+"""Names that are compared letter by letter with one that is not known: those that share the most pairs of letters with it."""
+LETTERS = 200
+"""What that costs, counted in names that are compared by their pairs."""
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """` Did you mean ...?` or nothing."""
-    return _did_you_mean(name.upper(), tuple(known))
-
-
-@lru_cache(256)
-def _did_you_mean(name: str, known: tuple[str, ...]) -> str:
-    """The same name is often wrong in many places."""
     by_upper = {item.upper(): item for item in known}
     likely = list(by_upper)
     if len(likely) > COMPARED:
-        wanted = _pairs(name)
-        likely = nlargest(COMPARED, likely, key=lambda item: len(wanted & _pairs(item)) / (len(item) + len(name)))
-    near = get_close_matches(name, likely, n=2, cutoff=0.6)
+        wanted, length = _pairs(name.upper()), len(name)
+        scores = [((wanted & _pairs(item)).bit_count() / (len(item) + length), item) for item in likely]
+        likely = [item for _, item in nlargest(COMPARED, scores, key=itemgetter(0))]
+    near = get_close_matches(name.upper(), likely, n=2, cutoff=0.6)
     return perhaps(by_upper[item] for item in near)
 
 
 @lru_cache(1 << 15)
-def _pairs(name: str) -> frozenset[tuple[str, str]]:
-    """The letters that follow each other, its first and its last one too: a name of one letter has pairs as well.
+def _pairs(name: str) -> int:
+    """The letters that follow each other, its first and its last one too, as bits: a name of one letter has pairs as well.
 
     Kept by name, as each POU knows others, but most of them are those that every POU knows.
     """
-    return frozenset(pairwise(f" {name} "))
+    codes = f" {name} ".encode("utf-32-le")[::4]
+    bits = 0
+    for first, second in pairwise(codes):
+        bits |= 1 << (first * 37 + second) % 1021
+    return bits

@@ -6,8 +6,9 @@ midnight); STRING[n] is a u16 with the current length in characters, then n byte
 which those beyond the length mean nothing; an in-out takes a slot of `SLOT_BYTES`; so does a reference.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
+from operator import attrgetter
 
 from scanbench.problems import Span
 
@@ -242,6 +243,10 @@ class Member:
     incomplete: str = ""
     """`%I*`: VAR_CONFIG gives each instance its address. The type is a REFERENCE TO what was declared."""
 
+    def copy(self) -> "Member":
+        """Another one like it. A derived block has one of each member of its base, so there may be many."""
+        return Member(*_of_member(self))
+
     @property
     def given(self) -> Section:
         """The section that a call sees: it decides how the argument is written."""
@@ -262,6 +267,9 @@ class Member:
     def bound(self) -> bool:
         """Whether it is a slot that refers to what was passed: an in-out, unless that is by value."""
         return self.section is Section.IN_OUT and not self.copied
+
+
+_of_member = attrgetter(*(each.name for each in fields(Member)))
 
 
 @dataclass(eq=False, slots=True)

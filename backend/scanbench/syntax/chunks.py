@@ -7,6 +7,7 @@ from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
+from scanbench.syntax.foreign_files import parse_foreign
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import whole
 from scanbench.syntax.pragmas import in_out_pragmas
@@ -117,7 +118,7 @@ class Chunked:
 
 def read(name: str, text: str) -> Chunked:
     """Parses a file, chunk by chunk if it falls into chunks."""
-    if len(text) > MAX_SIZE or is_stimulus(name) or is_exported(name, text):
+    if len(text) > MAX_SIZE or is_stimulus(name) or is_exported(name, text) or parse_foreign(Source(name, text)):
         return _whole(name, text)
     source = Source(name, text)
     tokens, problems = tokenize(source)

@@ -1,6 +1,7 @@
 """A place in the tokens of one file, and the problems met on the way."""
 
 import sys
+from collections.abc import Collection
 
 from scanbench.problems import Problem, Span
 from scanbench.syntax.lexer import Lex, Tokens, tokenize
@@ -11,7 +12,9 @@ MAX_DEPTH = 200
 """Nesting of statements and parentheses; deeper text is refused, as no one can read it and recursion must end."""
 FRAMES_A_LEVEL = 20
 """Python frames between one parenthesis and the next: an operand of each strength, and the rules between."""
-sys.setrecursionlimit(max(sys.getrecursionlimit(), MAX_DEPTH * FRAMES_A_LEVEL + 1000))
+FRAMES_OF_TYPES = 30_000
+"""Python frames for types that contain each other and calls that lead to calls: they take no room on the stack of C."""
+sys.setrecursionlimit(max(sys.getrecursionlimit(), MAX_DEPTH * FRAMES_A_LEVEL + 1000, FRAMES_OF_TYPES))
 MAX_PROBLEMS = 1000
 """Of one file; a text with more is not a program, and nobody reads so many."""
 
@@ -45,6 +48,8 @@ class Cursor:
         self.namespace = ""
         self.visible: tuple[str, ...] = ()
         """Namespaces that USING names, here."""
+        self._lost = -1
+        """Up to this token nothing more is reported: what encloses it was left for nesting too deep."""
         self.kept: list[Span] = []
         """Sections VAR_STAT and VAR_INST of the POU that is read."""
 
@@ -123,7 +128,7 @@ class Cursor:
         return Unexpected()
 
     def report(self, code: str, message: str, span: Span) -> None:
-        if len(self.problems) < MAX_PROBLEMS:
+        if len(self.problems) < MAX_PROBLEMS and self.at > self._lost:
             self.problems.append(Problem(code, message, span))
 
     def here(self) -> Span:
@@ -148,10 +153,16 @@ class Cursor:
         text = self.texts[self.at if token is None else token]
         return f", found `{text[:40]}`" if text else ", but the file ends here"
 
-    def enter(self) -> None:
+    def enter(self, until: Collection[str] = ()) -> None:
+        """One level deeper. Where that is too deep, the text goes on at the next of `until`: all around is left as well."""
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise self.fail(f"nested more than {MAX_DEPTH} deep; split this up")
+            failed = self.fail(f"nested more than {MAX_DEPTH} deep; split this up")
+            if until:
+                while not self.ended() and self.texts[self.at] not in until:
+                    self.at += 1
+                self._lost = self.at
+            raise failed
 
     def leave(self) -> None:
         self.depth -= 1

@@ -4,6 +4,7 @@ import re
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
+from scanbench.syntax.foreign_files import parse_foreign
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.parse_stimulus import parse_stimulus
 from scanbench.syntax.source import Source
@@ -46,4 +47,6 @@ def parse_file(source: Source) -> tuple[tree.File, list[Problem]]:
         return tree.File(source.name), [Problem("S003", message, source.span(0, 1))]
     if is_stimulus(source.name):
         return parse_stimulus(source)
-    return parse_tc(source) if is_exported(source.name, source.text) else parse_st(source)
+    if is_exported(source.name, source.text):
+        return parse_tc(source)
+    return parse_foreign(source) or parse_st(source)

@@ -90,8 +90,8 @@ def _namespace(c: Cursor, result: tree.File) -> None:
     c.namespace = f"{outer}.{name}" if outer else name
     if internal:
         result.internal.append(c.namespace)
-    c.enter()
     try:
+        c.enter({""})
         while not c.is_("END_NAMESPACE") and not c.ended():
             depth = c.depth
             _next(c, result)

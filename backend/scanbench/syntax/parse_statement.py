@@ -55,7 +55,7 @@ def statements(c: Cursor, labels: bool = False) -> tuple[tree.Statement, ...]:
             if keyword is None:
                 found.append(_simple(c, name))
             else:
-                c.enter()
+                c.enter(POU_ENDS)
                 found.append(keyword(c))
                 c.depth = depth
         except Unexpected:

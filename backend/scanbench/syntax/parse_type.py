@@ -22,7 +22,7 @@ NOT_A_NAME = frozenset((":", ",", ":=", "AT"))
 def type_spec(c: Cursor, named: bool = False) -> tree.TypeSpec:
     """A type; `named` in a TYPE declaration, where `Base (A, B)` can only be an enumeration."""
     start = c.at
-    c.enter()
+    c.enter(POU_ENDS)
     spec = _type_spec(c, start, named)
     c.leave()
     return spec

@@ -122,9 +122,27 @@ def test_names_that_were_perhaps_meant_are_found_among_many(monkeypatch: pytest.
 
     monkeypatch.setattr("scanbench.check.context.get_close_matches", counted)
     known = [f"GVL_Conveyor_{number:04}_Speed" for number in range(2000)]
+    report = context.Report()
     for _ in range(50):
-        assert "`GVL_Conveyor_1234_Speed`" in context.did_you_mean("GVL_Conveyer_1234_Sped", known)
+        assert "`GVL_Conveyor_1234_Speed`" in report.near("GVL_Conveyer_1234_Sped", lambda: known)
     assert compared == context.COMPARED, "and the same name once only"
+
+
+def test_only_the_first_of_thousands_of_unknown_names_are_compared() -> None:
+    known = [f"GVL_Conveyor_{number:04}_Speed" for number in range(2000)]
+    report = context.Report()
+    found = [report.near(f"GVL_Conveyer_{number:04}_Sped", lambda: known) for number in range(5000)]
+    assert all(found[:20])
+    assert not any(found[100:])
+    assert report.compared < context.MOST_COMPARED + len(known) + context.LETTERS
+
+
+def test_a_name_that_is_not_known_is_reported_three_times_in_a_pou() -> None:
+    """It is one mistake, however often the name is used; in each POU, as each can be seen by itself."""
+    uses = "x := Missing;\n" * 50 + "x := Lost(1);\n" * 50
+    text = f"FUNCTION_BLOCK A\nVAR x : INT; END_VAR\n{uses}END_FUNCTION_BLOCK\nPROGRAM Main\nVAR x : INT; END_VAR\n{uses}x := Other;\nEND_PROGRAM\n"
+    found = [each.message for each in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems]
+    assert [sum(name in each for each in found) for name in ("`Missing`", "`Lost`", "`Other`")] == [6, 6, 1]
 
 
 def test_names_that_every_pou_knows_are_looked_at_once() -> None:

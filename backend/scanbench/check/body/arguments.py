@@ -11,7 +11,7 @@ from scanbench.check.body.receivers import is_variable
 from scanbench.check.body.subrange_checks import keeping, noting, with_note
 from scanbench.check.body.targets import declared_target
 from scanbench.check.body.variables import is_broken
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import decode
 from scanbench.check.system.system_text import STOP
 from scanbench.check.uses import variable_symbol
@@ -131,7 +131,7 @@ def _formal(
     if member is None and (owner.open or is_broken(body, owner, name)):
         raise Rejected
     if member is None:
-        hint = did_you_mean(name, [each.name for each in formals])
+        hint = body.report.near(name, lambda: [each.name for each in formals], f"argument of {callee}")
         raise body.report.reject("T004", f"`{callee}` has no argument `{name}`.{hint}", argument.span)
     if argument.output != (member.given is Section.OUTPUT):
         arrow = "=>" if member.given is Section.OUTPUT else ":="

@@ -7,7 +7,7 @@ from scanbench.check.body.methods import send
 from scanbench.check.body.objects import dotted
 from scanbench.check.body.receivers import Receiver, is_qualified, method_called
 from scanbench.check.body.standard_calls import standard_call
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Method
 from scanbench.check.declare.names import Names
 from scanbench.check.standard.functions import FUNCTIONS
@@ -67,7 +67,7 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
     if not isinstance(node.callee, tree.Name):
         path = dotted(node.callee)
         if path is not None and _is_qualified_name(body, node.callee):
-            hint = did_you_mean(path, [pou.name for pou in body.pous.functions.values()])
+            hint = body.report.near(path, lambda: [pou.name for pou in body.pous.functions.values()], "function by path")
             raise body.report.reject("T001", f"There is no function `{path}`.{hint}", node.span)
         _no_value(body, node.callee)
         raise body.report.reject(
@@ -92,8 +92,7 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         if key not in FUNCTIONS:
             body.report.use(node.callee.span, name, Symbol("function", "", key))
         return standard
-    known = [*(pou.name for pou in body.pous.functions.values() if not pou.name.startswith("__")), *FUNCTIONS]
-    hint = did_you_mean(name, known)
+    hint = body.report.near(name, lambda: _known(body), "function")
     if body.declarations.find_type(name, node.span) in body.declarations.block_trees:
         hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
     untyped = {(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken
@@ -102,6 +101,11 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
     if body.scope.find(name) is not None:
         raise body.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
     raise body.report.reject("T001", f"There is no function `{name}`.{hint}", node.span)
+
+
+def _known(body: Body) -> list[str]:
+    """Names of functions."""
+    return [*(pou.name for pou in body.pous.functions.values() if not pou.name.startswith("__")), *FUNCTIONS]
 
 
 def _is_qualified_name(body: Body, callee: tree.Expression) -> bool:

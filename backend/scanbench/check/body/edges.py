@@ -9,6 +9,8 @@ from scanbench.program.types import BOOL, Record
 def edges(record: Record) -> tuple[Stmt, ...]:
     """What a block's body begins with; see `specs.place_edge` for the hidden variables."""
     made: list[Stmt] = []
+    if not any(key.endswith("_EDGE") and "$" in key for key in record.members):
+        return ()
     for member in record.members.values():
         for edge in ("R", "F"):
             found = record.members.get(f"{member.name}${edge}_EDGE".upper())

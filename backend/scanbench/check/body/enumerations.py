@@ -1,7 +1,6 @@
 """Names of the values of enumerations -> constants."""
 
 from scanbench.check.body.context import Body
-from scanbench.check.context import did_you_mean
 from scanbench.check.uses import Symbol, prefix_of, value_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const
@@ -55,7 +54,7 @@ def value_of_type(body: Body, type_name: str, name: str, span: Span) -> Const:
         raise body.report.reject("S004", f"`{type_name}` is {type}, not an enumeration with `{name}`.", span)
     value = _value(type, name)
     if value is None:
-        hint = did_you_mean(name, [each for each, _ in type.values])
+        hint = body.report.near(name, lambda: [each for each, _ in type.values], f"value of {type}")
         raise body.report.reject("T001", f"{type} has no value `{name}`.{hint}", span)
     body.report.use(span, name, value_symbol(type, name))
     return value

@@ -13,7 +13,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.forms import FORMS
 from scanbench.check.body.il_flow import BROKEN, NOTHING, Current, Flow, Label
 from scanbench.check.body.il_operands import BINARY, callee, hidden, literal, negated, shown, type_of, wanted_by
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt
@@ -288,7 +288,7 @@ class InstructionList:
         labels = self._flow.labels
         if not isinstance(operand, tree.Name) or operand.name.upper() not in labels:
             written = operand.name if isinstance(operand, tree.Name) else "this"
-            hint = did_you_mean(written, [label.name for label in labels.values()])
+            hint = self._report.near(written, lambda: [label.name for label in labels.values()], "label")
             raise self._report.reject("T001", f"There is no label `{written}` to jump to.{hint}", operand.span)
         if self._open:
             raise self._report.reject("T010", "JMP is inside parentheses; close them with `)` first.", node.span)
@@ -338,7 +338,7 @@ class InstructionList:
         if node.operator in MNEMONICS:
             return False
         inputs = [each.name for each in record.members.values() if each.section is Section.INPUT and not each.hidden]
-        hint = did_you_mean(node.operator, inputs)
+        hint = self._report.near(node.operator, lambda: inputs, f"input of {record.name}")
         raise self._report.reject("T001", f"{record.name} has no input `{node.operator}`.{hint}", node.span)
 
     def _feed(self, node: tree.IlInstruction) -> None:
@@ -392,7 +392,7 @@ class InstructionList:
         if pou is None and not (
             name in FUNCTIONS or name in FORMS or "_" in name or "." in name or conversions.parse_name(name)
         ):
-            hint = did_you_mean(name, [*MNEMONICS, *(each.name for each in functions.values()), *FUNCTIONS])
+            hint = self._report.near(name, lambda: [*MNEMONICS, *(each.name for each in functions.values()), *FUNCTIONS], "operator")
             raise self._report.reject("T001", f"There is no operator or function `{name}`.{hint}", node.span)
         return pou
 

@@ -7,7 +7,6 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.enumerations import typed
 from scanbench.check.body.lenient import enumerated
 from scanbench.check.body.subrange_checks import into
-from scanbench.check.context import did_you_mean
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Const, Expr, Intrinsic
@@ -81,7 +80,7 @@ def _typed(body: Body, node: tree.Literal, name: str) -> Const:
             return text
     type = ABBREVIATIONS.get(name.upper()) or ELEMENTARY.get(name.upper())
     if type is None:
-        known = did_you_mean(name, [*ELEMENTARY, *body.declarations.type_trees])
+        known = body.report.near(name, lambda: [*ELEMENTARY, *body.declarations.type_trees], "type")
         if body.declarations.find_type(name, node.span) is None:
             raise body.report.reject("D002", f"There is no type `{name}` for a literal.{known}", node.span)
         typed(body, name, node.span)

@@ -2,8 +2,9 @@
 
 from scanbench.check.body import fold, wide
 from scanbench.check.body.allowed import may
-from scanbench.check.body.coercion import coerce, conversion_hint
+from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.joining_hint import joining_hint
 from scanbench.check.body.lenient import LOGIC, counted, index, logical
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
 from scanbench.check.body.references import compare_references, pointer_arithmetic
@@ -136,7 +137,7 @@ def _same(
     assert isinstance(right.type, Elementary)
     type_or_none = common(left.type, right.type)
     if type_or_none is None:
-        hint = conversion_hint(right.type, left.type)
+        hint = joining_hint(op, left.type, right.type)
         raise body.report.reject("T002", f"`{OPERATORS[op]}` cannot join {left.type} and {right.type}.{hint}", span)
     return wide.converted(body, type_or_none, left), wide.converted(body, type_or_none, right), type_or_none
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from scanbench.check.body.context import Body
 from scanbench.check.body.objects import dotted, named_itself, own_class
 from scanbench.check.body.variables import is_broken
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class, Method
 from scanbench.program.program import Base, Expr, Load, Place
 from scanbench.program.sites import TrapKind
@@ -50,13 +50,8 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
             return None
         if record is not None and (record.open or is_broken(body, record, node.name)):
             raise Rejected
-        known = [each.declaration.name for parent in (receiver.owner, *receiver.owner.ancestors())
-                 for each in parent.methods.values()]  # fmt: skip
-        raise body.report.reject(
-            "T001",
-            f"`{receiver.owner.name}` has no method `{node.name}`.{did_you_mean(node.name, known)}",
-            node.span,
-        )
+        hint = body.report.near(node.name, receiver.owner.method_names, f"method of {receiver.owner.name}")
+        raise body.report.reject("T001", f"`{receiver.owner.name}` has no method `{node.name}`.{hint}", node.span)
     body.report.use(node.span, node.name, method.symbol)
     return receiver, method
 

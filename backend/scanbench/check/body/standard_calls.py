@@ -11,7 +11,6 @@ from scanbench.check.body.lenient import inverted, shifted
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, integer, ordered
 from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel
-from scanbench.check.context import did_you_mean
 from scanbench.check.dialect import Allowance
 from scanbench.check.standard.functions import (
     FUNCTIONS,
@@ -233,7 +232,7 @@ def _misspelt(body: Body, node: tree.Call, name: str) -> None:
     known = [*ELEMENTARY, *conversions.SHORT, *conversions.STRINGS]
     for part, other in ((target, source), (source, target)):
         if other in known and part and part not in known:
-            hint = did_you_mean(part, known)
+            hint = body.report.near(part, lambda: known, "part of a conversion")
             raise body.report.reject(
                 "T001", f"There is no function `{name}`: `{part}` is no type to convert.{hint}", node.span
             )

@@ -1,7 +1,7 @@
 """Names -> variables, as they are declared."""
 
 from scanbench.check.body.context import Body, Found
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import place_of
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
@@ -54,18 +54,26 @@ def undeclared(body: Body, name: str, span: Span) -> Rejected:
         )
     if block is not None:
         return body.report.reject("T010", f"`{name}` is a type; declare an instance of it in VAR.", span)
-    known = [*body.scope.names(), *(pou.name for pou in body.pous.functions.values())]
-    hint = did_you_mean(name, [*known, *body.declarations.values.names()])
+    hint = body.report.near(name, lambda: _known(body), "variable")
     if body.declarations.model.locate(name) is not None:  # after AT it needs no percent sign
         hint += f" The address of the PLC is written `%{name}` in statements; or declare a variable AT it."
     return body.report.reject("T001", f"`{name}` is not declared.{hint}", span)
+
+
+def _known(body: Body) -> list[str]:
+    functions = (pou.name for pou in body.pous.functions.values())
+    return [*body.scope.names(), *functions, *body.declarations.values.names()]
+
+
+def _shown(record: Record) -> list[str]:
+    return [each.name for each in record.members.values() if not each.hidden]
 
 
 def no_member(body: Body, record: Record, node: tree.MemberOf) -> Rejected:
     """Reports a member that is not there, unless its declaration was reported."""
     if record.open or is_broken(body, record, node.name):
         return Rejected()
-    hint = did_you_mean(node.name, [each.name for each in record.members.values() if not each.hidden])
+    hint = body.report.near(node.name, lambda: _shown(record), f"member of {record.name}")
     return body.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from scanbench.check.context import Report, did_you_mean
+from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Classes, Method
 from scanbench.problems import Span
 from scanbench.program.types import ArrayType, Member, Record, Section, Type
@@ -56,11 +56,11 @@ def _check_method(method: Method, report: Report) -> None:
     for section in declaration.sections:
         if section.keyword == "VAR_INST":
             report.error("X001", f"VAR_INST is not supported; declare the variable in `{owner.name}`.", section.span)
-    above = next((found for each in owner.ancestors() if (found := each.methods.get(method.key))), None)
+    key = method.key
+    above = next((found for each in owner.ancestors() if (found := each.methods.get(key))), None)
     if above is None:
         if "OVERRIDE" in modifiers and not owner.open:
-            known = [each.declaration.name for parent in owner.ancestors() for each in parent.methods.values()]
-            hint = did_you_mean(declaration.name, known)
+            hint = report.near(declaration.name, owner.inherited_names, f"method above {owner.name}")
             report.error("D014", f"`{method.name}` has nothing to OVERRIDE.{hint}", declaration.span)
         return
     if "FINAL" in above.declaration.modifiers:
@@ -79,7 +79,7 @@ def _check_complete(owner: Class, report: Report) -> None:
     """A class of which there are instances has a body for every method."""
     missing: dict[str, Method] = {}
     for parent in owner.ancestors():
-        for key, method in parent.methods.items():
+        for key, method in parent.methods.items() if parent.abstract else ():
             found = owner.find(key)
             if found is not None and found.abstract:
                 missing.setdefault(key, method)

@@ -1,9 +1,9 @@
 """Blocks, classes and interfaces as objects: who extends and implements whom, and which method a call reaches."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
@@ -59,6 +59,7 @@ class Class:
     """Its own, by key."""
     refused: bool = False
     """Something that it extends or implements was refused."""
+    _above: tuple["Class", ...] | None = None
 
     @property
     def kind(self) -> str:
@@ -78,20 +79,51 @@ class Class:
         """As `Record.open`."""
         return self.refused or any(each.refused for each in self.ancestors())
 
-    def ancestors(self) -> Iterator["Class"]:
-        """What it extends and implements, the nearest first; not itself."""
-        for parent in (*((self.base,) if self.base else ()), *self.interfaces):
-            yield parent
-            yield from parent.ancestors()
+    def ancestors(self) -> Sequence["Class"]:
+        """What it extends and implements, each once, the nearest first; not itself."""
+        return self._above if self._above is not None else list(self.walk())
+
+    def walk(self, fine: Collection["Class"] = ()) -> Iterator["Class"]:
+        """The same while links may still change; nothing that is above one of these."""
+        open_, found = self._parents(), set(fine)
+        while open_:
+            each = open_.pop()
+            if each not in found:
+                found.add(each)
+                yield each
+                open_ += each._parents()
+
+    def settle(self) -> None:
+        """Keeps its ancestors: links do not change any more. A chain of bases may be long."""
+        chain: list[Class] = []
+        each: Class | None = self
+        while each is not None and each._above is None:
+            chain.append(each)
+            each = each.base
+        for each in reversed(chain):
+            base = each.base
+            if base is not None and base._above is not None and not each.interfaces:
+                each._above = (base, *base._above)
+            else:
+                each._above = tuple(each.walk())
+
+    def _parents(self) -> list["Class"]:
+        """What it extends comes last, so that it is the next to be looked at."""
+        return [*reversed(self.interfaces), self.base] if self.base else self.interfaces[::-1]
 
     def find(self, key: str) -> Method | None:
         """The method that a call on an instance of exactly this reaches; an abstract one only where no other is."""
         if key in self.methods:
             return self.methods[key]
-        found = self.base.find(key) if self.base else None
-        for interface in self.interfaces:
-            found = found or interface.find(key)
-        return found
+        return next((each.methods[key] for each in self.ancestors() if key in each.methods), None)
+
+    def method_names(self) -> list[str]:
+        """Of its methods and of those that it inherits."""
+        return [*(each.declaration.name for each in self.methods.values()), *self.inherited_names()]
+
+    def inherited_names(self) -> list[str]:
+        """Of the methods of what it extends and implements."""
+        return [each.declaration.name for above in self.ancestors() for each in above.methods.values()]
 
     def family(self) -> list["Class"]:
         """Itself and all that extend or implement it, each once, in order of declaration."""
@@ -155,8 +187,12 @@ def collect(declarations: Declarations) -> Classes:
     for each in made.by_key.values():
         if each.declaration.extends or each.declaration.implements:
             _link(each, made, declarations)
+    fine: set[Class] = set()
     for each in made.by_key.values():
-        _cut_circle(each, declarations)
+        _cut_circle(each, declarations, fine)
+        fine.add(each)
+    for each in made.by_key.values():
+        each.settle()
     declarations.inherit = _Inherit(made, declarations)
     return made
 
@@ -183,10 +219,9 @@ def _parent(named: tree.NamedType, keyword: str, owner: Class, classes: Classes,
         key = declarations.names.find(name, declaration.span, declarations.block_trees)
     if key is None:
         interface = keyword == "IMPLEMENTS" or owner.kind == "interface"
-        known = [each.name for each in classes.by_key.values() if (each.kind == "interface") == interface]
-        raise report.reject(
-            "D002", f"There is no {_wanted(owner, keyword)} `{name}`.{did_you_mean(name, known)}", declaration.span
-        )
+        every = classes.by_key.values()
+        hint = report.near(name, lambda: [each.name for each in every if (each.kind == "interface") == interface], keyword)
+        raise report.reject("D002", f"There is no {_wanted(owner, keyword)} `{name}`.{hint}", declaration.span)
     parent = classes.by_key[key]
     report.use(named.span, name, Symbol("pou", "", key))
     fits = {
@@ -216,20 +251,15 @@ def shown(kind: str) -> str:
     return {"get": "GET of a property", "set": "SET of a property"}.get(kind, kind.upper())
 
 
-def _cut_circle(owner: Class, declarations: Declarations) -> None:
-    open_, seen = [*([owner.base] if owner.base else []), *owner.interfaces], set()
-    while open_:
-        each = open_.pop()
-        if each is owner:
-            declarations.report.error("D003", f"`{owner.name}` extends itself.", owner.declaration.span)
-            for parent in (owner.base, *owner.interfaces):
-                if parent is not None:
-                    parent.heirs.remove(owner)
-            owner.base, owner.interfaces, owner.refused = None, [], True
-            return
-        if each not in seen:
-            seen.add(each)
-            open_ += [*([each.base] if each.base else []), *each.interfaces]
+def _cut_circle(owner: Class, declarations: Declarations, fine: set[Class]) -> None:
+    """`fine`: those that were looked at; nothing above them is in a circle with something else."""
+    if owner not in owner.walk(fine):
+        return
+    declarations.report.error("D003", f"`{owner.name}` extends itself.", owner.declaration.span)
+    for parent in (owner.base, *owner.interfaces):
+        if parent is not None:
+            parent.heirs.remove(owner)
+    owner.base, owner.interfaces, owner.refused = None, [], True
 
 
 @dataclass(slots=True)
@@ -249,7 +279,7 @@ class _Inherit:
         if record.base is None:
             record.place(Member(TYPE_NUMBER, UDINT, Section.VAR, declaration.span, hidden=True))
         else:
-            record.members = {key: replace(member) for key, member in record.base.members.items()}
+            record.members = {key: member.copy() for key, member in record.base.members.items()}
             record.size, record.align = record.base.size, record.base.align
         record.members[TYPE_NUMBER.upper()].initial = owner.number.to_bytes(4, "little")
 

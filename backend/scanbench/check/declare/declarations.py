@@ -5,7 +5,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from scanbench.check.context import Rejected, Report, did_you_mean
+from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified
 from scanbench.check.dialect import IEC, Dialect
@@ -17,6 +17,9 @@ from scanbench.program.types import ABBREVIATIONS, ELEMENTARY, NULL, Kind, Membe
 from scanbench.syntax import tree
 
 TYPE_NAMES = {**ELEMENTARY, **{name: ABBREVIATIONS[name] for name in ("TOD", "LTOD", "DT", "LDT")}}
+
+MAX_TYPES = 1500
+"""Types that contain each other, or blocks that extend each other, of which none is made yet."""
 
 ConstantOf = Callable[[tree.Expression, Type | None], Const]
 """Evaluates a constant expression, or rejects."""
@@ -71,6 +74,8 @@ class Declarations:
     _pending: list[str] = field(default_factory=list)
     """Keys of shells that wait to be completed."""
     _open: list[str] = field(default_factory=list)
+    _deep: set[str] = field(default_factory=set)
+    """Keys of those that were nested too deep."""
 
     def __post_init__(self) -> None:
         self.names = Names(self.report)
@@ -97,10 +102,18 @@ class Declarations:
             raise self.report.reject("D003", f"`{name}` contains itself ({path}), so it has no size.", span)
         declaration, block = self.type_trees.get(key), self.block_trees.get(key)
         if declaration is None and block is None:
-            hint = did_you_mean(name, [*TYPE_NAMES, *self.type_trees, *self.block_trees])
+            hint = self.report.near(name, lambda: [*TYPE_NAMES, *self.type_trees, *self.block_trees], "declared type")
             raise self.report.reject("D002", f"There is no type `{name}`.{hint}", span)
         origin = declaration or block
         assert origin is not None
+        if key in self._deep:
+            raise Rejected
+        if len(self._open) >= MAX_TYPES:
+            told = bool(self._deep)
+            self._deep.update(self._open)
+            if told:
+                raise Rejected
+            raise self.report.reject("S003", f"`{name}` is nested more than {MAX_TYPES} types deep; split this up.", span)
         self._open.append(key)
         try:
             with self.names.within(Space(origin.namespace, origin.using)):

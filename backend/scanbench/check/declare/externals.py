@@ -2,7 +2,7 @@
 
 from contextlib import suppress
 
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.names import Space
 from scanbench.check.declare.scopes import Scope
@@ -31,7 +31,7 @@ def externals_of(
                 report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
             known = visible.find(variable.name)
             if known is None:
-                hint = did_you_mean(variable.name, [each.name for each in variables.members.values()])
+                hint = report.near(variable.name, lambda: [each.name for each in variables.members.values()], "global")
                 report.error("D007", f"There is no VAR_GLOBAL `{variable.name}`.{hint}", variable.span)
                 continue
             report.use(variable.span, variable.name, variable_symbol(known[0], known[2]))

@@ -9,6 +9,7 @@ from scanbench.syntax import tree
 
 CALLED = ("function", "method", "get", "set")
 """POUs whose variables all live in a frame."""
+HOLDERS = {"function": "FUNCTION", "method": "METHOD", "get": "PROPERTY", "set": "PROPERTY"}
 
 
 def frame(
@@ -55,7 +56,7 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
                 continue
             member = declare(declared, record, variable, kind, constant)
             if member and kind is not Section.IN_OUT and has_instance(member.type):
-                what = "FUNCTION" if function else "VAR_TEMP"
+                what = HOLDERS.get(declaration.kind, "VAR_TEMP")
                 declared.report.error(
                     "D008", f"An instance of {member.type.name} must keep its state; not in a {what}.", member.span
                 )

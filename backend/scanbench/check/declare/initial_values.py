@@ -3,7 +3,7 @@
 import math
 import struct
 
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.uses import variable_symbol
 from scanbench.program.numbers import round_real
@@ -55,7 +55,7 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
         if member is None or member.section in (Section.IN_OUT, Section.OUTPUT) or member.located:
             if type.open or (type.name.upper(), name.upper()) in declared.broken:
                 raise Rejected
-            hint = did_you_mean(name, [each.name for each in type.members.values()])
+            hint = declared.report.near(name, lambda: [each.name for each in type.members.values()], f"member of {type.name}")
             raise declared.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
         declared.report.use(span, name, variable_symbol(member, type))
         declared.report.written.append(span)

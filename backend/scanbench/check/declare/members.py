@@ -68,7 +68,7 @@ def _declare(
     except Rejected:
         declared.broken.add((owner.name.upper(), key))
         return None
-    if section is not Section.IN_OUT and isinstance(made, Record) and made.name.upper() == owner.name.upper():
+    if section is not Section.IN_OUT and isinstance(made, Record) and _is(owner, made):
         declared.report.error("D003", f"`{owner.name}` contains itself, so it has no size.", variable.span)
         return None
     if isinstance(made, Record) and _is_program(declared, made):
@@ -149,6 +149,11 @@ def _place(declared: Declarations, owner: Record, member: Member, variable: tree
             declared.report.error("D008", f"{variable.edge}_EDGE is for BOOL in VAR_INPUT.", variable.span)
         else:
             place_edge(owner, member, variable.edge)
+
+
+def _is(owner: Record, made: Record) -> bool:
+    """Whether they are one type; those that are written out have the same name where they begin in the same line."""
+    return made.name.upper() == owner.name.upper() and not made.written_out
 
 
 def _is_program(declared: Declarations, record: Record) -> bool:
