@@ -31,6 +31,28 @@ def test_pous_with_errors_are_counted_apart_from_constructs() -> None:
     assert sum(each.refused.total() for each in reports) == 1
     lines = report_lines(reports)
     assert "1 of 3 POUs (33.3 %) have no error of their own" in lines
+    assert "1 of 3 POUs (33.3 %) run: neither they nor what they use has an error" in lines
     assert not any("100" in line for line in lines)
     found = [(each["pous"], each["pous_without_errors"]) for each in report_json(reports)]
     assert found == [(0, 0), (3, 1)]
+
+
+def test_a_pou_runs_where_nothing_that_it_uses_has_an_error() -> None:
+    texts = {
+        "Types.st": "TYPE Broken : STRUCT a : NOWHERE; END_STRUCT END_TYPE\nTYPE Fine : INT; END_TYPE\n",
+        "Blocks.st": """FUNCTION_BLOCK Inner
+VAR b : Broken; END_VAR
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Outer
+VAR i : Inner; END_VAR
+i();
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Other
+VAR f : Fine; END_VAR
+f := 1;
+END_FUNCTION_BLOCK
+""",
+    }
+    reports = report_files(texts, check_sources(texts, MODELS["GENERIC-IEC"]).problems)
+    assert [(each.name, each.pous, each.run) for each in reports] == [("Types.st", 0, 0), ("Blocks.st", 3, 1)]
+    assert [each["pous_that_run"] for each in report_json(reports)] == [0, 1]
