@@ -31,6 +31,7 @@ from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.dialect import DIALECTS, IEC, Dialect
 from scanbench.check.order import Order
+from scanbench.check.recursion import allow
 from scanbench.check.system.plant import Plant, plant_files
 from scanbench.check.system.stimuli import Stimuli
 from scanbench.check.system.system import System, system_of
@@ -427,5 +428,6 @@ class Checker:
 
     def _order(self, common: list[Pou]) -> list[Pou]:
         methods = [each.pou for each in self.pous.classes.methods() if each.pou is not None]
+        allow(self.report, self.pous)
         roots = (*self.pous.functions.values(), *self.pous.blocks.values(), *methods)
         return Order(self.report, self.pous).of([*common, *(pou for pou in roots if not pou.inline)])

@@ -1,4 +1,4 @@
-"""Callees before callers; recursion is refused, as every POU has one frame."""
+"""Callees before callers. Recursion is refused, as every POU has one frame, but for what `recursion.py` allows."""
 
 from collections.abc import Iterable
 
@@ -31,6 +31,8 @@ class Order:
         if self._state.get(pou) == 2:
             return
         if self._state.get(pou) == 1:
+            if pou.recursive:
+                return
             names = " -> ".join(each.name for each in [*self._path[self._path.index(pou) :], pou])
             self.report.error("D009", f"Recursion is not allowed: {names}.", pou.span)
             return

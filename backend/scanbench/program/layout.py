@@ -6,8 +6,8 @@
     ...   `state_size`: here the compared, hashed and recorded state ends; frames of temporaries follow
     size
 
-Recursion is refused, so every POU needs exactly one frame, and its place is known: temporaries have offsets like
-everything else, and an in-out can refer to one (a REF_TO cannot: it may outlive the call).
+Every POU needs exactly one frame, and its place is known, as recursion is refused or its frame is kept meanwhile (`Pou.recursive`):
+temporaries have offsets like everything else, and an in-out can refer to one (a REF_TO cannot: it may outlive the call).
 """
 
 from dataclasses import dataclass, field
@@ -57,6 +57,10 @@ class Layout:
     a different interval takes over; then it is set so that virtual time continues without a jump."""
     STARTED_AT: ClassVar[int] = 4056
     """i64 ns: virtual time of the scan STARTED."""
+    DEPTH: ClassVar[int] = 4064
+    """u32 calls of interfaces that are open, of those that may come back (`check/recursion.py`). A scan begins with 0."""
+    DEPTH_LIMIT: ClassVar[int] = 100
+    """Of them."""
     SUBRANGE_ERROR: ClassVar[int] = 4080
     """BOOL `_SubrangeError`: a violation since the program or a tool last cleared it."""
     SUBRANGE_COUNT: ClassVar[int] = 4084

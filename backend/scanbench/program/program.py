@@ -393,6 +393,9 @@ class Pou:
     frame_offset: int = 0
     inline: bool = False
     """Small and from the standard library: worth inlining at every call."""
+    recursive: bool = False
+    """It may be called while it runs. Then its caller keeps all that is in its frame before it stores the arguments, and puts
+    it back when outputs and result are read."""
     first_trap: int = 0
     """The numbers of trap sites in the body count from here: `Program.traps[first_trap + number - 1]`. So a body does not
     change when other POUs get more sites."""

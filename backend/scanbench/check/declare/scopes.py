@@ -7,7 +7,7 @@ from scanbench.check.declare.classes import Classes
 from scanbench.check.declare.names import Space
 from scanbench.plcmodel.model import Who
 from scanbench.program.own_variables import SYSTEM
-from scanbench.program.program import Base, Const, Place, Pou
+from scanbench.program.program import Base, Const, Place, Pou, Stmt
 from scanbench.program.types import (
     SLOT_BYTES,
     ULINT,
@@ -119,6 +119,8 @@ class Pous:
     """Those that are called, for each combination of types."""
     dispatchers: dict[str, Pou] = field(default_factory=dict)
     """Generated POUs that go on to the method or body of an instance's class, by name."""
+    plain: dict[Pou, tuple[Stmt, ...]] = field(default_factory=dict)
+    """What those of them are without counting that `recursion.py` makes count."""
     ambiguous: dict[str, list[str]] = field(default_factory=dict)
     """Global variables that several lists have, with the full names to choose from."""
     broken: set[str] = field(default_factory=set)

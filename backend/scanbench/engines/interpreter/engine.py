@@ -46,8 +46,9 @@ class ReferenceEngine(Engine):
         self._samplers: list[Sampler] = []
 
     def body(self, pou: Pou) -> Body:
-        """The body of a callee; `Program.pous` lists callees first."""
-        return self._bodies[pou]
+        """The body of a callee; `Program.pous` lists callees first, but for those that call each other."""
+        known = self._bodies.get(pou)
+        return known if known is not None else lambda instance: self._bodies[pou](instance)
 
     def _program(self, instance: ProgramInstance) -> Callable[[], None]:
         """One program instance of a task, with what is connected to it."""
@@ -186,6 +187,7 @@ class ReferenceEngine(Engine):
         memory[Layout.BUDGET : Layout.BUDGET + 8] = memory[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8]
         memory[Layout.INTERVAL : Layout.INTERVAL + 8] = self.program.interval_ns.to_bytes(8, "little")
         memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4] = bytes(4)
+        memory[Layout.DEPTH : Layout.DEPTH + 4] = bytes(4)
         for run in self._common:
             run()
         # 2 input refresh: the plant; inputs are also changed in the seam; forces

@@ -228,13 +228,19 @@ class Expressions(ABC):
                 given.append(self.evaluate(arg))
                 fill.append((putter(self.memory, member.type), at))
 
+        begin, end = callee.frame_offset, callee.frame_offset + callee.frame.size
+        memory = self.memory if callee.recursive else None
+
         def run(instance: int) -> Value:
             arguments = [value(instance) for value in given]
+            kept = b"" if memory is None else bytes(memory[begin:end])
             for (put, at), argument in zip(fill, arguments, strict=True):
                 put(at, argument)
             body(0)
             answer = result(0)
             returned = [read(0) for read, _ in outputs]
+            if memory is not None:
+                memory[begin:end] = kept
             for (_, write), value in zip(outputs, returned, strict=True):
                 write(instance, value)
             return answer

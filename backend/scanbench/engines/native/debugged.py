@@ -17,6 +17,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observer import NativeObserver
 from scanbench.engines.observe import Seen
 from scanbench.garbage import without_collection
+from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.symbols.sites import Sites
 
@@ -118,8 +119,9 @@ class NativeDebugEngine(NativeEngine, DebugEngine):
         self._flags = (ctypes.c_uint8 * max(len(self.sites.statements), 1))()
         self._map = (ctypes.c_uint8 * len(memory))()
         self._begin = (ctypes.c_uint8 * len(memory)).from_buffer_copy(memory)
-        # no POU calls itself, and the first frame is never in use
-        self._frames = (_Frame * (len(self.sites.bodies) + 2))()
+        # the first frame is never in use; a POU that may be called while it runs has several
+        nested = Layout.DEPTH_LIMIT * sum(pou.recursive for pou in program.pous)
+        self._frames = (_Frame * (len(self.sites.bodies) + 2 + nested))()
         self._callbacks = _STATEMENT(self._on_statement), _ACCESS(self._on_access)
         self._state = _State.from_address(self._code.variable(emit_debug.STATE.removeprefix("@")))
         self._state.size = len(memory)

@@ -21,8 +21,22 @@ class Effects:
         """Names of the variables that a run of the POU may write."""
         known = self._written.get(pou)
         if known is None:
-            known = self._written[pou] = self.written(pou.body)
+            known = self._written[pou] = self._around(pou) if pou.recursive else self.written(pou.body)
         return known
+
+    def _around(self, pou: Pou) -> frozenset[str]:
+        """Of a POU that may lead to itself: all that is written by what it leads to."""
+        names, found, open_ = set[str](), {pou}, [pou]
+        while open_:
+            own, callees = touched(open_.pop().body)
+            names |= own
+            for callee in callees:
+                if callee.recursive and callee not in found:
+                    found.add(callee)
+                    open_.append(callee)
+                elif not callee.recursive:
+                    names |= self.written_by(callee)
+        return frozenset(names)
 
     def written(self, statements: Iterable[Stmt]) -> frozenset[str]:
         """Names of the variables that these statements may write."""

@@ -3,12 +3,13 @@
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_function import Value
+from scanbench.engines.native.emit_memory import move
 from scanbench.engines.native.emit_places import address, reference
 from scanbench.engines.native.emit_strings import Piece, as_one, settled
 from scanbench.engines.native.emit_types import elementary, stored
 from scanbench.engines.native.emit_values import Bytes, Held, put, read, settle
 from scanbench.engines.native.registers import Parameter, Passing
-from scanbench.program.program import CallBlock, CallFunction, Expr, Load, Place, Sequence
+from scanbench.program.program import CallBlock, CallFunction, Expr, Load, Place, Pou, Sequence
 from scanbench.program.types import Elementary, Kind, StringType
 
 Argument = Expr | Place | None
@@ -78,15 +79,26 @@ def _call(body: Body, call: CallFunction) -> Held | None:
         if signature.result.passing is Passing.POINTER:
             given.append(f"ptr {room}")
     body.unit.flavour.calls(body, call.pou)
+    kept = _kept(body, call.pou)
     status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)}){body.swallow(call.pou)}")
     body.text.check_status(status)
     # all is read before the first is stored: finding out where may call this function again
-    disturbed = any(walk.address_disturbs(place) for _, _, place in outputs)
+    disturbed = bool(kept) or any(walk.address_disturbs(place) for _, _, place in outputs)
     values = [(read(body, pointer, each.member.type, disturbed), place) for each, pointer, place in outputs]
     result = read(body, room, signature.result.member.type, disturbed) if signature.result is not None else None
+    if kept:
+        move(body, body.text.address(body.image, call.pou.frame_offset), kept, call.pou.frame.size)
     for held, place in values:
         put(body, place, held)
     return result
+
+
+def _kept(body: Body, callee: Pou) -> str:
+    """A copy of the frame of what may run already; empty for what cannot."""
+    if not callee.recursive or not callee.frame.size:
+        return ""
+    room = body.text.alloca(f"[{callee.frame.size} x i8]")
+    return move(body, room, body.text.address(body.image, callee.frame_offset), callee.frame.size)
 
 
 def _room(body: Body, call: CallFunction, parameter: Parameter) -> str:

@@ -135,11 +135,13 @@ class FunctionText:
     def buffer(self, size: int) -> str:
         """Bytes until the statement ends.
 
-        Not on the stack, which strings and arrays may be too large for; as no POU calls itself, one place for each will do.
+        Not on the stack, which strings and arrays may be too large for; where no call of the POU is open, one place for each will do.
         """
         start = self._scratch_used
         self._scratch_used += -(-size // ALIGNMENT) * ALIGNMENT
         self.scratch_size = max(self.scratch_size, self._scratch_used)
+        if self.scratch.startswith("%"):  # on the stack: in which block it is needed is not known
+            return self.op(f"getelementptr inbounds i8, ptr {self.scratch}, i64 {start}")
         return f"getelementptr inbounds (i8, ptr {self.scratch}, i64 {start})" if start else self.scratch
 
     def end_statement(self) -> None:

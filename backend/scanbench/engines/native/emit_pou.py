@@ -1,7 +1,7 @@
 """One POU: a function of LLVM that returns 0 or the number of a trap."""
 
 from scanbench.engines.native import emit_expressions, emit_statements, inlining
-from scanbench.engines.native.emit_body import Body, Unit
+from scanbench.engines.native.emit_body import Body, TooLarge, Unit
 from scanbench.engines.native.emit_function import FunctionText, Value
 from scanbench.engines.native.emit_memory import canonical, move
 from scanbench.engines.native.emit_strings import Piece, assign
@@ -10,6 +10,8 @@ from scanbench.engines.native.registers import Parameter, Passing
 from scanbench.program.program import Base, Place, Pou
 from scanbench.program.types import MAX_STRING, StringType
 
+MOST_BUFFERED = 4096
+"""Bytes on the stack for each call of what may be called while it runs."""
 IMAGE = "ptr nonnull noundef align 8 dereferenceable({size}) %img"
 
 
@@ -29,6 +31,8 @@ def emit(unit: Unit, pou: Pou, image_size: int, linkage: str = "internal ") -> N
     symbol = unit.symbol(pou)
     scratch, first_trap = symbol.replace("p.", "t.", 1), symbol.replace("p.", "trap.", 1)
     start = f"define {linkage}{head(unit, pou, image_size)}{inlining.attribute(pou)} #0"
+    if pou.recursive:
+        scratch = "%scratch"
     text = FunctionText(start, scratch, first_trap)
     body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces, emit_statements.run)
     unit.flavour.enter(body)
@@ -43,9 +47,20 @@ def emit(unit: Unit, pou: Pou, image_size: int, linkage: str = "internal ") -> N
     text.begin(body.leave)
     unit.flavour.leave(body)
     text.do("ret i32 0")
-    if text.scratch_size:
+    if text.scratch_size and pou.recursive:  # each of its calls has buffers of its own
+        _check_buffers(pou, text.scratch_size)
+        text.entry.insert(0, f"  {scratch} = alloca [{text.scratch_size} x i8], align 16")
+    elif text.scratch_size:
         unit.reserve(pou, scratch, text.scratch_size)
     unit.module.add(text.text())
+
+
+def _check_buffers(pou: Pou, size: int) -> None:
+    if size > MOST_BUFFERED:
+        raise TooLarge(
+            f"`{pou.name}` may be called while it runs, and needs {size} bytes for strings, arrays and structures inside of "
+            f"one statement; at most {MOST_BUFFERED}: use smaller types, or several statements"
+        )
 
 
 def _registers(body: Body) -> None:

@@ -40,6 +40,8 @@ def _scan(unit: Unit, program: Program) -> str:
         f"store i64 {program.interval_ns}, ptr {_field(text, Layout.INTERVAL)}, align 8{unit.module.tag('#interval')}"
     )
     text.do(f"store i32 0, ptr {_field(text, Layout.ASKED_COUNT)}, align 8{unit.module.tag('#asked')}")
+    if any(pou.recursive for pou in program.pous):
+        text.do(f"store i32 0, ptr {_field(text, Layout.DEPTH)}, align 8{unit.module.tag('#depth')}")
     body.unit.flavour.silence(body, True)
     for instance in (*program.common, *program.plant):
         _program(body, instance)

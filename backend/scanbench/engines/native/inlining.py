@@ -26,12 +26,12 @@ def attribute(pou: Pou) -> str:
     """The LLVM attribute of the POU's function; none where LLVM may choose."""
     if pou.inline:
         return " alwaysinline"
-    return " noinline" if size(pou.body) > LARGE else ""
+    return " noinline" if size(pou.body) > LARGE or pou.recursive else ""
 
 
 def shared(pou: Pou) -> bool:
     """Whether modules that call it get a copy of the body, so that it may become part of the caller."""
-    return pou.inline or size(pou.body) <= LARGE
+    return pou.inline or (size(pou.body) <= LARGE and not pou.recursive)
 
 
 def size(statements: Iterable[Stmt]) -> int:

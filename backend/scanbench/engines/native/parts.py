@@ -92,18 +92,23 @@ class Parts:
         faces: dict[Pou, object] = {}
         writes: dict[Pou, frozenset[str]] = {}
         signatures: dict[Pou, Signature] = {}
-        emitter = Emitter(program, Effects(writes), signatures, flavour)
+        effects = Effects(writes)
+        emitter = Emitter(program, effects, signatures, flavour)
         sizes = program.layout.size, program.layout.state_size
         for pou in program.pous:
+            if pou.recursive:  # others may depend on it before its turn comes
+                around = bodies[pou] = self._body(pou, flavour)
+                faces[pou] = _face(emitter.names[pou], pou, around, effects.written_by(pou), ())
+        for pou in program.pous:
             body = bodies[pou] = self._body(pou, flavour)
-            writes[pou] = body.writes.union(*(writes[callee] for callee in body.callees))
+            writes[pou] = effects.written_by(pou) if pou.recursive else body.writes.union(*(writes[callee] for callee in body.callees))
             if body.signature is not None:
                 signatures[pou] = body.signature
             if pou in emitter.housed:
                 continue  # no POU calls a program
             called = tuple(faces[callee] for callee in body.callees)
             faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called)
-            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called, body.key)
+            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called, body.key, pou.recursive)
             known = self._emitted.get(pou)
             if known is None or known.depends != depends:
                 unit = emitter.pou(pou)
@@ -127,7 +132,7 @@ def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: obje
     how = body.signature
     passed = how and tuple((each.member.name, each.member.offset, each.passing) for each in how.all)
     inside = (body.same, called, body.key) if body.shared else None
-    return name, pou.frame_offset, passed, writes, inside
+    return name, pou.frame_offset, passed, writes, inside, pou.recursive and pou.frame.size
 
 
 def _fitting(parts: list[Part]) -> list[Part]:
