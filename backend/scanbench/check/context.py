@@ -138,7 +138,6 @@ class Report:
         """What was to be checked there needs no check."""
         self.checks[number - 1] = replace(self.checks[number - 1], needless=why)
 
-
     def near(self, name: str, known: Callable[[], Iterable[str]], kind: str = "") -> str:
         """` Did you mean ...?` or nothing. `kind` says what the name would be, so that the answer is found once in a POU.
 

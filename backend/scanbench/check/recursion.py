@@ -54,25 +54,33 @@ def _is_allowed(report: Report, circle: set[Pou], dispatchers: set[Pou], pous: P
         return False
     kept = sum(pou.frame.size for pou in circle)
     if kept > MOST_KEPT:
-        _refuse(report, circle, f"the variables of its calls take {kept} bytes; at most {MOST_KEPT}")
+        _refuse(report, rest, f"the variables of its calls take {kept} bytes, of which at most {MOST_KEPT} are kept")
         return True
     for pou in rest:
         for call in _calls(pou.body):
-            if call.pou in circle and any(_is_own(call, name, given) for name, given in zip(call.pou.parameters, call.args, strict=True)):
-                _refuse(report, circle, f"`{pou.name}` passes a variable of its own call to an in-out")
+            if call.pou in circle and any(
+                _is_own(call, name, given) for name, given in zip(call.pou.parameters, call.args, strict=True)
+            ):
+                _refuse(report, rest, f"`{pou.name}` passes a variable of its own call to an in-out")
                 return True
     return True
 
 
-def _refuse(report: Report, circle: set[Pou], why: str) -> None:
-    pou = min(circle, key=lambda each: (each.span.file, each.span.line, each.name))
+def _refuse(report: Report, pous: set[Pou], why: str) -> None:
+    pou = min(pous, key=lambda each: (each.span.file, each.span.line, each.name))
     report.error("D009", f"`{pou.name}` may lead to itself through an interface, and {why}.", pou.span)
 
 
 def _is_own(call: CallFunction, name: str, given: object) -> bool:
     """Whether an in-out is bound to a variable in the frame of the caller, which the next call would write over."""
     bound = call.pou.frame.members[name].section is Section.IN_OUT
-    return bound and isinstance(given, Place) and given.base is Base.FRAME and given.slot is None and given.reference is None
+    return (
+        bound
+        and isinstance(given, Place)
+        and given.base is Base.FRAME
+        and given.slot is None
+        and given.reference is None
+    )
 
 
 def _calls(node: object) -> Iterator[CallFunction]:

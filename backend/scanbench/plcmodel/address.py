@@ -81,8 +81,8 @@ def _iec(entry: IecMap, text: str, width: str, numbers: list[int]) -> Location:
         raise NoSuchPlace(f"{text!r}: only %{entry.letter}X has a bit after the dot")
     module, number = levels if len(levels) > 1 else (0, levels[0])
     if len(levels) > 1 and (number + 1) * size > MODULE_BYTES:
-        last = MODULE_BYTES // size - 1
-        raise NoSuchPlace(f"{text!r}: a module has {MODULE_BYTES} bytes, so the number after it goes up to {last}")
+        most = MODULE_BYTES // size - 1
+        raise NoSuchPlace(f"{text!r}: a module has {MODULE_BYTES} bytes, so the number after it goes up to {most}")
     byte = module * MODULE_BYTES + number * size
     if byte + size > entry.words * 2:
         last = f"{entry.words * 2 // size - 1}{'.7' if width == 'X' else ''}"

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Cursor
-from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
 from scanbench.syntax.foreign_files import parse_foreign
+from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import whole
 from scanbench.syntax.pragmas import in_out_pragmas

@@ -9,35 +9,43 @@ from scanbench.syntax.source import Source
 HEAD = 4000
 """Characters at the beginning that say what a file is."""
 ROOT = re.compile(r"\s*(?:<\?[^>]*>\s*|<!--.*?-->\s*|<!DOCTYPE[^>]*>\s*)*<([A-Za-z_][\w.:-]*)([^>]*)", re.DOTALL)
-BINARY = ("PK\x03\x04", "\xd0\xcf\x11\xe0", "ÐÏ\x11à")
-"""How archives begin, and the compound files of older tools."""
-COPY = "copy the declarations and statements into a file .st"
+BINARY = ("PK\x03\x04", "\xd0\xcf\x11\xe0", "\ufffd\ufffd\x11\ufffd")
+"""How archives begin, and the compound files of older tools; also where their bytes were no text."""
 ROOTS = {
-    "rslogix5000content": f"a file of Rockwell's Studio 5000 (L5X); {COPY}: its tags become VAR_GLOBAL",
-    "exportfile": f"an export of CODESYS (.export), which is not read; {COPY}",
-    "tcsmproject": "a project file of TwinCAT; give the folder that it is in: the .TcPOU, .TcDUT and .TcGVL files are read",
-    "document": f"a file of Siemens TIA Portal; export the block as source (.scl), or {COPY}",
+    "rslogix5000content": (
+        "This is a file of Rockwell's Studio 5000 (L5X), which is not read. Copy its Structured Text into a file .st, and "
+        "declare its tags in VAR_GLOBAL."
+    ),
+    "exportfile": "This is an export of CODESYS (.export), which is not read. Copy the declarations and statements into a file .st.",
+    "document": "This is a file of the TIA Portal, which is not read. Copy the declarations and statements into a file .st.",
+    "tcsmproject": (
+        "This is a project file of TwinCAT. Give the folder that it is in: its .TcPOU, .TcDUT and .TcGVL files are read."
+    ),
+    "project": (
+        "This is a project file of TwinCAT. Give the folder that it is in: its .TcPOU, .TcDUT and .TcGVL files are read."
+    ),
 }
 
 
 def parse_foreign(source: Source) -> tuple[tree.File, list[Problem]] | None:
     """One message for a whole file of this kind; None for a text that may be a program."""
-    what = _what(source.text[:HEAD])
-    if what is None:
-        return None
-    return tree.File(source.name), [Problem("X001", f"This is {what}.", source.span(0, 1))]
+    message = _what(source.text[:HEAD])
+    return None if message is None else (tree.File(source.name), [Problem("X001", message, source.span(0, 1))])
 
 
 def _what(head: str) -> str | None:
     head = head.lstrip("\ufeff")
     if head.startswith(BINARY):
-        return f"an archive or the project file of a tool (CODESYS: .project), and no text; open it there and {COPY}"
+        return (
+            "This is an archive or the project of a tool (CODESYS: .project), and no text. Open it there, and copy the "
+            "declarations and statements into a file .st."
+        )
     found = ROOT.match(head)
     if found is None:
         return None
-    tag, attributes = found[1].rpartition(":")[2].lower(), found[2]
-    if "plcopen.org" in attributes:
-        return f"a PLCopen XML file, which is not read yet; open it in the tool that it is from and {COPY}"
-    if tag == "project":
-        return "a project file of Visual Studio (TwinCAT: .plcproj); give the folder that it is in: the .TcPOU, .TcDUT and .TcGVL files are read"
-    return ROOTS.get(tag, f"XML (`{found[1][:40]}`), and no text of a program; {COPY}")
+    if "plcopen.org" in found[2]:
+        return "This is a PLCopen XML file, which is not read. Copy the declarations and statements into a file .st."
+    known = ROOTS.get(found[1].rpartition(":")[2].lower())
+    return known or (
+        f"This is XML (`{found[1][:40]}`), and no text of a program. Copy the declarations and statements into a file .st."
+    )

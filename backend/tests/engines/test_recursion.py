@@ -62,9 +62,11 @@ def link(program: Program, memories: list[bytearray], made: random.Random, back:
     for node in range(1, NODES + 1):
         for part in range(2):
             other = made.randint(1, NODES) if back else made.randint(node, NODES)
-            given = 0 if other == node and not back or made.random() < 0.4 else other
+            given = 0 if (other == node and not back) or made.random() < 0.4 else other
             for memory in memories:
-                memory[start + 4 * (node - 1) + 2 * part : start + 4 * (node - 1) + 2 * part + 2] = given.to_bytes(2, "little")
+                memory[start + 4 * (node - 1) + 2 * part : start + 4 * (node - 1) + 2 * part + 2] = given.to_bytes(
+                    2, "little"
+                )
 
 
 @pytest.mark.parametrize("whole", [True, False], ids=["one module", "a module for each POU"])

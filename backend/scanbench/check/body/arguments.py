@@ -131,7 +131,7 @@ def _formal(
     if member is None and (owner.open or is_broken(body, owner, name)):
         raise Rejected
     if member is None:
-        hint = body.report.near(name, lambda: [each.name for each in formals], f"argument of {callee}")
+        hint = body.report.near(name, lambda: [each.name for each in formals], f"argument:{callee}")
         raise body.report.reject("T004", f"`{callee}` has no argument `{name}`.{hint}", argument.span)
     if argument.output != (member.given is Section.OUTPUT):
         arrow = "=>" if member.given is Section.OUTPUT else ":="
@@ -235,7 +235,13 @@ def in_out(
 ) -> Place:
     """What an in-out of `owner` is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
     if value is None:
-        what = "output" if member.output else "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
+        what = (
+            "output"
+            if member.output
+            else "input"
+            if member.constant and isinstance(member.type, OpenArray)
+            else "in-out"
+        )
         raise body.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
     if member.constant:
         return _constant_in_out(body, member, value, before)

@@ -67,7 +67,7 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
     if not isinstance(node.callee, tree.Name):
         path = dotted(node.callee)
         if path is not None and _is_qualified_name(body, node.callee):
-            hint = body.report.near(path, lambda: [pou.name for pou in body.pous.functions.values()], "function by path")
+            hint = body.report.near(path, lambda: [pou.name for pou in body.pous.functions.values()], "path")
             raise body.report.reject("T001", f"There is no function `{path}`.{hint}", node.span)
         _no_value(body, node.callee)
         raise body.report.reject(

@@ -54,7 +54,7 @@ def value_of_type(body: Body, type_name: str, name: str, span: Span) -> Const:
         raise body.report.reject("S004", f"`{type_name}` is {type}, not an enumeration with `{name}`.", span)
     value = _value(type, name)
     if value is None:
-        hint = body.report.near(name, lambda: [each for each, _ in type.values], f"value of {type}")
+        hint = body.report.near(name, lambda: [each for each, _ in type.values], f"value:{type}")
         raise body.report.reject("T001", f"{type} has no value `{name}`.{hint}", span)
     body.report.use(span, name, value_symbol(type, name))
     return value

@@ -338,7 +338,7 @@ class InstructionList:
         if node.operator in MNEMONICS:
             return False
         inputs = [each.name for each in record.members.values() if each.section is Section.INPUT and not each.hidden]
-        hint = self._report.near(node.operator, lambda: inputs, f"input of {record.name}")
+        hint = self._report.near(node.operator, lambda: inputs, f"input:{record.name}")
         raise self._report.reject("T001", f"{record.name} has no input `{node.operator}`.{hint}", node.span)
 
     def _feed(self, node: tree.IlInstruction) -> None:
@@ -392,7 +392,9 @@ class InstructionList:
         if pou is None and not (
             name in FUNCTIONS or name in FORMS or "_" in name or "." in name or conversions.parse_name(name)
         ):
-            hint = self._report.near(name, lambda: [*MNEMONICS, *(each.name for each in functions.values()), *FUNCTIONS], "operator")
+            hint = self._report.near(
+                name, lambda: [*MNEMONICS, *(each.name for each in functions.values()), *FUNCTIONS], "operator"
+            )
             raise self._report.reject("T001", f"There is no operator or function `{name}`.{hint}", node.span)
         return pou
 

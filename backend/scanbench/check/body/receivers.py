@@ -50,7 +50,7 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
             return None
         if record is not None and (record.open or is_broken(body, record, node.name)):
             raise Rejected
-        hint = body.report.near(node.name, receiver.owner.method_names, f"method of {receiver.owner.name}")
+        hint = body.report.near(node.name, receiver.owner.method_names, f"method:{receiver.owner.name}")
         raise body.report.reject("T001", f"`{receiver.owner.name}` has no method `{node.name}`.{hint}", node.span)
     body.report.use(node.span, node.name, method.symbol)
     return receiver, method

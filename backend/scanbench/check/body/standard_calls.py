@@ -232,7 +232,7 @@ def _misspelt(body: Body, node: tree.Call, name: str) -> None:
     known = [*ELEMENTARY, *conversions.SHORT, *conversions.STRINGS]
     for part, other in ((target, source), (source, target)):
         if other in known and part and part not in known:
-            hint = body.report.near(part, lambda: known, "part of a conversion")
+            hint = body.report.near(part, lambda: known, "conversion")
             raise body.report.reject(
                 "T001", f"There is no function `{name}`: `{part}` is no type to convert.{hint}", node.span
             )

@@ -73,7 +73,7 @@ def no_member(body: Body, record: Record, node: tree.MemberOf) -> Rejected:
     """Reports a member that is not there, unless its declaration was reported."""
     if record.open or is_broken(body, record, node.name):
         return Rejected()
-    hint = body.report.near(node.name, lambda: _shown(record), f"member of {record.name}")
+    hint = body.report.near(node.name, lambda: _shown(record), f"member:{record.name}")
     return body.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
 
 

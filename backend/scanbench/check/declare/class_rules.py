@@ -60,7 +60,7 @@ def _check_method(method: Method, report: Report) -> None:
     above = next((found for each in owner.ancestors() if (found := each.methods.get(key))), None)
     if above is None:
         if "OVERRIDE" in modifiers and not owner.open:
-            hint = report.near(declaration.name, owner.inherited_names, f"method above {owner.name}")
+            hint = report.near(declaration.name, owner.inherited_names, f"inherited:{owner.name}")
             report.error("D014", f"`{method.name}` has nothing to OVERRIDE.{hint}", declaration.span)
         return
     if "FINAL" in above.declaration.modifiers:

@@ -220,7 +220,9 @@ def _parent(named: tree.NamedType, keyword: str, owner: Class, classes: Classes,
     if key is None:
         interface = keyword == "IMPLEMENTS" or owner.kind == "interface"
         every = classes.by_key.values()
-        hint = report.near(name, lambda: [each.name for each in every if (each.kind == "interface") == interface], keyword)
+        hint = report.near(
+            name, lambda: [each.name for each in every if (each.kind == "interface") == interface], keyword
+        )
         raise report.reject("D002", f"There is no {_wanted(owner, keyword)} `{name}`.{hint}", declaration.span)
     parent = classes.by_key[key]
     report.use(named.span, name, Symbol("pou", "", key))

@@ -102,7 +102,7 @@ class Declarations:
             raise self.report.reject("D003", f"`{name}` contains itself ({path}), so it has no size.", span)
         declaration, block = self.type_trees.get(key), self.block_trees.get(key)
         if declaration is None and block is None:
-            hint = self.report.near(name, lambda: [*TYPE_NAMES, *self.type_trees, *self.block_trees], "declared type")
+            hint = self.report.near(name, lambda: [*TYPE_NAMES, *self.type_trees, *self.block_trees], "declared")
             raise self.report.reject("D002", f"There is no type `{name}`.{hint}", span)
         origin = declaration or block
         assert origin is not None
@@ -113,7 +113,9 @@ class Declarations:
             self._deep.update(self._open)
             if told:
                 raise Rejected
-            raise self.report.reject("S003", f"`{name}` is nested more than {MAX_TYPES} types deep; split this up.", span)
+            raise self.report.reject(
+                "S003", f"`{name}` is nested more than {MAX_TYPES} types deep; split this up.", span
+            )
         self._open.append(key)
         try:
             with self.names.within(Space(origin.namespace, origin.using)):

@@ -55,7 +55,9 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
         if member is None or member.section in (Section.IN_OUT, Section.OUTPUT) or member.located:
             if type.open or (type.name.upper(), name.upper()) in declared.broken:
                 raise Rejected
-            hint = declared.report.near(name, lambda: [each.name for each in type.members.values()], f"member of {type.name}")
+            hint = declared.report.near(
+                name, lambda: [each.name for each in type.members.values()], f"member:{type.name}"
+            )
             raise declared.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
         declared.report.use(span, name, variable_symbol(member, type))
         declared.report.written.append(span)

@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
@@ -48,7 +49,10 @@ class ReferenceEngine(Engine):
     def body(self, pou: Pou) -> Body:
         """The body of a callee; `Program.pous` lists callees first, but for those that call each other."""
         known = self._bodies.get(pou)
-        return known if known is not None else lambda instance: self._bodies[pou](instance)
+        return known if known is not None else partial(self._later, pou)
+
+    def _later(self, pou: Pou, instance: int) -> int:
+        return self._bodies[pou](instance)
 
     def _program(self, instance: ProgramInstance) -> Callable[[], None]:
         """One program instance of a task, with what is connected to it."""

@@ -101,7 +101,11 @@ class Parts:
                 faces[pou] = _face(emitter.names[pou], pou, around, effects.written_by(pou), ())
         for pou in program.pous:
             body = bodies[pou] = self._body(pou, flavour)
-            writes[pou] = effects.written_by(pou) if pou.recursive else body.writes.union(*(writes[callee] for callee in body.callees))
+            writes[pou] = (
+                effects.written_by(pou)
+                if pou.recursive
+                else body.writes.union(*(writes[callee] for callee in body.callees))
+            )
             if body.signature is not None:
                 signatures[pou] = body.signature
             if pou in emitter.housed:
