@@ -11,6 +11,7 @@ import sys
 from bench.run import PROGRAMS, BenchError, Result, run_bench
 
 SUBJECTS = (
+    "checking",
     "instances",
     "lsp",
     "pace",
