@@ -55,7 +55,9 @@ def main() -> None:
         found = len(check_sources({"main.st": text}, model).problems)
         figures[name] = perf_counter() - begin, found
     if given.json:
-        sys.stdout.write(json.dumps({name: {"seconds": took, "problems": found} for name, (took, found) in figures.items()}))
+        sys.stdout.write(
+            json.dumps({name: {"seconds": took, "problems": found} for name, (took, found) in figures.items()})
+        )
     for name, (took, found) in () if given.json else figures.items():
         sys.stdout.write(f"{name:50}{took:8.2f} s{found:7} problems\n")
 

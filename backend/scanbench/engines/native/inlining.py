@@ -18,8 +18,8 @@ DIVIDED, PIECE = 2000, 500
 
 
 def divided(pou: Pou) -> bool:
-    """Whether its body is compiled in pieces."""
-    return size(pou.body) > DIVIDED
+    """Whether its body is compiled in pieces. Each call of what may be called while it runs has buffers of its own instead."""
+    return not pou.recursive and size(pou.body) > DIVIDED
 
 
 def attribute(pou: Pou) -> str:
