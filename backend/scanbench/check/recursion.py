@@ -18,7 +18,7 @@ from scanbench.program.sites import TrapKind, TrapSite
 from scanbench.program.types import BOOL, LINT, UDINT, Section
 
 MOST_KEPT = 8192
-"""Bytes of the frames of one circle: what is kept for each call, on the stack of the engine."""
+"""Bytes of frames that one way around a circle may keep, on the stack of the engine."""
 DEPTH = Place(UDINT, Base.IMAGE, Layout.DEPTH, variable="#depth")
 BUDGET = Place(LINT, Base.IMAGE, Layout.BUDGET, variable="#budget")
 
@@ -52,7 +52,7 @@ def _is_allowed(report: Report, circle: set[Pou], dispatchers: set[Pou], pous: P
     inner = {pou: {callee: 1 for callee in pous.uses.get(pou, {}) if callee in rest} for pou in rest}
     if next(_circles(inner), None) is not None:
         return False
-    kept = sum(pou.frame.size for pou in circle)
+    kept = sum(callee.frame.size for pou in circle for callee in pous.uses.get(pou, {}) if callee in circle)
     if kept > MOST_KEPT:
         _refuse(report, rest, f"the variables of its calls take {kept} bytes, of which at most {MOST_KEPT} are kept")
         return True

@@ -35,6 +35,7 @@ class ReferenceEngine(Engine):
         self.observer = observer
         self.state_size = program.layout.state_size
         self.record = recorder(memory, program.layout.violations)
+        self._recursive = any(pou.recursive for pou in program.pous)
         self._bodies: dict[Pou, Body] = {}
         for pou in program.pous:
             body = Statements(self, pou).block(pou.body)
@@ -191,7 +192,8 @@ class ReferenceEngine(Engine):
         memory[Layout.BUDGET : Layout.BUDGET + 8] = memory[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8]
         memory[Layout.INTERVAL : Layout.INTERVAL + 8] = self.program.interval_ns.to_bytes(8, "little")
         memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4] = bytes(4)
-        memory[Layout.DEPTH : Layout.DEPTH + 4] = bytes(4)
+        if self._recursive:
+            memory[Layout.DEPTH : Layout.DEPTH + 4] = bytes(4)
         for run in self._common:
             run()
         # 2 input refresh: the plant; inputs are also changed in the seam; forces

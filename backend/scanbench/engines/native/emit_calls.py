@@ -97,7 +97,7 @@ def _kept(body: Body, callee: Pou) -> str:
     """A copy of the frame of what may run already; empty for what cannot."""
     if not callee.recursive or not callee.frame.size:
         return ""
-    room = body.text.alloca(f"[{callee.frame.size} x i8]")
+    room = body.text.room(body.unit.symbol(callee), callee.frame.size)  # in use during one call at a time
     return move(body, room, body.text.address(body.image, callee.frame_offset), callee.frame.size)
 
 

@@ -47,6 +47,7 @@ class FunctionText:
         self._count = 0
         self._failures: dict[str, str] = {}
         self._trapping_to = ""
+        self._rooms: dict[str, str] = {}
         self._addresses: dict[tuple[str, int], str] = {}
         """Those computed in this block."""
 
@@ -131,6 +132,13 @@ class FunctionText:
         name = f"%{self.name('a')}"
         self.entry.append(f"  {name} = alloca {type}, align {align}")
         return name
+
+    def room(self, name: str, size: int) -> str:
+        """Bytes on the stack that are the same wherever this name is asked for."""
+        known = self._rooms.get(name)
+        if known is None:
+            known = self._rooms[name] = self.alloca(f"[{size} x i8]")
+        return known
 
     def buffer(self, size: int) -> str:
         """Bytes until the statement ends.
