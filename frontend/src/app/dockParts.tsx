@@ -1,5 +1,13 @@
 import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewPanelProps } from "dockview-react";
-import { type FunctionComponent, type MouseEvent, type ReactNode, useEffect } from "react";
+import {
+  type FunctionComponent,
+  type MouseEvent,
+  type ReactNode,
+  useCallback,
+  useEffect,
+  useState,
+  useSyncExternalStore,
+} from "react";
 import { baseName } from "../logic/format/paths";
 import { isPanelFile, panelName } from "../logic/project/panelFiles";
 import { ConsolePanel } from "../panels/debug/console/ConsolePanel";
@@ -24,6 +32,7 @@ import { isDirty, useDocuments } from "../store/project/documents";
 import { t } from "../text";
 import { Boundary } from "../ui/Boundary";
 import { Icon, type IconName } from "../ui/Icon";
+import { InSight } from "../ui/inSight";
 import type { Pou } from "../wire/types";
 import { closeByHand } from "./closing";
 import { fileOf } from "./layout";
@@ -50,12 +59,35 @@ const panels = {
   ...pageComponents,
 };
 
-/** What fails in one panel ends that panel only. */
-const bounded = (Panel: FunctionComponent<IDockviewPanelProps>) => (props: IDockviewPanelProps) => (
-  <Boundary>
-    <Panel {...props} />
-  </Boundary>
-);
+/** A panel is loaded when it is first shown, and knows whether it is in sight. What fails in it ends that panel only. */
+const bounded = (Panel: FunctionComponent<IDockviewPanelProps>) =>
+  function Bounded(props: IDockviewPanelProps) {
+    const { inSight, seen } = useSeen(props.api);
+    if (!seen) return null;
+    return (
+      <Boundary>
+        <InSight value={inSight}>
+          <Panel {...props} />
+        </InSight>
+      </Boundary>
+    );
+  };
+
+function useSeen(api: IDockviewPanelProps["api"]): { inSight: boolean; seen: boolean } {
+  const inSight = useSyncExternalStore(
+    useCallback(
+      (tell) => {
+        const listening = api.onDidVisibilityChange(tell);
+        return () => listening.dispose();
+      },
+      [api],
+    ),
+    () => api.isVisible,
+  );
+  const [seen, setSeen] = useState(inSight);
+  if (inSight && !seen) setSeen(true);
+  return { inSight, seen };
+}
 
 export const components = Object.fromEntries(
   Object.entries<FunctionComponent<IDockviewPanelProps>>(panels).map(([name, panel]) => [name, bounded(panel)]),

@@ -63,11 +63,16 @@ export function restoreLayout(dock: DockviewApi, kept: unknown): void {
 /** Shows a file: in its own panel if it has one, else in a new panel beside the other files. */
 export function openFilePanel(dock: DockviewApi, path: string): void {
   const known = dock.getPanel(FILE + path);
-  if (known) {
-    known.api.setActive();
-    return;
-  }
-  addFile(dock, path, false);
+  if (known) toFront(known);
+  else addFile(dock, path, false);
+}
+
+/** The dock puts the element of a panel in its place again even where it is there already, and what was in focus in it loses it. */
+function toFront(panel: IDockviewPanel): void {
+  const { activeElement: focused } = document;
+  if (!panel.api.isActive) panel.api.setActive();
+  if (focused instanceof HTMLElement && focused.isConnected && document.activeElement === document.body)
+    focused.focus();
 }
 
 /** Opens a file that nobody asked for: a page that somebody opened meanwhile stays the one that is shown. */

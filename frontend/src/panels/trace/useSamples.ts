@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState } from "react";
 import { appended, decode, type Samples } from "../../logic/trace/samples";
 import { isRecording, readSamples, type Shown, shownOf, useTraces, viewOf, wholeOf } from "../../store/trace/traces";
+import { useLookedAt } from "../../ui/inSight";
 
 const PERIOD = 100;
 const WHOLE_PERIOD = 1000;
@@ -31,12 +32,13 @@ export function useSamples(shown: Shown | null): { samples: Samples | null; whol
   const [outline, setOutline] = useState<{ key: string; samples: Samples } | null>(null);
   const now = useRef<Held | null>(null);
   const key = shown ? keyOf(shown) : "";
+  const lookedAt = useLookedAt();
 
   useEffect(() => {
     let stopped = false;
     let timer: ReturnType<typeof setTimeout>;
     const turn = async () => {
-      if (document.visibilityState === "visible") {
+      if (lookedAt()) {
         const next = await fetched(key, now.current);
         if (!stopped && next && next !== now.current) {
           now.current = next;
@@ -50,7 +52,7 @@ export function useSamples(shown: Shown | null): { samples: Samples | null; whol
       stopped = true;
       clearTimeout(timer);
     };
-  }, [key]);
+  }, [key, lookedAt]);
 
   useEffect(() => {
     let stopped = false;
@@ -58,7 +60,7 @@ export function useSamples(shown: Shown | null): { samples: Samples | null; whol
     let end = -1;
     const turn = async () => {
       const about = shownOf(useTraces.getState());
-      if (about && keyOf(about) === key && about.end !== end && document.visibilityState === "visible") {
+      if (about && keyOf(about) === key && about.end !== end && lookedAt()) {
         const data = await readSamples(about.source, 0, null, OVERVIEW);
         if (!stopped && data) {
           end = about.end;
@@ -72,7 +74,7 @@ export function useSamples(shown: Shown | null): { samples: Samples | null; whol
       stopped = true;
       clearTimeout(timer);
     };
-  }, [key]);
+  }, [key, lookedAt]);
 
   return {
     samples: held?.key === key ? held.samples : null,

@@ -1,9 +1,13 @@
 /** Steps of the debugger: the requests of buttons and keys, and whose view follows a halt. */
 import { create } from "zustand";
 import { permits } from "../../logic/debug/stepping";
+import { lineIn } from "../../logic/plc/sourceLines";
 import { isPaced } from "../../logic/verify/verify";
+import type { HaltInfo } from "../../wire/types";
 import { openFile } from "../page/navigate";
 import { usePlc } from "../plc/plc";
+import { useDocuments } from "../project/documents";
+import { shownText } from "../project/shownProgram";
 import { useVerify } from "../verify/verify";
 import { ask } from "./debug";
 import { caretPlace } from "./debugKeys";
@@ -67,5 +71,13 @@ usePlc.subscribe(({ state: now, you, users }, { state: before }) => {
   if (!halt || halt.file === "" || halt.number === before?.halt?.number) return;
   const alone = new Set(users.map(({ name }) => name)).size < 2;
   // In a stepwise verification the Verification panel shows the statement, so the editor does not cover it.
-  if ((alone || halt.by === you?.name) && !isStepwise()) openFile(halt.file);
+  if ((alone || halt.by === you?.name) && !isStepwise()) openFile(halt.file, lineToGoOn(halt));
 });
+
+/** Who types in the text of one file goes on in the file that comes in its place; the caret stays where the file is the same. */
+function lineToGoOn({ file, line }: HaltInfo): number | undefined {
+  const typing = document.activeElement?.closest("[data-pane='editor']");
+  if (!typing || useDocuments.getState().active === file) return undefined;
+  const { built, text } = shownText(file);
+  return lineIn(built, text, line);
+}

@@ -62,8 +62,12 @@ export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string
       if (now.breakpoints !== before.breakpoints) mark();
     }),
     useDocuments.subscribe((now, before) => {
-      if (now.build !== before.build && now.build.phase === "done" && now.build.ok && now.build.author === null) {
-        void moveBreakpoints(path, new Map(groups.flatMap((group) => group.all.map(({ id }) => [id, lineNow(group)]))));
+      if (now.build !== before.build && now.build.phase === "done" && now.build.ok) {
+        const lines = new Map(groups.flatMap((group) => group.all.map(({ id }) => [id, lineNow(group)])));
+        if (now.build.author === null) void moveBreakpoints(path, lines);
+        // The lines of the server are those of this text from here on; it may have put a breakpoint elsewhere than its mark was.
+        groups = [];
+        mark();
       }
       if (isDirty(now.open[path]) !== isDirty(before.open[path])) mark();
     }),
