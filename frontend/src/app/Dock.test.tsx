@@ -86,7 +86,7 @@ test("who types goes on in the file in which a step ends", async () => {
 });
 
 test("a panel is loaded when it is first shown, and stays loaded", () => {
-  let tell = () => undefined as void;
+  let tell: () => void = () => undefined;
   const api = {
     id: "trace",
     isVisible: false,
@@ -95,7 +95,7 @@ test("a panel is loaded when it is first shown, and stays loaded", () => {
       return { dispose: () => undefined };
     },
   };
-  const Trace = components["trace"];
+  const Trace = components.trace;
   if (!Trace) throw new Error("no such panel");
   const props = { api } as unknown as IDockviewPanelProps;
   const { container } = render(<Trace {...props} />);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Pou } from "../../wire/types";
-import { newFilePath, placeFor, pouGroups, shownAt, skeleton } from "./explorer";
+import { newFilePath, placeFor, pouGroups, shownAt } from "./explorer";
 
 const pous: Pou[] = [
   { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
@@ -63,9 +63,5 @@ describe("explorer", () => {
     expect(newFilePath("inputs.csv", [{ path: "plant/inputs.csv", version: 1, author: "Mika" }])).toBeNull();
     expect(placeFor("plant/inputs.csv")).toBe("plant/inputs.csv");
     expect(placeFor("Main.st")).toBe("Main.st");
-    expect(skeleton("plant/inputs.csv", "CIO0")).toContain("time; CIO0\n");
-    expect(skeleton("plant/tank.st")).toContain("PROGRAM tank");
-    expect(skeleton("FB_New.st")).toContain("FUNCTION_BLOCK FB_New");
-    expect(skeleton("Line 2.st")).toContain("PROGRAM Line_2");
   });
 });

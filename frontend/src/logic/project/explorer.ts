@@ -100,21 +100,5 @@ export function newFilePath(typed: string, existing: readonly FileInfo[]): strin
   return existing.some((file) => file.path.toLowerCase() === path.toLowerCase()) ? null : path;
 }
 
-/** The initial text of a new file, by its name; `input` is an address that a table can drive. */
-export function skeleton(path: string, input = "%IX0.0"): string {
-  if (isTable(path))
-    return `# What the inputs are, and when. A row holds until the next one.\ntime; ${input}\n0; 0\n500; 1\n`;
-  if (NAMED.test(path))
-    return "// What must happen when errors come and go, e.g.\n// battery-error:\n//   lamp within 3 scans\n";
-  if (XML_FILE.test(path)) return ""; // it is pasted as a whole: nobody types XML
-  const name = path
-    .replace(/^.*\//, "")
-    .replace(/\.[^.]*$/, "")
-    .replace(/[^\p{L}\d_]/gu, "_");
-  if (/^fb/i.test(name)) {
-    return `FUNCTION_BLOCK ${name}\nVAR_INPUT\nEND_VAR\nVAR_OUTPUT\nEND_VAR\nVAR\nEND_VAR\n\nEND_FUNCTION_BLOCK\n`;
-  }
-  if (/^(fc|fn|f_)/i.test(name)) return `FUNCTION ${name} : INT\nVAR_INPUT\nEND_VAR\n\n${name} := 0;\nEND_FUNCTION\n`;
-  if (/^(st_|t_|e_)/i.test(name)) return `TYPE\n  ${name} : STRUCT\n    value : INT;\n  END_STRUCT;\nEND_TYPE\n`;
-  return `PROGRAM ${name}\nVAR\nEND_VAR\n\nEND_PROGRAM\n`;
-}
+/** Whether a declaration of a chosen kind begins the file: a table, requirements and XML are none. */
+export const declares = (path: string) => !isTable(path) && !isRequirements(path) && !XML_FILE.test(path);

@@ -2,8 +2,8 @@
 
 import { messageOf } from "../../logic/format/messageOf";
 import { forbidden } from "../../logic/plc/permits";
-import { skeleton } from "../../logic/project/explorer";
 import { isPanelFile } from "../../logic/project/panelFiles";
+import { skeleton } from "../../logic/project/skeleton";
 import { t } from "../../text";
 import { rest } from "../../wire/rest";
 import type { BuildResult, FileInfo, FileText } from "../../wire/types";

@@ -1,7 +1,8 @@
 /** A new project that runs at once, and projects as files. */
+
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
-import { skeleton } from "../../logic/project/explorer";
+import { skeleton } from "../../logic/project/skeleton";
 import { rest } from "../../wire/rest";
 import type { Project, ProjectArchive, ProjectTemplate } from "../../wire/types";
 import { saveFile } from "../page/download";

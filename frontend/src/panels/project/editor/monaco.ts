@@ -1,9 +1,9 @@
 /** Monaco, set up once: worker, language, and themes in the colours of the design's tokens. */
-import "monaco-editor/features/register.all";
-import { editor, languages } from "monaco-editor/editor";
+import { editor, KeyCode, KeyMod, languages } from "monaco-editor/editor";
 import EditorWorker from "monaco-editor/editor/editor.worker?worker";
 import { usePrefs } from "../../../store/page/prefs";
 import { t } from "../../../text";
+import "./features";
 import { configuration, LANGUAGE, tokenizer } from "./st";
 
 self.MonacoEnvironment = { getWorker: () => new EditorWorker() };
@@ -11,6 +11,12 @@ self.MonacoEnvironment = { getWorker: () => new EditorWorker() };
 languages.register({ id: LANGUAGE, extensions: [".st", ".iecst"], aliases: ["Structured Text", "ST"] });
 languages.setMonarchTokensProvider(LANGUAGE, tokenizer);
 languages.setLanguageConfiguration(LANGUAGE, configuration);
+
+// In a browser Monaco gives the definition this second key, which is that of the implementations, and names it in its menu.
+editor.addKeybindingRule({
+  keybinding: KeyMod.CtrlCmd | KeyCode.F12,
+  command: "-editor.action.revealDefinition",
+});
 
 const THEME = "scanbench";
 

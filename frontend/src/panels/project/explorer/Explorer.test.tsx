@@ -1,6 +1,6 @@
 import { fireEvent, render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
-import { button, textOf } from "../../../testing/find";
+import { box, button, textOf } from "../../../testing/find";
 import { folderEntry } from "../../../testing/folder";
 import { openPage } from "../../../testing/page";
 import { t } from "../../../text";
@@ -69,4 +69,23 @@ test("a dropped folder is added with what is below it, and it is said what was l
   expect(rows(t("file.added"))).toEqual(["Line/B.st", "Line/Deep/C.st", "plant/Line/Deep/in.csv"]);
   expect(places.at(-1)).toBe("file Line/B.st");
   await user.keyboard("{Escape}");
+});
+
+test("a new file is of the kind that its name says until somebody chooses, and in the chosen language", async () => {
+  const { server, user } = await openExplorer();
+  await user.click(button(t("file.new")));
+  const dialog = await screen.findByRole("dialog", { name: t("file.new") });
+  await user.type(box(t("file.name"), dialog), "FB_Belt");
+  const kind = within(dialog).getByRole<HTMLSelectElement>("combobox", { name: t("file.kind") });
+  expect(kind.value).toBe("function_block");
+  await user.selectOptions(kind, "type");
+  expect(within(dialog).queryByRole("radiogroup", { name: t("file.language") })).toBeNull();
+  await user.selectOptions(kind, "program");
+  await user.click(within(dialog).getByRole("radio", { name: t("file.language.IL") }));
+  await user.click(button(t("create"), dialog));
+  await waitFor(() => expect(screen.queryByRole("dialog")).toBeNull());
+  const [sent] = server.askedOf("PUT", `/projects/${server.instance.project.id}/files/FB_Belt.st`) as {
+    text: string;
+  }[];
+  expect(sent?.text).toMatch(/^PROGRAM FB_Belt\n[\s\S]*LD {3}enable/);
 });

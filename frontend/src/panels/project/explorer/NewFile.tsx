@@ -1,22 +1,36 @@
 import { useState } from "react";
-import { newFilePath, skeleton } from "../../../logic/project/explorer";
+import { declares, newFilePath } from "../../../logic/project/explorer";
+import {
+  hasBody,
+  KINDS,
+  kindOf,
+  LANGUAGES,
+  type NewKind,
+  type NewLanguage,
+  skeleton,
+} from "../../../logic/project/skeleton";
 import { openFile } from "../../../store/page/navigate";
 import { useBench } from "../../../store/plc/bench";
 import { createFile, useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Field } from "../../../ui/Field";
 import { FormDialog } from "../../../ui/FormDialog";
+import { Segments } from "../../../ui/Segments";
 
-/** Asks for a name and creates the file with the text that fits the name. */
+/** Asks for a name, for what is declared and in which language, and creates the file with a first text. */
 export function NewFile({ onClose }: { onClose: () => void }) {
   const files = useDocuments((documents) => documents.files);
   const input = useBench((bench) => bench.model?.areas[0]?.first);
   const [name, setName] = useState("");
+  const [chosen, setChosen] = useState<NewKind | null>(null);
+  const [language, setLanguage] = useState<NewLanguage>("ST");
+  const kind = chosen ?? kindOf(name);
+  const free = declares(name.trim());
 
   async function create(): Promise<void> {
     const path = newFilePath(name, files);
     if (path === null) throw new Error(t("file.badname"));
-    await createFile(path, skeleton(path, input));
+    await createFile(path, skeleton(path, { kind, language, ...(input === undefined ? {} : { input }) }));
     openFile(path, 1);
   }
 
@@ -28,7 +42,44 @@ export function NewFile({ onClose }: { onClose: () => void }) {
       onSubmit={create}
       onClose={onClose}
     >
-      {({ refused }) => <Field label={t("file.name")} value={name} onChange={setName} refused={refused} />}
+      {({ refused }) => (
+        <>
+          <Field label={t("file.name")} value={name} onChange={setName} refused={refused} />
+          {free ? (
+            <>
+              <Kind value={kind} onChoose={setChosen} />
+              {hasBody(kind) && <Language value={language} onChoose={setLanguage} />}
+            </>
+          ) : (
+            <p className="faint">{t("file.new.named")}</p>
+          )}
+        </>
+      )}
     </FormDialog>
+  );
+}
+
+function Kind({ value, onChoose }: { value: NewKind; onChoose: (kind: NewKind) => void }) {
+  return (
+    <label className="field">
+      <span>{t("file.kind")}</span>
+      <select className="inp" value={value} onChange={({ target }) => onChoose(target.value as NewKind)}>
+        {KINDS.map((kind) => (
+          <option key={kind} value={kind}>
+            {t(`file.kind.${kind}`)}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function Language({ value, onChoose }: { value: NewLanguage; onChoose: (language: NewLanguage) => void }) {
+  const words = LANGUAGES.map((language) => ({ value: language, word: t(`file.language.${language}`) }));
+  return (
+    <div className="field">
+      <span>{t("file.language")}</span>
+      <Segments label={t("file.language")} value={value} options={words} onChoose={onChoose} />
+    </div>
   );
 }

@@ -1,0 +1,71 @@
+/** The first text of a new file. */
+import { declares, isRequirements, isTable } from "./explorer";
+
+export const KINDS = ["program", "function_block", "function", "class", "interface", "type", "global"] as const;
+export type NewKind = (typeof KINDS)[number];
+
+export const LANGUAGES = ["ST", "IL"] as const;
+export type NewLanguage = (typeof LANGUAGES)[number];
+
+/** Only what has a body is written in a language. */
+export const hasBody = (kind: NewKind) => kind === "program" || kind === "function_block" || kind === "function";
+
+/** What a name says by the usual prefixes. */
+export function kindOf(path: string): NewKind {
+  const name = nameOf(path);
+  if (/^fb/i.test(name)) return "function_block";
+  if (/^(fc|fn|f_)/i.test(name)) return "function";
+  if (/^(st_|t_|e_)/i.test(name)) return "type";
+  return "program";
+}
+
+/** `input` is an address that a table can drive. */
+export function skeleton(
+  path: string,
+  { kind = kindOf(path), language = "ST", input = "%IX0.0" }: Partial<Chosen> = {},
+): string {
+  if (isTable(path))
+    return `# What the inputs are, and when. A row holds until the next one.\ntime; ${input}\n0; 0\n500; 1\n`;
+  if (isRequirements(path))
+    return "// What must happen when errors come and go, e.g.\n// battery-error:\n//   lamp within 3 scans\n";
+  if (!declares(path)) return ""; // it is pasted as a whole: nobody types XML
+  return (language === "IL" && hasBody(kind) ? IL : ST)[kind](nameOf(path));
+}
+
+interface Chosen {
+  kind: NewKind;
+  language: NewLanguage;
+  input: string;
+}
+
+/** A name may have blanks where a declaration cannot. */
+const nameOf = (path: string) =>
+  path
+    .replace(/^.*\//, "")
+    .replace(/\.[^.]*$/, "")
+    .replace(/[^\p{L}\d_]/gu, "_");
+
+type Texts = Readonly<Record<NewKind, (name: string) => string>>;
+
+const ST: Texts = {
+  program: (name) => `PROGRAM ${name}\nVAR\nEND_VAR\n\nEND_PROGRAM\n`,
+  function_block: (name) =>
+    `FUNCTION_BLOCK ${name}\nVAR_INPUT\nEND_VAR\nVAR_OUTPUT\nEND_VAR\nVAR\nEND_VAR\n\nEND_FUNCTION_BLOCK\n`,
+  function: (name) => `FUNCTION ${name} : INT\nVAR_INPUT\nEND_VAR\n\n${name} := 0;\nEND_FUNCTION\n`,
+  class: (name) => `CLASS ${name}\nVAR\nEND_VAR\n\nMETHOD PUBLIC run\nEND_METHOD\n\nEND_CLASS\n`,
+  interface: (name) => `INTERFACE ${name}\n\nMETHOD run\nEND_METHOD\n\nEND_INTERFACE\n`,
+  type: (name) => `TYPE\n  ${name} : STRUCT\n    value : INT;\n  END_STRUCT;\nEND_TYPE\n`,
+  global: () => "VAR_GLOBAL\nEND_VAR\n",
+};
+
+/** A body without an instruction would be in no language: it begins with two. */
+const IL: Texts = {
+  ...ST,
+  program: (name) => `PROGRAM ${name}\nVAR\n  enable : BOOL;\n  done : BOOL;\nEND_VAR\n\n${INSTRUCTIONS}END_PROGRAM\n`,
+  function_block: (name) =>
+    `FUNCTION_BLOCK ${name}\nVAR_INPUT\n  enable : BOOL;\nEND_VAR\nVAR_OUTPUT\n  done : BOOL;\nEND_VAR\n\n${INSTRUCTIONS}END_FUNCTION_BLOCK\n`,
+  function: (name) =>
+    `FUNCTION ${name} : INT\nVAR_INPUT\n  value : INT;\nEND_VAR\n\n    LD   value\n    ST   ${name}\nEND_FUNCTION\n`,
+};
+
+const INSTRUCTIONS = "    LD   enable\n    ST   done\n";
