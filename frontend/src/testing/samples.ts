@@ -8,6 +8,7 @@ import type {
   PlcSymbol,
   Project,
   Timeline,
+  TraceInfo,
   User,
 } from "../wire/types";
 
@@ -105,6 +106,24 @@ export const someHello = (instance: Instance): Hello => ({
   timeline: RUN,
   verifications: [],
 });
+
+/** A trace that records one signal. */
+export const TRACE: TraceInfo = {
+  id: 1,
+  by: "Mika",
+  bytes: 1000,
+  definition: { name: "Trace 1", signals: ["Main.n"], every: 1, scans: 1000, trigger: null, repeat: false },
+  first: 1,
+  end: 100,
+  generation: 1,
+  hits: 0,
+  interval_ns: 10_000_000,
+  note: "",
+  rows: 99,
+  signals: [],
+  state: "recording",
+  triggered: null,
+};
 
 const SIZES: Record<string, [PlcSymbol["kind"], number]> = {
   BOOL: ["bool", 1],

@@ -3,26 +3,9 @@ import { expect, onTestFinished, test, vi } from "vitest";
 import { shownOf, useTraces } from "../../store/trace/traces";
 import { openPage } from "../../testing/page";
 import { Status } from "../../testing/routes";
+import { TRACE } from "../../testing/samples";
 import { InSight } from "../../ui/inSight";
-import type { TraceInfo } from "../../wire/types";
 import { useSamples } from "./useSamples";
-
-const TRACE: TraceInfo = {
-  id: 1,
-  by: "Mika",
-  bytes: 1000,
-  definition: { name: "Trace 1", signals: ["Main.n"], every: 1, scans: 1000, trigger: null, repeat: false },
-  first: 1,
-  end: 100,
-  generation: 1,
-  hits: 0,
-  interval_ns: 10_000_000,
-  note: "",
-  rows: 99,
-  signals: [],
-  state: "recording",
-  triggered: null,
-};
 
 test("no samples are asked for while nobody can see them", async () => {
   const { server } = await openPage((server) => {

@@ -17,7 +17,6 @@ import type {
 } from "../../wire/types";
 import { saveFile } from "../page/download";
 import { keep, recall } from "../page/localStorage";
-import { showPanel } from "../page/navigate";
 import { useBench } from "../plc/bench";
 import { onInstanceChange } from "../plc/reset";
 
@@ -243,12 +242,6 @@ export async function addAllToTrace(paths: readonly string[]): Promise<boolean> 
   const fresh = [...new Set(paths)].filter((path) => !trace.definition.signals.includes(path));
   if (fresh.length === 0) return true;
   return change({ add: fresh }, fresh[0]);
-}
-
-/** From other panels: also opens the trace panel. */
-export function addToTrace(path: string): void {
-  showPanel("trace");
-  void addAllToTrace([path]);
 }
 
 export function removeSignal(text: string): void {

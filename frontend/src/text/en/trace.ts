@@ -3,6 +3,8 @@ export const trace = {
   "panel.trace": "Trace",
   "trace.add": "Signal to record",
   "trace.add.placeholder": "Variable, address or expression",
+  "trace.added": "{path} is in the trace",
+  "trace.added.hint": "Show the trace",
   "trace.arm": "Arm",
   "trace.armagain": "Arm again",
   "trace.before": "Before",

@@ -5,6 +5,8 @@ export const trace: Record<keyof typeof english, string> = {
   "panel.trace": "トレース",
   "trace.add": "記録する信号",
   "trace.add.placeholder": "変数、アドレス、または式",
+  "trace.added": "{path} をトレースに追加しました",
+  "trace.added.hint": "トレースを表示",
   "trace.arm": "待機",
   "trace.armagain": "再び待機",
   "trace.before": "前",

@@ -12,7 +12,7 @@ import {
 } from "../../../store/debug/stack";
 import { reverseTo } from "../../../store/debug/stepping";
 import { usePlc } from "../../../store/plc/plc";
-import { addToTrace } from "../../../store/trace/traces";
+import { addToTrace } from "../../../store/trace/added";
 import { forceOf, useForces } from "../../../store/watch/forces";
 import { addToWatch } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
@@ -125,7 +125,7 @@ function menuOf(variable: Variable, writable: boolean, begin: () => void): MenuI
       label: t("watch.totrace"),
       icon: "trigger",
       disabled: placeless || variable.variablesReference > 0,
-      onSelect: () => addToTrace(path),
+      onSelect: () => void addToTrace(path),
     },
     { label: t("debug.break.change"), icon: "bp-data", separated: true, disabled: placeless, onSelect: on("change") },
     { label: t("debug.break.write"), disabled: placeless, onSelect: on("write") },

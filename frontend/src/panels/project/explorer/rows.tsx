@@ -19,7 +19,7 @@ import { isAway, loadMembers, useMembers } from "../../../store/plc/members";
 import { usePlc } from "../../../store/plc/plc";
 import { useDocuments } from "../../../store/project/documents";
 import { useUnsavedPaths } from "../../../store/project/unsaved";
-import { addToTrace } from "../../../store/trace/traces";
+import { addToTrace } from "../../../store/trace/added";
 import { verifyPou } from "../../../store/verify/verify";
 import { showInMemory } from "../../../store/watch/memory";
 import { addToWatch } from "../../../store/watch/watchlist";
@@ -244,7 +244,9 @@ function symbolRows(
             { label: t("watch.addone"), icon: "eye", onSelect: add },
             ...(symbol.expandable
               ? []
-              : [{ label: t("watch.totrace"), icon: "trigger" as const, onSelect: () => addToTrace(symbol.path) }]),
+              : [
+                  { label: t("watch.totrace"), icon: "trigger" as const, onSelect: () => void addToTrace(symbol.path) },
+                ]),
           ],
           at,
         ),

@@ -1,8 +1,10 @@
 import { render, screen, waitFor } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { openDocument, useDocuments } from "../../../store/project/documents";
+import { addToTrace } from "../../../store/trace/added";
 import { openPage } from "../../../testing/page";
-import { MIKA } from "../../../testing/samples";
+import { refusal } from "../../../testing/routes";
+import { MIKA, TRACE } from "../../../testing/samples";
 import { t } from "../../../text";
 import { StatusBar } from "./StatusBar";
 
@@ -29,4 +31,20 @@ test("the status bar says when a file was saved, and by whom if it was somebody 
   server.on("GET", "/projects/*/files/**", () => ({ ...own, text: "three" }));
   server.say({ type: "saved", author: own.author, file: own });
   await says(t("status.saved", { at: "14:30" }));
+});
+
+test("a signal that is added to the trace is said here, and what is in front stays until somebody wants to see it", async () => {
+  const { server, places, user } = await openPage((server) => {
+    server.on("POST", "/instances/*/traces", ({ body }) =>
+      body.signals[0] === "Main.none" ? refusal("Main.none is not known") : TRACE,
+    );
+  });
+  render(<StatusBar />);
+  await addToTrace("Main.none");
+  expect(places).toEqual(["panel trace"]);
+  await addToTrace("Main.n");
+  expect(server.askedOf("POST", `/instances/${server.instance.id}/traces`)).toHaveLength(2);
+  expect(places).toHaveLength(1);
+  await user.click(await screen.findByRole("button", { name: t("trace.added", { path: "Main.n" }) }));
+  expect(places).toEqual(["panel trace", "panel trace"]);
 });

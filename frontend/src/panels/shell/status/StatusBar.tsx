@@ -7,6 +7,7 @@ import { chooseLanguage, usePrefs } from "../../../store/page/prefs";
 import { useOnline, usePlc } from "../../../store/plc/plc";
 import { useTimeline } from "../../../store/plc/timeline";
 import { type Document, isDirty, useDocuments } from "../../../store/project/documents";
+import { showAdded, useAdded } from "../../../store/trace/added";
 import { languageNames, languages, t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
@@ -44,6 +45,7 @@ export function StatusBar() {
       <Raised />
       <Sweeping />
       <ArmedFaults />
+      <Added />
       <RunRefusal />
       <span className="right">
         <FileState />
@@ -94,6 +96,20 @@ function Sweeping() {
     >
       <StateWord tone="info" icon="record" word={t("sweep.underway", { share })} />
     </button>
+  );
+}
+
+/** A signal that somebody added to the trace from elsewhere; a click shows the trace. */
+function Added() {
+  const path = useAdded((added) => added.path);
+  return (
+    <span role="status">
+      {path !== null && (
+        <button type="button" className="link plain" title={t("trace.added.hint")} onClick={showAdded}>
+          <StateWord tone="info" icon="trigger" word={t("trace.added", { path })} />
+        </button>
+      )}
+    </span>
   );
 }
 

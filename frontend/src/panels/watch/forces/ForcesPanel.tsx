@@ -4,7 +4,7 @@ import { splitPath } from "../../../logic/format/paths";
 import { useWidths } from "../../../store/page/columns";
 import { useForbidden } from "../../../store/plc/plc";
 import { watch } from "../../../store/plc/watches";
-import { addToTrace } from "../../../store/trace/traces";
+import { addToTrace } from "../../../store/trace/added";
 import { useForces, useForceValues } from "../../../store/watch/forces";
 import { addToWatch, releaseForce, useWatchList } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
@@ -146,7 +146,7 @@ function forceMenu({ path }: ForceInfo): MenuItem[] {
   return [
     { label: t("force.release"), icon: "unforce", hint: "Del", onSelect: () => void releaseForce(path) },
     { label: t("watch.addone"), icon: "eye", onSelect: () => addToWatch([path]) },
-    { label: t("watch.totrace"), icon: "trigger", onSelect: () => addToTrace(path) },
+    { label: t("watch.totrace"), icon: "trigger", onSelect: () => void addToTrace(path) },
   ];
 }
 

@@ -8,7 +8,7 @@ import { showWriter } from "../../../store/past/writer";
 import { usePlc } from "../../../store/plc/plc";
 import { useWatches } from "../../../store/plc/watches";
 import { showCrossReferencesOf } from "../../../store/project/cross";
-import { addToTrace } from "../../../store/trace/traces";
+import { addToTrace } from "../../../store/trace/added";
 import { askDisturb } from "../../../store/verify/disturb";
 import { useBindings } from "../../../store/watch/bindings";
 import { forcedAt } from "../../../store/watch/forces";
@@ -41,7 +41,14 @@ export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): Menu
     ...forceItems(row, symbol),
     ...formatItems(row, symbol),
     ...(symbol && !symbol.expandable
-      ? [{ label: t("watch.totrace"), icon: "trigger" as const, separated: true, onSelect: () => addToTrace(row.path) }]
+      ? [
+          {
+            label: t("watch.totrace"),
+            icon: "trigger" as const,
+            separated: true,
+            onSelect: () => void addToTrace(row.path),
+          },
+        ]
       : []),
     ...copyItems(row, symbol),
     ...(row.level === 0 ? groupItems(row, onNewGroup) : []),
