@@ -68,7 +68,7 @@ test('no text is lost silently: closing asks, a failed build says why, Save and 
     await expect(main.region.getByRole('button', { name: 'Roll back' })).toBeVisible();
     await mika.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).first().dblclick();
     const belt = mika.editor('Belt.st');
-    await expect(belt.region.getByRole('button', { name: /^Belt seen as/ })).toBeVisible();
+    await expect(belt.region.getByRole('button', { name: /^Belt: values of/ })).toBeVisible();
     const inReach = async (where: string, names: readonly string[]) => {
       for (const name of names)
         await expect

@@ -14,6 +14,7 @@ import { keep, recall } from "../store/page/localStorage";
 import { onNavigate } from "../store/page/navigate";
 import { useBench } from "../store/plc/bench";
 import { closeDocument, holdsUnsaved, useDocuments } from "../store/project/documents";
+import { announcement } from "./announcements";
 import { CloseUnsaved } from "./CloseUnsaved";
 import { closeByHand } from "./closing";
 import { components, HeaderEnd, PanelTab } from "./dockParts";
@@ -31,6 +32,7 @@ import {
   widePanels,
 } from "./layout";
 import { beginWith, popOutActive } from "./popOut";
+import { keepTabsInSight } from "./tabs";
 
 export interface DockHandle {
   reset: () => void;
@@ -53,6 +55,14 @@ const THEME = { name: "scanbench", className: "dockview-theme-scanbench" };
 /** The dockable part of the window. The layout is kept in this browser. */
 export function Dock({ ref, alone }: Props) {
   const api = useRef<DockviewApi | null>(null);
+  const element = useRef<HTMLDivElement>(null);
+  const tabs = useRef<ReturnType<typeof keepTabsInSight> | null>(null);
+  useEffect(() => {
+    if (!element.current) return;
+    const kept = keepTabsInSight(element.current);
+    tabs.current = kept;
+    return kept.stop;
+  }, []);
   const project = useBench((bench) => bench.project?.id ?? null);
   const [begins] = useState(alone);
 
@@ -81,6 +91,8 @@ export function Dock({ ref, alone }: Props) {
         const path = panel && fileOf(panel.id);
         if (path) inFrontIs(path);
       });
+      dock.onDidLayoutChange(() => tabs.current?.soon());
+      dock.onDidActivePanelChange(() => tabs.current?.soon());
       widePanels(dock);
       dock.onDidRemovePanel((panel) => {
         const path = fileOf(panel.id);
@@ -118,13 +130,14 @@ export function Dock({ ref, alone }: Props) {
   }
 
   return (
-    <div className="dock" onKeyDownCapture={onKeyDown} onDoubleClick={onDoubleClick}>
+    <div ref={element} className="dock" onKeyDownCapture={onKeyDown} onDoubleClick={onDoubleClick}>
       <DockviewReact
         theme={THEME}
         components={components}
         defaultTabComponent={PanelTab}
         rightHeaderActionsComponent={HeaderEnd}
         disableFloatingGroups
+        getAnnouncement={announcement}
         onReady={onReady}
       />
       <CloseUnsaved onClosed={(panel) => api.current && closeTab(api.current, panel)} />

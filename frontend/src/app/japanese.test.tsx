@@ -12,6 +12,7 @@ import { openPage } from "../testing/page";
 import { RUN } from "../testing/samples";
 import type { FakeServer } from "../testing/server";
 import type { LogLine } from "../wire/types";
+import { announcement } from "./announcements";
 import { components } from "./dockParts";
 
 beforeEach(() => chooseLanguage("ja"));
@@ -120,10 +121,23 @@ test("what is English would be found", () => {
 
 test.each(Object.keys(components).sort())("%s", async (name) => {
   await openPage(busy);
-  const Panel = components[name] as FunctionComponent<{ params: object }>;
-  const { container } = render(<Panel params={{ path: "Main.st" }} />);
+  const Panel = components[name] as FunctionComponent<{ params: object; api: object }>;
+  const api = {
+    isVisible: true,
+    isMaximized: () => false,
+    onDidVisibilityChange: () => ({ dispose: () => undefined }),
+  };
+  const { container } = render(<Panel params={{ path: "Main.st" }} api={api} />);
   await eventually(() => expect(container.textContent).not.toBe(""));
   expect(englishIn(container)).toEqual([]);
+});
+
+test("what the dock says aloud", () => {
+  const says = (id: string, title: string) => announcement({ kind: "maximize", panel: { id, title } });
+  expect(says("memory", "memory")).toBeNull(); // a page that has no title yet
+  expect(says("memory", "メモリ")).toBe("メモリ を最大化しました");
+  expect(says("watch", "watch")).toBe("ウォッチ を最大化しました");
+  expect(says("file:line/Main.st", "file:line/Main.st")).toBe("Main.st を最大化しました");
 });
 
 test("in a different language the server is asked again, and knows which one", async () => {

@@ -41,7 +41,8 @@ interface Props {
 }
 
 const AXIS = 22;
-const LEAST_PLOT = 84;
+/** In a low panel plots are low, too, so that the lanes below them are in sight. */
+const LEAST_PLOT = 44;
 /** A press is a drag and not a click once the pointer has moved this far. */
 const DRAG = 4;
 

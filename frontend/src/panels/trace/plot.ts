@@ -5,6 +5,10 @@ import { type Plot, padded } from "../../logic/trace/plots";
 import { bounds, type Drawn, perPixel, type Range, rowAt, type Samples } from "../../logic/trace/samples";
 import { type Colors, cut, LEFT, RIGHT } from "./draw";
 
+/** From this height on a plot has a line above its curves for its title; the names at the ends of a lower one are the whole ones. */
+const TITLED = 64;
+const TITLE = 18;
+
 interface PlotView {
   samples: Samples;
   view: Range;
@@ -66,7 +70,7 @@ export class PlotDrawing {
     const stepped = uPlot.paths.stepped?.({ align: 1 });
     return {
       ...size,
-      padding: [8, RIGHT, 6, 0],
+      padding: [(chart) => (chart.height < TITLED ? 6 : TITLE), RIGHT, 6, 0],
       cursor: { show: false },
       legend: { show: false },
       pxAlign: 0,
@@ -122,7 +126,8 @@ export class PlotDrawing {
     ctx.textBaseline = "middle";
     ctx.textAlign = "left";
     ctx.fillStyle = colors.faint;
-    ctx.fillText(plot.title, bbox.left + 6 * ratio, bbox.top + 8 * ratio);
+    const titled = this.chart.height >= TITLED;
+    if (titled) ctx.fillText(plot.title, bbox.left, bbox.top - (TITLE / 2) * ratio);
     let free = Number.NEGATIVE_INFINITY;
     const ends = plot.lines
       .map((line) => ({ line, y: this.endOf(line.index, now) }))
@@ -132,7 +137,11 @@ export class PlotDrawing {
       const at = Math.max(Math.min(Math.max(y, bbox.top + 6 * ratio), bbox.top + bbox.height), free);
       free = at + 13 * ratio;
       ctx.fillStyle = colors.series[line.color] ?? colors.text;
-      ctx.fillText(cut(ctx, line.name, (RIGHT - 14) * ratio), bbox.left + bbox.width + 8 * ratio, at);
+      ctx.fillText(
+        cut(ctx, titled ? line.name : line.signal.text, (RIGHT - 14) * ratio),
+        bbox.left + bbox.width + 8 * ratio,
+        at,
+      );
     }
     for (const scan of now.cursors) this.dots(ctx, scan, now, ratio);
     ctx.restore();

@@ -34,7 +34,17 @@ export interface Document {
 export type BuildState =
   | { phase: "idle" }
   | { phase: "running" }
-  | { phase: "done"; ok: boolean; message: string; author: string | null; changes: readonly OnlineChange[] };
+  | {
+      phase: "done";
+      ok: boolean;
+      message: string;
+      author: string | null;
+      changes: readonly OnlineChange[];
+      /** For which the texts were refused. */
+      errors: readonly Problem[];
+      /** When, as ISO 8601. */
+      at: string;
+    };
 
 interface Documents {
   project: number | null;

@@ -319,6 +319,8 @@ const refusedBuild = (message: string): BuildState => ({
   message,
   author: null,
   changes: [],
+  errors: [],
+  at: new Date().toISOString(),
 });
 
 export function onBuilt(result: BuildResult, author: string | null): void {
@@ -327,7 +329,8 @@ export function onBuilt(result: BuildResult, author: string | null): void {
   else {
     const swapped = result.ok && result.changes.some((change) => change.refusal === "");
     const { ok, message, changes } = result;
-    set({ build: { phase: "done", ok, message, author, changes } });
+    const errors = result.problems.filter(({ severity }) => severity === "error");
+    set({ build: { phase: "done", ok, message, author, changes, errors, at: new Date().toISOString() } });
     // A build that found nothing to do keeps the last change, so that it can still be rolled back.
     if (swapped) set({ change: result.changes });
   }

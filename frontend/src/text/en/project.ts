@@ -5,6 +5,7 @@ export const project = {
   "build.hint": "Save all and build (Ctrl+Shift+B)",
   "build.ok": "Built",
   "build.refused": "Build refused",
+  "build.refused.at": "Build refused at {at}: {message}",
   "build.saying": "Build with a message",
   "build.saying.about": "The message is kept with the version that this build makes; it can be changed later.",
   "build.saying.missing": "Type a message, or close this and build without one.",

@@ -7,6 +7,7 @@ export const project: Record<keyof typeof english, string> = {
   "build.hint": "すべて保存してビルド (Ctrl+Shift+B)",
   "build.ok": "ビルド済み",
   "build.refused": "ビルド不可",
+  "build.refused.at": "{at} のビルドは拒否されました: {message}",
   "build.saying": "メッセージを付けてビルド",
   "build.saying.about": "メッセージはこのビルドの版に保存され、あとで変更できます。",
   "build.saying.missing": "メッセージを入力するか、閉じてメッセージなしでビルドしてください。",

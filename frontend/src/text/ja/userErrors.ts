@@ -45,7 +45,7 @@ export const userErrors: Record<keyof typeof english, string> = {
   "usererrors.empty.code": "コードと重大度",
   "usererrors.empty.code.rest": "は、異常コードに何を表示し、プログラムを止めるかを決めます。",
   "usererrors.empty.example": "この例から始める",
-  "usererrors.empty.example.name": "Pump overheated",
+  "usererrors.empty.example.name": "ポンプ過熱",
   "usererrors.empty.flag": "フラグ",
   "usererrors.empty.flag.rest": "は、プログラムが読むビットです。例では {flag}。",
   "usererrors.empty.title": "ユーザー定義の異常はまだありません",

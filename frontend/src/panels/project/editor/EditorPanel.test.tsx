@@ -1,12 +1,14 @@
 import { act, render, screen, waitFor } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { clockTime } from "../../../logic/format/numbers";
 import { useDocuments } from "../../../store/project/documents";
-import { box, button, textOf } from "../../../testing/find";
+import { begins, box, button, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { Status } from "../../../testing/routes";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
 import type { OnlineChange, Problem } from "../../../wire/types";
+import { ProblemsPanel } from "../problems/ProblemsPanel";
 import { EditorPanel } from "./EditorPanel";
 
 const PATH = "Main.st";
@@ -192,21 +194,37 @@ test("the past before a build shows the text that ran, to be read only; the own 
   expect(saveButton()).toHaveProperty("disabled", false);
 });
 
-test("a build that was refused for errors in the text says so until there are none any more", async () => {
+test("a build that was refused for errors in the text says so until there are none of them any more, and since when", async () => {
   const at = { file: PATH, line: 1, column: 1, end_line: 1, end_column: 2 };
-  let problems: Problem[] = [{ ...at, severity: "error", code: "S001", message: "" }];
-  const { user } = await openEditor((server) => {
+  const error = (code: string): Problem => ({ ...at, severity: "error", code, message: code });
+  let problems = [error("S001")];
+  const { server, user } = await openEditor((server) => {
     server.on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems }));
-    server.on("POST", "/projects/*/build", () => new Status(422, { message: "it has errors", near: [] }));
+    server.on("POST", "/projects/*/build", () => ({
+      ok: false,
+      message: "it has errors",
+      problems,
+      pous: [],
+      checks: [],
+      changes: [],
+      needs_agreement: false,
+      project: server.instance.project,
+    }));
   });
+  render(<ProblemsPanel />);
   await waitFor(() => expect(useDocuments.getState().problems).toHaveLength(1));
   await user.click(buildButton());
   await screen.findByText(t("build.refused"));
-  problems = [];
+  const says = t("build.refused.at", { at: clockTime(new Date().toISOString()), message: "" });
+  expect(screen.getByText(begins(says.trim()))).toBeDefined();
+  // What is wrong now has nothing to do with that build.
+  problems = [error("S002")];
   await user.type(text(), " corrected");
   await waitFor(() => expect(screen.queryByText(t("build.refused"))).toBeNull());
+  expect(screen.queryByText(begins(says.trim()))).toBeNull();
 
   // Refused for a different reason, it stays.
+  server.on("POST", "/projects/*/build", () => new Status(422, { message: "enough", near: [] }));
   await user.click(buildButton());
   await screen.findByText(t("build.refused"));
   act(() => useDocuments.setState({ problems: [] }));

@@ -20,7 +20,7 @@ export function SeenAs({ pou }: { pou: string }) {
   if (all.length === 1 && instance === pou) return null;
   return (
     <>
-      <span className="faint">{t("debug.seenas")}</span>
+      <span className="faint seenasof">{t("debug.seenas")}</span>
       <MenuButton
         label={t("debug.seenas.label", { pou, instance })}
         className="btn quiet sm seenas"

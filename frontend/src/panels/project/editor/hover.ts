@@ -1,4 +1,4 @@
-/** The value of a name, in the frame while the program is halted, else in the instance that the text is seen as; and its declaration. */
+/** The value of a name, in the frame while the program is halted, else in the instance whose values the text shows; and its declaration. */
 
 import type { Hover } from "vscode-languageserver-types";
 import { worthOf } from "../../../store/debug/console";

@@ -88,7 +88,7 @@ async function watchNames(path: string, line: number, names: readonly string[]):
   if (names.length > 0) addToWatch(await pathsOf(path, line, names));
 }
 
-/** A name in a POU means a variable of the instance that the text is seen as, or a global one. */
+/** A name in a POU means a variable of the instance whose values the text shows, or a global one. */
 export async function pathsOf(path: string, line: number, names: readonly string[]): Promise<string[]> {
   const { pous, text } = shownText(path);
   const pou = pouAt(pous, path, line, text);

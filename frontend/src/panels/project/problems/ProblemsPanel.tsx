@@ -1,4 +1,5 @@
 import { Fragment } from "react";
+import { clockTime } from "../../../logic/format/numbers";
 import { problemHelp } from "../../../logic/page/help";
 import { useWidths } from "../../../store/page/columns";
 import { showHelp } from "../../../store/page/help";
@@ -23,12 +24,14 @@ export function ProblemsPanel() {
   const trouble = useDocuments((documents) => documents.trouble);
   const build = useDocuments((documents) => documents.build);
   const corrected = useCorrected();
-  const refused = build.phase === "done" && !build.ok && !corrected ? build.message : null;
+  const refused = build.phase === "done" && !build.ok && !corrected ? build : null;
   return (
     <div className="pane flexcol" data-pane="problems">
       <PastNote of="problems" />
       {trouble && <Line tone="fatal" text={trouble} />}
-      {refused && <Line tone="fatal" text={`${t("build.refused")}: ${refused}`} />}
+      {refused && (
+        <Line tone="fatal" text={t("build.refused.at", { at: clockTime(refused.at), message: refused.message })} />
+      )}
       {problems.length === 0 && !trouble && !refused ? (
         <p className="lonely faint">{t("problems.none")}</p>
       ) : (

@@ -35,9 +35,9 @@ function Told({ path, binding }: { path: string; binding: Binding }) {
       {site && <span>{when(site)}</span>}
       {binding.sites.length > 1 && site && <span>{whichOf(binding, site)}</span>}
       {message && (
-        <span className="cut st warning" title={message}>
+        <span className="st warning" title={message}>
           <Icon name="warning" />
-          {message}
+          <span className="cut">{message}</span>
         </span>
       )}
       {binding.sites.length > 1 && <OtherCall path={path} binding={binding} shown={site} />}
