@@ -1,4 +1,4 @@
-/** The tab in front of each strip is in sight, however many tabs there are and however narrow the window becomes. */
+/** The active tab of each strip is in sight, however many tabs there are and however narrow the window becomes. */
 
 /** Turns the strips of the dock so far that their active tabs are whole; only the strips: nothing around them moves. */
 function reveal(dock: HTMLElement): void {
