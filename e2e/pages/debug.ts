@@ -32,6 +32,13 @@ export class Debug {
     return new Editor(this.page, file).region.locator(`.glyph-margin-widgets .${shape}`);
   }
 
+  /** Whether a mark is in the line that contains a text. */
+  async isBeside(file: string, shape: string, part: string): Promise<boolean> {
+    const mark = await this.glyph(file, shape).first().boundingBox();
+    const line = await new Editor(this.page, file).line(part).first().boundingBox();
+    return mark !== null && line !== null && Math.abs(mark.y - line.y) < 4;
+  }
+
   /** The gutter beside the line that contains a text. */
   private async gutterAt(file: string, part: string): Promise<{ x: number; y: number }> {
     const editor = new Editor(this.page, file);

@@ -127,6 +127,45 @@ test('a breakpoint in one of three instances: inspect, change, step, step back, 
   });
 });
 
+test('the mark of a breakpoint is where the breakpoint is after a build, and who types keeps the focus at a halt', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await prepared(mika, 'Counters');
+  const { debug, page, top } = mika;
+  const editor = mika.editor(FILE);
+
+  await test.step('a statement is removed: its breakpoint goes on to the next one, and its mark, too', async () => {
+    await top.chooseMode('PROGRAM');
+    await editor.addBelow('END_IF;', 'done := FALSE;');
+    await editor.build();
+    await expect(editor.saveButton).toBeDisabled();
+    await expect(editor.outcome).toContainText('Built');
+    await editor.caretAfter('done := FALSE;');
+    await page.keyboard.press('F9');
+    await expect(debug.glyph(FILE, 'gl-bp')).toBeVisible();
+    await expect(debug.breakpoints).toContainText('9');
+    await page.keyboard.press('Shift+Home');
+    await page.keyboard.press('Delete');
+    await page.keyboard.press('Backspace');
+    await editor.build();
+    await expect(editor.saveButton).toBeDisabled();
+    await expect(editor.line('done := FALSE;')).toHaveCount(0);
+    await expect(debug.breakpoints).toContainText('9');
+    await expect.poll(() => debug.isBeside(FILE, 'gl-bp', 'done := count > 0;')).toBe(true);
+  });
+
+  await test.step('a halt and a step leave the focus in the text', async () => {
+    await top.chooseMode('MONITOR');
+    await expect(top.state).toContainText('Halted');
+    await editor.caretAfter('count := next;');
+    await page.keyboard.press('F10');
+    await expect(top.state).toContainText('after a step');
+    await page.keyboard.type(' // typed');
+    await expect(editor.line('count := next; // typed')).toBeVisible();
+  });
+});
+
 test('logpoint, execution point, data breakpoint, and coverage', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await prepared(mika, 'Points');
