@@ -24,6 +24,12 @@ export const PAGES = {
   ],
 };
 
+/** Pages of what the PLC itself consists of and reports. */
+export const DEVICE_PAGES = {
+  en: ['Edit what hardware is fitted', "Show the PLC's own errors"],
+  ja: ['実装ハードウェアを編集', 'PLC自身の異常を表示'],
+};
+
 /** As if it had been chosen in the menu, whose words are different ones in each language. */
 export async function prefer({ page, top }: Ide, prefs: { language: string; theme: string }): Promise<void> {
   await page.evaluate((wanted) => {

@@ -1,7 +1,7 @@
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from '../fixtures/test';
-import { eachPanel, LANGUAGES, PAGES, prefer, run } from '../pages/everywhere';
+import { DEVICE_PAGES, eachPanel, LANGUAGES, PAGES, prefer, run } from '../pages/everywhere';
 import type { Ide } from '../pages/ide';
 
 const THEMES = ['dark', 'light', 'contrast'];
@@ -41,6 +41,8 @@ for (const language of LANGUAGES) {
     const sideways = () => mika.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     await eachPanel(mika.page, async (panel) => {
       expect.soft(await sideways(), panel).toBeLessThanOrEqual(0);
+      // What the window hides at its edge does not make it wider, and cannot be reached either.
+      expect.soft(await cutButtons(mika.page), panel).toEqual([]);
     });
     const panes = await mika.page.locator('[data-pane]:visible').count();
     const reached = new Set<string>();
@@ -49,8 +51,20 @@ for (const language of LANGUAGES) {
       reached.add(await mika.focusedPane());
     }
     expect(reached.size).toBe(panes);
+    for (const page of [...PAGES[language], ...DEVICE_PAGES[language]]) {
+      await run(mika.page, page);
+      expect.soft(await sideways(), page).toBeLessThanOrEqual(0);
+    }
   });
 }
+
+/** The buttons of the error simulator, at the edge of the window, that are not whole. */
+const cutButtons = (page: Page) =>
+  page
+    .locator('[data-pane=errors] button:visible')
+    .evaluateAll((buttons) =>
+      buttons.filter((button) => button.getBoundingClientRect().right > innerWidth).map((button) => button.textContent),
+    );
 
 async function atWork(mika: Ide): Promise<void> {
   await mika.runs();
