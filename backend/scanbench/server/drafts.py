@@ -134,18 +134,23 @@ class Drafts:
 
     async def unsaved(self, project: int) -> list[str]:
         """The files whose draft says something else than what is saved, whoever has them open, or nobody."""
+        return sorted(await self.unsaved_texts(project))
+
+    async def unsaved_texts(self, project: int) -> dict[str, str]:
+        """The same files with the texts of their drafts."""
         found = await asyncio.to_thread(self._unsaved_of, project)
         live = {path: shared.draft.text for (of, path), shared in self._shared.items() if of == project}
-        return sorted(path for path, (saved, draft) in found.items() if live.get(path, draft) != saved)
+        now = {path: (saved, live.get(path, draft)) for path, (saved, draft) in found.items()}
+        return {path: draft for path, (saved, draft) in now.items() if draft != saved}
 
     def _unsaved_of(self, project: int) -> dict[str, tuple[str, str]]:
         """Of each file with a draft the saved text, and the draft as it is stored."""
-        found: dict[str, tuple[str, str]] = {}
-        for path, text in self._store.files.sources(project).items():
-            row = self._store.drafts.get(project, path)
-            if row is not None:
-                found[path] = (with_line_feeds(text), Draft(row.key, row.parts).text)
-        return found
+        drafts = self._store.drafts.all(project)
+        return {
+            path: (with_line_feeds(text), Draft(drafts[path].key, drafts[path].parts).text)
+            for path, text in self._store.files.sources(project).items()
+            if path in drafts
+        }
 
     async def save(self, project: int, path: str, text: str, version: int, author: str, draft: str | None) -> FileRow:
         """Saves a file (see `store.Files.save`). A text that is not of `draft` was made elsewhere, of the text before: its change

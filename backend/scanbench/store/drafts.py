@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from sqlalchemy import delete, insert, select
 from sqlalchemy.exc import IntegrityError
@@ -31,6 +32,19 @@ class Drafts(Repository):
                 return None
             parts = select(DraftPart.data).where(DraftPart.project_id == project, DraftPart.path == path)
             return DraftRow(draft.key, tuple(session.scalars(parts.order_by(DraftPart.id))))
+
+    def all(self, project: int) -> dict[str, DraftRow]:
+        """The drafts of a project by the path of their file."""
+        with self._database.reading() as session:
+            found = select(Draft.path, Draft.key, DraftPart.data).outerjoin(
+                DraftPart, (DraftPart.project_id == Draft.project_id) & (DraftPart.path == Draft.path)
+            )
+            rows = session.execute(found.where(Draft.project_id == project).order_by(Draft.path, DraftPart.id)).all()
+        drafts: dict[str, DraftRow] = {}
+        for path, group in groupby(rows, key=lambda row: row.path):
+            parts = list(group)
+            drafts[path] = DraftRow(parts[0].key, tuple(part.data for part in parts if part.data is not None))
+        return drafts
 
     def create(self, project: int, path: str, key: str, part: bytes) -> DraftRow:
         """Begins a draft, or gives the one that there is meanwhile."""

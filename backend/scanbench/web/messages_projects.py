@@ -33,3 +33,10 @@ class ProjectDialect(Wire):
     """What the programs of a project are written in; `iec` is the strict language."""
 
     dialect: DialectName
+
+
+class UnsavedText(Wire):
+    """A file as people edit it together, which is not what was saved last."""
+
+    path: str
+    text: str

@@ -291,9 +291,10 @@ def test_what_nobody_saved_is_known_also_when_nobody_has_it_open(bench: Bench) -
         assert await bench.drafts.unsaved(bench.project) == []
         await ada.send(ada.type(0, "x"))
         assert await bench.drafts.unsaved(bench.project) == [PATH]
+        assert await bench.drafts.unsaved_texts(bench.project) == {PATH: f"x{BEGUN}"}
         await ada.lose()
         bench.kill()
-        assert await bench.drafts.unsaved(bench.project) == [PATH]
+        assert await bench.drafts.unsaved_texts(bench.project) == {PATH: f"x{BEGUN}"}
         await bench.save(str(ada.text), ada.draft)
         assert await bench.drafts.unsaved(bench.project) == []
 

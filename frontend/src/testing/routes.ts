@@ -40,7 +40,16 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "/instances/*/model", () => MODEL);
   for (const what of ["symbols", "complete", "instances-of", "traces", "verifications", "comparisons"] as const)
     on("GET", `/instances/*/${what}`, none);
-  for (const what of ["files", "sweeps", "states", "records", "trace-records", "watch-lists", "unsaved"] as const)
+  for (const what of [
+    "files",
+    "sweeps",
+    "states",
+    "records",
+    "trace-records",
+    "watch-lists",
+    "unsaved",
+    "drafts",
+  ] as const)
     on("GET", `/projects/*/${what}`, none);
   on("GET", "/templates", none);
   on("GET", "/instances/*/program", () => ({ version: 1, files: {}, pous: [] }));

@@ -39,6 +39,7 @@ import type {
   Sweep,
   SweepComparison,
   SweepSummary,
+  UnsavedText,
   UserErrors,
   UserErrorsDraft,
   UserProblem,
@@ -171,6 +172,8 @@ export const rest = {
   dialect: (project: number) => json<ProjectDialect>("GET", `/projects/${project}/dialect`),
   changeDialect: (project: number, dialect: ProjectDialect["dialect"]) =>
     json<ProjectDialect>("PUT", `/projects/${project}/dialect`, { dialect }),
+  /** Texts that somebody edited, and nobody saved since. */
+  drafts: (project: number) => json<UnsavedText[]>("GET", `/projects/${project}/drafts`),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),
   file: (project: number, path: string) => json<FileText>("GET", filePath(project, path)),
   /** `draft`: that the text is of; without one the server makes a change of its draft of it. */

@@ -5,10 +5,9 @@ from fastapi import APIRouter, Request
 from scanbench.public import iso
 from scanbench.store.records import BuildInfo, NotFound
 from scanbench.web import messages as wire
-from scanbench.web import messages_versions, translate
+from scanbench.web import messages_projects, messages_versions, translate
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Version
-from scanbench.web.messages_projects import NewProject
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api/projects", tags=["projects"])
@@ -22,7 +21,7 @@ async def on_projects(bench: Bench) -> list[wire.Project]:
 
 
 @router.post("", status_code=201)
-async def on_new_project(bench: Bench, request: Request, new: NewProject) -> wire.Project:
+async def on_new_project(bench: Bench, request: Request, new: messages_projects.NewProject) -> wire.Project:
     """A project on a model: empty, or with the files of a template, which are not built yet."""
     name = new.name.strip()
     if new.template:
@@ -83,6 +82,14 @@ async def on_unsaved(bench: Bench, project: Id) -> list[str]:
     """The files that somebody edited, and nobody has saved since."""
     await bench.projects.get(project)
     return await bench.projects.drafts.unsaved(project)
+
+
+@router.get("/{project}/drafts")
+async def on_drafts(bench: Bench, project: Id) -> list[messages_projects.UnsavedText]:
+    """The texts that somebody edited, and nobody has saved since."""
+    await bench.projects.get(project)
+    texts = await bench.projects.drafts.unsaved_texts(project)
+    return [messages_projects.UnsavedText(path=path, text=text) for path, text in texts.items()]
 
 
 @router.get("/{project}/versions")

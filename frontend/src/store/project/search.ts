@@ -1,4 +1,4 @@
-/** Search in all files of the project: in the texts as they are edited here, else as they are saved. */
+/** Search in all files of the project: in the texts as people edit them now. */
 import { create } from "zustand";
 import { isPanelFile } from "../../logic/project/panelFiles";
 import { type Match, matches, pattern, replaced, replacement, type Wanted } from "../../logic/project/search";
@@ -6,7 +6,8 @@ import { openFile, showPanel } from "../page/navigate";
 import { edit, openDocument, textHere, useDocuments } from "./documents";
 import SearchWorker from "./search.worker?worker";
 import { type FileMatches, type Question, searcher } from "./searching";
-import { savedText } from "./sourceText";
+import { textsNow } from "./textsNow";
+import { useUnsaved } from "./unsaved";
 
 interface Search extends Wanted {
   /** What replaces it, as typed. */
@@ -38,8 +39,6 @@ export const useSearch = create<Search>(() => ({
 const get = useSearch.getState;
 const set = useSearch.setState;
 
-/** Saved texts by project and path, with the version that they are of. */
-const saved = new Map<string, { version: number; text: string }>();
 let turn = 0;
 /** While somebody types, the list follows a moment later. */
 const QUIET_MS = 150;
@@ -70,15 +69,16 @@ async function search(): Promise<void> {
   const mine = turn;
   const wanted = get().text === "" ? null : pattern(get());
   if (!wanted) return set({ found: [], unread: [], bad: get().text !== "", slow: false });
-  const { project, files, open } = useDocuments.getState();
+  const { files, open } = useDocuments.getState();
   const programs = files.filter(({ path }) => !isPanelFile(path));
-  const versions = new Map(programs.map(({ path, version }) => [path, version]));
+  const listed = new Set(programs.map(({ path }) => path));
+  // A file that somebody deleted is still here while it is open.
+  const searched = [...programs, ...Object.values(open).filter(({ path }) => !listed.has(path))];
+  const now = await textsNow(searched).catch(() => new Map(searched.map(({ path }) => [path, textHere(path)])));
+  if (mine !== turn) return;
   const texts: { path: string; text: string }[] = [];
   const unread: string[] = [];
-  // A file that somebody deleted is still here while it is open.
-  for (const path of new Set([...versions.keys(), ...Object.keys(open)])) {
-    const text = textHere(path) ?? (await savedOf(`${project} ${path}`, path, versions.get(path) ?? 0));
-    if (mine !== turn) return;
+  for (const [path, text] of now) {
     if (text === null) unread.push(path);
     else texts.push({ path, text });
   }
@@ -98,15 +98,6 @@ async function findIn(ask: Ask, wanted: RegExp, texts: Question["texts"]): Promi
   return texts
     .map(({ path, text: inFile }) => ({ path, matches: matches(inFile, wanted) }))
     .filter(({ matches: found }) => found.length > 0);
-}
-
-async function savedOf(key: string, path: string, version: number): Promise<string | null> {
-  const known = saved.get(key);
-  if (known?.version === version) return known.text;
-  const mine = turn;
-  const text = await savedText(path);
-  if (text !== null && mine === turn) saved.set(key, { version, text });
-  return text;
 }
 
 /** What a match becomes. */
@@ -143,8 +134,12 @@ export async function replace(which: readonly FileMatches[]): Promise<void> {
 useDocuments.subscribe((now, before) => {
   if (now.project !== before.project) {
     turn += 1; // what still comes is of the other project
-    saved.clear();
     set({ found: [], unread: [] });
   }
   if (get().text !== "" && (now.open !== before.open || now.files !== before.files)) searchSoon();
+});
+
+/** Somebody began to edit a file that is not open here, or saved it. */
+useUnsaved.subscribe(() => {
+  if (get().text !== "") searchSoon();
 });

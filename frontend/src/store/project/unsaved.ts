@@ -10,7 +10,7 @@ interface Unsaved {
   drafts: readonly string[];
 }
 
-const useUnsaved = create<Unsaved>(() => ({ drafts: [] }));
+export const useUnsaved = create<Unsaved>(() => ({ drafts: [] }));
 
 /** In the order of the files; a text that is open here is known here best. */
 function unsavedPaths(): string[] {

@@ -9,9 +9,10 @@ import { git } from "../../wire/git";
 import { rest } from "../../wire/rest";
 import type { GitCommit, GitStatus, ProjectVersion } from "../../wire/types";
 import { openFile, openPage } from "../page/navigate";
-import { createFile, edit, openDocument, textHere, useDocuments } from "./documents";
-import { savedText } from "./sourceText";
-import { saveAll } from "./unsaved";
+import { createFile, edit, openDocument, useDocuments } from "./documents";
+import { othersOf, usePeople } from "./people";
+import { textsNow } from "./textsNow";
+import { saveAll, useUnsaved } from "./unsaved";
 
 interface Versions {
   all: readonly ProjectVersion[];
@@ -43,7 +44,6 @@ const get = useVersions.getState;
 const set = useVersions.setState;
 type Texts = Readonly<Record<string, string>>;
 const texts = new Map<Side, Texts>();
-const saved = new Map<string, { version: number; text: string }>();
 let turn = 0;
 let asked = 0;
 
@@ -112,21 +112,11 @@ async function textsOf(side: Side, withPanels: boolean): Promise<Texts> {
     return withPanels ? known : Object.fromEntries(Object.entries(known).filter(([path]) => !isPanelFile(path)));
   }
   const now: Record<string, string> = {};
-  for (const { path, version } of files) {
-    if (isPanelFile(path) && !withPanels) continue;
-    now[path] = textHere(path) ?? (await savedOf(path, version));
+  for (const [path, text] of await textsNow(files.filter(({ path }) => withPanels || !isPanelFile(path)))) {
+    if (text === null) throw new Error(path);
+    now[path] = text;
   }
   return now;
-}
-
-/** A saved text does not change; it is asked for once, as each key that is typed compares again. */
-async function savedOf(path: string, version: number): Promise<string> {
-  const known = saved.get(path);
-  if (known?.version === version) return known.text;
-  const text = await savedText(path);
-  if (text === null) throw new Error(path);
-  saved.set(path, { version, text });
-  return text;
 }
 
 async function storedTexts(project: number, side: Exclude<Side, "now">): Promise<Texts> {
@@ -207,7 +197,6 @@ const refreshSoon = spaced(() => void guarded(refresh), 300);
 useDocuments.subscribe(({ project, files, open, build }, before) => {
   if (project !== before.project) {
     texts.clear();
-    saved.clear();
     set(nothing);
     return;
   }
@@ -215,3 +204,10 @@ useDocuments.subscribe(({ project, files, open, build }, before) => {
   if (files !== before.files || build !== before.build) refreshSoon();
   if (files !== before.files || open !== before.open) compareSoon();
 });
+
+/** Others edit files that are not open here: nothing but where they are tells it. */
+const compareWithOthers = spaced(() => shown && void guarded(compare), 1000);
+usePeople.subscribe((people) => {
+  if (shown && othersOf(people).some(({ file }) => file !== null)) compareWithOthers();
+});
+useUnsaved.subscribe(() => shown && compareSoon());

@@ -157,3 +157,31 @@ test("an answer that comes after a newer one is not shown", async () => {
   await act(() => older);
   expect(screen.queryByText(t("git.elsewhere", { paths: "Main.st" }))).toBeNull();
 });
+
+test("a text that others edited and nobody saved is compared as they have it, though it is not open here", async () => {
+  const { prepare } = having(NO_GIT, [version(1)]);
+  const file = { path: "Main.st", version: 1, author: "Mika" };
+  const { server } = await openPage((server) => {
+    prepare(server);
+    server.on("GET", "/projects/*/files", () => [file]);
+    server.on("GET", "/projects/*/files/**", () => ({ ...file, text: "stored" }));
+    server.on("GET", "/projects/*/versions/*", () => ({ version: 1, files: { "Main.st": "stored" } }));
+    server.on("GET", "/projects/*/drafts", () => [{ path: "Main.st", text: "typed by Jo" }]);
+  });
+  render(<VersionsPage />);
+  await screen.findByText("stored -> typed by Jo");
+  server.on("GET", "/projects/*/drafts", () => [{ path: "Main.st", text: "typed on" }]);
+  const jo = {
+    id: 2,
+    name: "Jo",
+    initials: "J",
+    colour: 1,
+    instance: server.instance.id,
+    file: "Main.st",
+    line: 2,
+    anchor: null,
+    head: null,
+  };
+  act(() => server.say({ type: "people", you: 1, people: [jo] }));
+  await screen.findByText("stored -> typed on");
+});
