@@ -112,6 +112,7 @@ TABLE: dict[str, str] = {
     "W004": "bytes of a STRING that begin with its length",
     "W005": "character number 0",
     "W006": "construct that only the dialect of the project allows",
+    "W007": "statement that is never reached",
     # R: required reactions
     "R001": "requirement that cannot be checked",
     # X: constructs that are known, and not supported

@@ -2,11 +2,13 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from scanbench.check.context import Rejected
 from scanbench.check.declare.names import Space
 from scanbench.language.complete import parsed
+from scanbench.language.fix import Fix
+from scanbench.language.fix_conversion import conversions
+from scanbench.language.fix_syntax import of_syntax
 from scanbench.language.reading import Around, Reading
 from scanbench.problems import Problem
 from scanbench.program.types import INT
@@ -14,19 +16,8 @@ from scanbench.program.untyped import ANY_INT, settle
 
 NEAR = re.compile(r"(.*)Did you mean (`.*`)\?")
 NAMED = re.compile(r"`([^`]+)`")
-CONVERT = re.compile(r"Convert it with (\w+_TO_\w+)\.")
 UNKNOWN = re.compile(r"`([^\W\d]\w*)` is not declared\.")
 STEP = "  "
-
-
-@dataclass(frozen=True, slots=True)
-class Fix:
-    """One way to mend a problem: a stretch of the file becomes a text."""
-
-    title: str
-    start: int
-    end: int
-    text: str
 
 
 def fixes(reading: Reading, file: str, start: int, end: int) -> list[Fix]:
@@ -45,11 +36,8 @@ def _of(reading: Reading, file: str, problem: Problem, start: int, end: int) -> 
     text, message = reading.text(file), problem.message
     written = text[start:end]
     yield from _near(problem, written, start)
-    if problem.code == "S003" and message.startswith("`;` expected"):
-        yield Fix("Insert `;`", end, end, ";")
-    convert = CONVERT.search(message)
-    if convert is not None:
-        yield Fix(f"Convert with {convert.group(1)}", start, end, f"{convert.group(1)}({written})")
+    yield from of_syntax(reading, file, problem, start, end)
+    yield from conversions(reading, file, problem, start, end)
     unknown = UNKNOWN.match(message)
     around = reading.around(file, start)
     if problem.code == "T001" and unknown is not None and around is not None and written == unknown.group(1):

@@ -31,6 +31,9 @@ BODIES = [
     ("W005", "b := s[0] = 'x';", 3),
     ("W006", "x := DINT#5;", 3),
     ("X001", "x := a[1] := 5;", 3),
+    ("W007", "RETURN; x := 1;", 3),
+    ("W007", "WHILE b DO EXIT; x := 1; END_WHILE;", 3),
+    ("W007", "IF b THEN x := 1; ELSIF FALSE THEN x := 2; END_IF;", 3),
     ("T004", "t(IM := b);", 3),
     ("T004", "x := ABS();", 3),
     ("T006", "IF x THEN x := 1; END_IF;", 3),
@@ -193,3 +196,19 @@ def test_what_is_said_of_an_address(line: str, code: str, words: str) -> None:
     found = [problem for problem in checked.problems if problem.code != "W004"]
     assert [problem.code for problem in found] == ([code] if code else [])
     assert all(words in problem.message for problem in found)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "IF b THEN RETURN; END_IF; x := 1;",
+        "CASE x OF 1: RETURN; 2: x := 1; END_CASE;",
+        "IF OFF THEN x := 1; END_IF;",
+        "IF NOT FALSE THEN x := 1; END_IF;",
+        "IF x := THEN x := 1; END_IF;",
+        "IF FALSE THEN ; END_IF; RETURN;",
+    ],
+)
+def test_what_may_be_reached_is_not_said_to_be_unreached(body: str) -> None:
+    text = MAIN.replace("VAR x", "VAR CONSTANT OFF : BOOL := FALSE; END_VAR VAR x").format(body)
+    assert "W007" not in [each.code for each in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems]

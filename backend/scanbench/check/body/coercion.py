@@ -85,12 +85,12 @@ def conversion_hint(source: Type | None, target: Type) -> str:
     """` Convert it with INT_TO_REAL.`, where there is such a function."""
     if isinstance(source, Reference) or isinstance(target, Reference | Record):
         return ""
-    first, second = (_short(type) for type in (source, target))
+    first, second = (name_in_conversions(type) for type in (source, target))
     known = {*ELEMENTARY, *SHORT.values(), "STRING", "WSTRING"}
     return f" Convert it with {first}_TO_{second}." if {first, second} <= known else ""
 
 
-def _short(type: Type | None) -> str:
+def name_in_conversions(type: Type | None) -> str:
     if isinstance(type, StringType):
         return "WSTRING" if type.width == 2 else "STRING"
     name = str(base_of(type)) if isinstance(type, Elementary) else str(type)

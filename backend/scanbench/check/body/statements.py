@@ -12,6 +12,7 @@ from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
 from scanbench.check.body.lenient import unsigned
 from scanbench.check.body.subrange_checks import into
+from scanbench.check.body.unreached import never_chosen, unreached
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
 from scanbench.program.program import (
@@ -48,6 +49,7 @@ def block(body: Body, statements: tuple[tree.Statement, ...]) -> tuple[Stmt, ...
             continue
         if checked is not None:
             made.append(checked)
+    unreached(body, statements)
     return tuple(made)
 
 
@@ -60,6 +62,7 @@ def statement(body: Body, node: tree.Statement) -> Stmt | None:
             return _expression(body, node)
         case tree.IfStatement():
             branches = [(condition(body, test), block(body, inner)) for test, inner in node.branches]
+            never_chosen(body, node)
             return If(tuple(branches), block(body, node.orelse), node.span)
         case tree.CaseStatement():
             return _case(body, node)

@@ -26,5 +26,5 @@ def _diagnostic(problem: Problem, positions: Positions) -> types.Diagnostic:
         severity=types.DiagnosticSeverity.Error if error else types.DiagnosticSeverity.Warning,
         code=problem.code,
         source=SOURCE,
-        tags=[types.DiagnosticTag.Unnecessary] if problem.code == "W001" else None,
+        tags=[types.DiagnosticTag.Unnecessary] if problem.code in ("W001", "W007") else None,
     )
