@@ -96,7 +96,7 @@ export class Debug {
   }
 
   async evaluate(expression: string): Promise<void> {
-    const entry = this.page.getByRole('textbox', { name: 'Evaluate an expression' });
+    const entry = this.page.getByRole('combobox', { name: 'Evaluate an expression' });
     await entry.fill(expression);
     await entry.press('Enter');
   }

@@ -13,6 +13,7 @@ from scanbench.check.declare.declarations import TYPE_NAMES
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.standard.library import library
+from scanbench.check.typed.looking import NOWHERE
 from scanbench.check.uses import Symbol, variable_symbol
 from scanbench.language.declared import PARAMETERS
 from scanbench.language.reading import Around, Reading
@@ -29,6 +30,7 @@ ItemKind = Literal[
     "type", "value", "argument", "keyword", "snippet",
 ]  # fmt: skip
 OWNER = re.compile(r"([^\W\d]\w*(?:\s*\[[^\[\]]*\]|\s*\^|\.[^\W\d]\w*|\.%\w+)*)\s*\.\s*\w*$")
+VALUE_OF = re.compile(r"([^\W\d]\w*(?:\.[^\W\d]\w*)*)#\w*$")
 WORD = re.compile(r"[^\W\d]\w*$")
 CALLED = re.compile(r"([^\W\d]\w*(?:\[[^\[\]]*\]|\^|\.[^\W\d]\w*)*)\s*$")
 STATEMENTS = {
@@ -74,6 +76,9 @@ def complete(reading: Reading, file: str, position: int) -> list[Item]:
     owner = OWNER.search(line)
     if owner is not None:
         return list(_after_point(reading, around, owner.group(1)))
+    typed = VALUE_OF.search(line)
+    if typed is not None:
+        return list(_values_after(reading, around, typed.group(1)))
     holding = reading.holding(file, position)
     keyword = holding[-1] if holding else ""
     if keyword.startswith("VAR") or keyword in ("STRUCT", "TYPE", "UNION"):
@@ -169,6 +174,19 @@ def _methods(owner: Class, body: Body, rank: int) -> Iterator[Item]:
 
 def _member(member: Member, owner: Record) -> Item:
     return Item(member.name, "member", str(member.type), variable_symbol(member, owner), rank=NEAREST)
+
+
+def _values_after(reading: Reading, around: Around | None, name: str) -> Iterator[Item]:
+    """The values of an enumeration after `Mode#`; of numbers, durations and dates nobody can list any."""
+    declarations = reading.project.checker.declarations
+    space = Space() if around is None else Space(around.pou.namespace, around.pou.using)
+    with declarations.names.within(space):
+        try:
+            key = declarations.names.find(name, NOWHERE, declarations.types)
+        except Rejected:
+            key = None
+    if key is not None:
+        yield from _values(key, declarations.types[key])
 
 
 def _values(key: str, type: Type) -> Iterator[Item]:

@@ -58,6 +58,23 @@ def test_symbols_of_the_model_are_offered() -> None:
     assert "P_On" in [each.label for each in complete(reading, FILE, position)]
 
 
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        (MAIN.format("color := Color#|;"), ["RED", "GREEN"]),
+        (MAIN.format("CASE color OF color#G|"), ["RED", "GREEN"]),
+        (MAIN.format("a := INT#|;"), []),
+        ("PROGRAM Main\nVAR c : Color := Color#|; END_VAR\nEND_PROGRAM", ["RED", "GREEN"]),
+        (
+            "NAMESPACE Plant TYPE Mode : (ON, OFF); END_TYPE END_NAMESPACE\n" + MAIN.format("a := Plant.Mode#|"),
+            ["ON", "OFF"],
+        ),
+    ],
+)
+def test_after_a_type_and_its_sign_are_the_values_of_the_type_alone(text: str, values: list[str]) -> None:
+    assert offered(BLOCK + text) == values
+
+
 def test_after_a_colon_are_types_only() -> None:
     found = offered(BLOCK + "PROGRAM Main\nVAR\n  x : |\nEND_VAR\nEND_PROGRAM")
     assert {"INT", "Color", "Point", "Inc", "TON", "ARRAY"} <= set(found)

@@ -26,7 +26,7 @@ def register(language: Language) -> None:
     server = language.server
 
     @server.feature(
-        types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=["."], resolve_provider=True)
+        types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=[".", "#"], resolve_provider=True)
     )
     def completion(params: types.CompletionParams) -> types.CompletionList:
         asked = language.asked(params.text_document.uri, params.position)

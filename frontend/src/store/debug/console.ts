@@ -59,6 +59,19 @@ export async function evaluate(expression: string): Promise<void> {
   }
 }
 
+interface Target {
+  label: string;
+  detail?: string;
+  start: number;
+}
+
+/** What may follow a word: variables of the halted statement, instance paths and addresses. */
+export async function completeHere(word: string): Promise<{ path: string; type: string }[]> {
+  const asked = { text: word, column: word.length + 1, ...inFrame() };
+  const { targets } = await dap.request<{ targets: Target[] }>("completions", asked);
+  return targets.map(({ label, detail = "", start }) => ({ path: word.slice(0, start) + label, type: detail }));
+}
+
 function inFrame(): { frameId?: number } {
   const { frame } = useStack.getState();
   // A frame is valid only during its halt.

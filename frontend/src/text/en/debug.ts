@@ -6,6 +6,7 @@ export const debug = {
   "console.entry": "Evaluate an expression",
   "console.hint": "Expression, e.g. Main.count + 1",
   "console.none": "Type an expression to see its value here. Messages of logpoints appear here, too.",
+  "console.offers": "What may follow",
   "coverage.export": "Export LCOV",
   "coverage.full": "Executed",
   "coverage.hint": "Marks in the gutter which lines are executed from now on, for everybody at this PLC",

@@ -8,6 +8,7 @@ export const debug: Record<keyof typeof english, string> = {
   "console.entry": "式を評価",
   "console.hint": "式 (例: Main.count + 1)",
   "console.none": "式を入力すると値がここに表示されます。ログポイントのメッセージもここに出ます。",
+  "console.offers": "入力候補",
   "coverage.export": "LCOV を書き出す",
   "coverage.full": "実行済み",
   "coverage.hint": "これから実行される行をこの PLC の全員に表示します",

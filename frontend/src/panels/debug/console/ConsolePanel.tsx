@@ -1,12 +1,15 @@
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";
 import { grouped } from "../../../logic/format/numbers";
 import { baseName } from "../../../logic/format/paths";
-import { type ConsoleLine, clearConsole, evaluate, useConsole } from "../../../store/debug/console";
+import { pathBefore, withPath } from "../../../logic/plc/expression";
+import { type ConsoleLine, clearConsole, completeHere, evaluate, useConsole } from "../../../store/debug/console";
 import { openFile } from "../../../store/page/navigate";
 import { useOnline } from "../../../store/plc/plc";
 import { t } from "../../../text";
+import { ComboBox } from "../../../ui/ComboBox";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
+import { type Offer, useOffers } from "../../../ui/useOffers";
 import "./console.css";
 
 const LOOK: Record<ConsoleLine["kind"], { icon: IconName; tone: string }> = {
@@ -79,43 +82,60 @@ function Line({ line }: { line: ConsoleLine }) {
   );
 }
 
-/** Enter evaluates, the arrow keys go through earlier entries. */
+/** At most so many are offered at once. */
+const MOST = 12;
+
+/** Enter evaluates, the arrow keys go through earlier entries, or through what is offered for the word at the caret. */
 function Entry() {
   const online = useOnline();
   const history = useConsole((state) => state.history);
+  const input = useRef<HTMLInputElement>(null);
   const [text, setText] = useState("");
   const [back, setBack] = useState(-1);
+  const offering = useOffers<Offer>(completeHere, MOST);
 
-  function onKeyDown(event: KeyboardEvent): void {
-    if (event.key === "Enter") {
+  function onKey({ key }: KeyboardEvent): boolean {
+    if (key === "Enter") {
       void evaluate(text);
+      offering.close();
       setText("");
       setBack(-1);
-      return;
+      return true;
     }
-    const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    if (by === undefined) return;
-    event.preventDefault();
+    const by = { ArrowUp: 1, ArrowDown: -1 }[key];
+    if (by === undefined) return false;
     const to = Math.max(-1, Math.min(history.length - 1, back + by));
     setBack(to);
     setText(history[to] ?? "");
+    return true;
+  }
+
+  function take(path: string): void {
+    const next = withPath(text, input.current?.selectionStart ?? text.length, path);
+    setText(next.text);
+    offering.close();
+    requestAnimationFrame(() => input.current?.setSelectionRange(next.caret, next.caret));
   }
 
   return (
-    <label className="inp sm grow">
+    <span className="inp sm grow" title={t("console.effects")}>
       <Icon name="cmd" small />
-      <input
+      <ComboBox
+        input={input}
         className="mono"
-        aria-label={t("console.entry")}
+        label={t("console.entry")}
         placeholder={t("console.hint")}
-        title={t("console.effects")}
         value={text}
         disabled={!online}
-        spellCheck={false}
-        autoComplete="off"
-        onChange={(event) => setText(event.target.value)}
-        onKeyDown={onKeyDown}
+        offering={offering}
+        onType={(typed, caret) => {
+          setText(typed);
+          offering.ask(pathBefore(typed, caret));
+        }}
+        onTake={({ path }) => take(path)}
+        onKey={onKey}
+        listed={t("console.offers")}
       />
-    </label>
+    </span>
   );
 }

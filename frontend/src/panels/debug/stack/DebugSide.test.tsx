@@ -164,7 +164,7 @@ test("the console evaluates, says what it cannot, and shows what logpoints say",
     }),
   );
   render(<ConsolePanel />);
-  const entry = box(t("console.entry"));
+  const entry = screen.getByRole<HTMLInputElement>("combobox", { name: t("console.entry") });
   await user.type(entry, "Main.n + 40{Enter}");
   await waitFor(() => expect(textOf(screen.getByRole("log"))).toContain("47"));
   await user.type(entry, "Main.nothing{Enter}");
@@ -175,6 +175,26 @@ test("the console evaluates, says what it cannot, and shows what logpoints say",
   expect(entry.value).toBe("Main.nothing");
   await user.click(button(t("console.clear")));
   await screen.findByText(t("console.none"));
+});
+
+test("the console completes the word at the caret: Enter takes what an arrow chose, and evaluates where nothing is chosen", async () => {
+  const { server, user } = await openPage((server) => {
+    server.debug("evaluate", () => ({ result: "47", type: "INT", variablesReference: 0 }));
+    server.debug("completions", ({ text }) => ({
+      targets: text === "Main.be" ? [{ label: "belt", type: "variable", detail: "Belt", start: 5, length: 2 }] : [],
+    }));
+  });
+  render(<ConsolePanel />);
+  const entry = screen.getByRole<HTMLInputElement>("combobox", { name: t("console.entry") });
+  await user.type(entry, "2 + Main.be");
+  const list = await screen.findByRole("listbox", { name: t("console.offers") });
+  expect(textOf(list)).toContain("Main.belt");
+  await user.keyboard("{ArrowDown}{Enter}");
+  expect(entry.value).toBe("2 + Main.belt");
+  expect(server.debugged("evaluate")).toEqual([]);
+  await user.keyboard("{Enter}");
+  await waitFor(() => expect(server.debugged("evaluate")).toMatchObject([{ expression: "2 + Main.belt" }]));
+  expect(entry.value).toBe("");
 });
 
 test("after a run-time error the way back stays open: a step back, and no step on", async () => {

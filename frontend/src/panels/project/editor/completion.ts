@@ -31,7 +31,7 @@ interface Offered extends languages.CompletionItem {
 }
 
 languages.registerCompletionItemProvider(LANGUAGE, {
-  triggerCharacters: ["."],
+  triggerCharacters: [".", "#"],
   provideCompletionItems: async (model, position, _context, token) => {
     if (isPast(model)) return { suggestions: [] };
     const path = pathOfModel(model);
