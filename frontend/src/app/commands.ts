@@ -9,7 +9,7 @@ import { askNewPanel } from "../store/operator/panels";
 import { openRack } from "../store/operator/rack";
 import { showHelp } from "../store/page/help";
 import { openPage, PANELS, showPanel } from "../store/page/navigate";
-import { COMMANDS, type Command, showKeys, showPalette } from "../store/page/palette";
+import { COMMANDS, type Command, SYMBOLS, showKeys, showPalette } from "../store/page/palette";
 import {
   chooseLanguage,
   chooseTheme,
@@ -36,7 +36,7 @@ import { cyclePanes } from "./panes";
 
 interface WindowCommand {
   label: TextKey;
-  /** `a|b`: several. */
+  /** `a|b`: several; `a b`: one after the other. */
   keys?: string;
   run: () => void;
 }
@@ -56,6 +56,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "build.saying", run: () => askBuildMessage(true) },
     { label: "restart.rollback", run: () => void rollBack() },
     { label: "command.goto", keys: "Ctrl+P", run: () => showPalette("") },
+    { label: "goto.symbol", keys: "Ctrl+T", run: () => showPalette(SYMBOLS) },
     { label: "command.search", keys: "Ctrl+Shift+F", run: askSearch },
     { label: "command.back", keys: "Alt+ArrowLeft", run: goBack },
     { label: "command.forward", keys: "Alt+ArrowRight", run: goForward },
@@ -95,7 +96,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "tour.open", run: openTour },
     { label: "help.contents", run: () => showHelp(CONTENTS) },
     { label: "command.palette", keys: "Ctrl+Shift+P", run: () => showPalette(COMMANDS) },
-    { label: "command.keys", keys: "?", run: () => showKeys(true) },
+    { label: "command.keys", keys: "?|Ctrl+K Ctrl+S", run: () => showKeys(true) },
     { label: "command.pane.next", keys: "F6", run: () => cyclePanes(1) },
     { label: "command.pane.before", keys: "Shift+F6", run: () => cyclePanes(-1) },
     { label: "command.instances", run: () => showInstances(true) },
@@ -140,6 +141,6 @@ export function windowCommands({ resetLayout, enlarge, popOut }: Arrangement): C
 
 const NAMES: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", Escape: "Esc" };
 
-/** Keys as they are shown: the first of several, with short names. */
+/** Keys as they are shown, with short names. */
 export const shownKeys = (keys: string) =>
-  keys.split("|")[0]?.replace(/ArrowLeft|ArrowRight|Escape/g, (key) => NAMES[key] ?? key) ?? "";
+  keys.replaceAll("|", ", ").replace(/ArrowLeft|ArrowRight|Escape/g, (key) => NAMES[key] ?? key);

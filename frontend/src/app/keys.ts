@@ -11,9 +11,23 @@ const BOUND = new Map(
 /** What the browser would do with these is wanted nowhere: print, save the page. */
 const BROWSERS = ["Ctrl+P", "Ctrl+S"];
 
+/** Keys that others follow, as in `Ctrl+K Ctrl+S`. */
+const FIRST = new Set([...BOUND.keys()].flatMap((name) => (name.includes(" ") ? (name.split(" ")[0] ?? []) : [])));
+const HELD = ["Control", "Meta", "Alt", "Shift"];
+
 export function installKeys(): () => void {
+  let before = "";
   const onKeyDown = (event: KeyboardEvent) => {
+    if (HELD.includes(event.key)) return;
     const name = nameOf(event);
+    const both = BOUND.get(`${before} ${name}`);
+    before = FIRST.has(name) ? name : "";
+    if (both || before !== "") {
+      // The editor has keys of its own that begin so: it is to see both, and would else wait for the second one.
+      event.preventDefault();
+      if (document.querySelector("dialog[open]") === null) both?.();
+      return;
+    }
     const run = BOUND.get(name);
     if (!run || (name.length === 1 && isTyping(event.target))) return;
     const asked = document.querySelector("dialog[open]") !== null;

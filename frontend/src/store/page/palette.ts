@@ -4,6 +4,9 @@ import { create } from "zustand";
 /** What the text of the palette begins with while commands are looked for; else files and names are. */
 export const COMMANDS = ">";
 
+/** And while only symbols of the project are. */
+export const SYMBOLS = "#";
+
 /** `begins` is null while the palette is closed. `unasked`: the language server did not answer, so names were not looked at. */
 export const usePalette = create<{ begins: string | null; unasked: boolean }>(() => ({ begins: null, unasked: false }));
 

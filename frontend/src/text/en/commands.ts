@@ -69,6 +69,7 @@ export const commands = {
   "palette.commands": "Commands",
   "palette.none": "No command has these letters in its name: {text}.",
   "palette.unasked": "Only files are offered: the language server does not answer.",
+  "palette.unasked.symbols": "No symbols are offered: the language server does not answer. Files are at Ctrl+P.",
   "panel.search": "Search",
   "search.about": "Looks in all files of the project, also in texts that are not saved.",
   "search.all": "Replace all {count}",

@@ -245,5 +245,6 @@ export const project = {
   "explorer.words": "{words} words",
   "goto.label": "Go to",
   "goto.none": "Nothing in this project has these letters in its name: {text}.",
-  "goto.placeholder": "File, POU, method, type, variable, value; > for commands",
+  "goto.placeholder": "File, POU, method, type, variable, value; # for symbols, > for commands",
+  "goto.symbol": "Go to a symbol of the project",
 } as const;

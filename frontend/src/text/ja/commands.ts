@@ -70,6 +70,7 @@ export const commands = {
   "palette.commands": "コマンド",
   "palette.none": "この文字を含む名前のコマンドはありません: {text}",
   "palette.unasked": "言語サーバーが応答しないため、ファイルだけを表示しています。",
+  "palette.unasked.symbols": "言語サーバーが応答しないため、シンボルを表示できません。ファイルは Ctrl+P で開けます。",
   "panel.search": "検索",
   "search.about": "未保存のテキストも含め、プロジェクトのすべてのファイルを検索します。",
   "search.all": "すべて置換（{count} 件）",

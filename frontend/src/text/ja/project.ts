@@ -246,5 +246,6 @@ export const project: Record<keyof typeof english, string> = {
   "explorer.words": "{words} ワード",
   "goto.label": "移動",
   "goto.none": "この文字を含む名前はプロジェクトにありません: {text}",
-  "goto.placeholder": "ファイル、POU、メソッド、型、変数、値。> でコマンド",
+  "goto.placeholder": "ファイル、POU、メソッド、型、変数、値。# でシンボル、> でコマンド",
+  "goto.symbol": "プロジェクトのシンボルへ移動",
 };

@@ -1,7 +1,7 @@
-/** Goes to a file, or to a POU, method, type, variable or value of the project, by some letters of its name; after `>` it is commands. */
+/** Goes to a file, or to a POU, method, type, variable or value of the project, by some letters of its name; after `#` to names alone; after `>` it is commands. */
 
 import { useEffect, useRef, useState } from "react";
-import { COMMANDS, showPalette, usePalette } from "../../../store/page/palette";
+import { COMMANDS, SYMBOLS, showPalette, usePalette } from "../../../store/page/palette";
 import { t } from "../../../text";
 import { ComboBox } from "../../../ui/ComboBox";
 import { useOffers } from "../../../ui/useOffers";
@@ -56,7 +56,8 @@ function Open({ begins }: { begins: string }) {
   const commands = text.startsWith(COMMANDS);
   // Escape closes all of it at once, not the list alone.
   const onKey: typeof offering.onKey = (event, choose) => event.key !== "Escape" && offering.onKey(event, choose);
-  const label = t(commands ? "palette.commands" : "goto.label");
+  const symbols = text.startsWith(SYMBOLS);
+  const label = t(commands ? "palette.commands" : symbols ? "goto.symbol" : "goto.label");
   return (
     <dialog
       ref={dialog}
@@ -86,9 +87,11 @@ function Open({ begins }: { begins: string }) {
         }}
         list="menu"
       />
-      {unasked && !commands && text !== "" && <p role="status">{t("palette.unasked")}</p>}
+      {unasked && !commands && text !== "" && (
+        <p role="status">{t(symbols ? "palette.unasked.symbols" : "palette.unasked")}</p>
+      )}
       {offering.nothing && !(unasked && !commands) && text !== "" && (
-        <p role="status">{t(commands ? "palette.none" : "goto.none", { text: text.replace(/^>/, "") })}</p>
+        <p role="status">{t(commands ? "palette.none" : "goto.none", { text: text.replace(/^[>#]/, "") })}</p>
       )}
     </dialog>
   );

@@ -1,9 +1,9 @@
-/** What the palette offers for a text: files and what they declare, or commands. */
+/** What the palette offers for a text: files and what they declare, symbols alone, or commands. */
 
 import { SymbolKind, type WorkspaceSymbol } from "vscode-languageserver-types";
 import { isPanelFile } from "../../../logic/project/panelFiles";
 import { openFile } from "../../../store/page/navigate";
-import { COMMANDS, commandsNow, usePalette } from "../../../store/page/palette";
+import { COMMANDS, commandsNow, SYMBOLS, usePalette } from "../../../store/page/palette";
 import { useDocuments } from "../../../store/project/documents";
 import type { IconName } from "../../../ui/drawings";
 import type { Offer } from "../../../ui/useOffers";
@@ -29,7 +29,8 @@ const ICONS: Partial<Record<SymbolKind, IconName>> = {
 /** What has these letters in its name, in this order: what begins with them first. */
 export async function targets(typed: string): Promise<Target[]> {
   if (typed.startsWith(COMMANDS)) return commands(typed.slice(COMMANDS.length));
-  return (await places(typed.trim())).slice(0, MOST);
+  if (typed.startsWith(SYMBOLS)) return (await places(typed.slice(SYMBOLS.length).trim(), false)).slice(0, MOST);
+  return (await places(typed.trim(), true)).slice(0, MOST);
 }
 
 function commands(typed: string): Target[] {
@@ -43,11 +44,12 @@ function commands(typed: string): Target[] {
 }
 
 /** Files before what they declare where the rank is the same. */
-async function places(typed: string): Promise<Target[]> {
+async function places(typed: string, withFiles: boolean): Promise<Target[]> {
   // The language server is loaded with the first editor, or here.
   const { ask, pathOf } = await import("../../../store/project/language");
   const letters = typed.toUpperCase();
-  const files = useDocuments.getState().files.filter(({ path }) => contains(path.toUpperCase(), letters));
+  const all = withFiles ? useDocuments.getState().files : [];
+  const files = all.filter(({ path }) => contains(path.toUpperCase(), letters));
   const symbols = await ask<WorkspaceSymbol[]>("workspace/symbol", { query: typed });
   usePalette.setState({ unasked: symbols === null });
   const declared = (symbols ?? []).flatMap(({ name, kind, containerName, location }): Target[] => {
