@@ -36,6 +36,7 @@ from scanbench.check.system.plant import Plant, plant_files
 from scanbench.check.system.stimuli import Stimuli
 from scanbench.check.system.system import System, system_of
 from scanbench.check.system.system_text import COMMON
+from scanbench.check.task_infos import TaskInfo, task_infos
 from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model, Who
 from scanbench.plcmodel.user_errors import extended, is_of_catalogue
@@ -84,6 +85,8 @@ class Checked:
     pous: tuple[PouInfo, ...]
     checks: tuple[CheckSite, ...] = ()
     """Subrange checks; none while there are errors."""
+    tasks: tuple[TaskInfo, ...] = ()
+    """None while there are errors."""
 
 
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
@@ -126,19 +129,21 @@ def checker_of(files: Sequence[Chunked], model: Model, looks: Looks | None = Non
     return Checker(Report(), used, [file.file for file in files], enabling, looked_at, dialect)
 
 
-def concluded(files: Sequence[Chunked], report: Report, program: Program | None) -> Checked:
-    """What came out, in spans that do not move any more."""
+def concluded(files: Sequence[Chunked], report: Report, program: Program | None, whole: bool = True) -> Checked:
+    """What came out, in spans that do not move any more. A program that is not `whole` tells what it consists of, and is left out."""
     found = [*(problem for file in files for problem in file.problems), *report.problems]
     problems = list(dict.fromkeys(replace(problem, span=problem.span.plain()) for problem in found))
     problems.sort(key=lambda each: (each.span.file, each.span.line, each.span.column))
-    infos = tuple(_infos([file.file for file in files]))
+    trees = [file.file for file in files]
+    infos = tuple(_infos(trees))
     if any(problem.severity is Severity.ERROR for problem in problems):
         return Checked(None, tuple(problems), infos)
     checks = tuple(replace(site, span=site.span.plain()) for site in report.checks)
+    tasks = () if program is None else task_infos(program, trees)
     if program is not None:
         traps = tuple(replace(site, span=site.span.plain()) for site in program.traps)
-        program = replace(program, traps=traps, checks=checks)
-    return Checked(program, tuple(problems), infos, checks)
+        program = replace(program, traps=traps, checks=checks) if whole else None
+    return Checked(program, tuple(problems), infos, checks, tasks)
 
 
 def _infos(parsed: list[tree.File]) -> list[PouInfo]:

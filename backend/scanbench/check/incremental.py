@@ -157,7 +157,7 @@ class Project:
     def _finish(self) -> None:
         program = self.checker.finish(self.interval_ns)
         files = list(self.files.values())
-        self.checked = concluded(files, self.checker.report, program if self.whole else None)
+        self.checked = concluded(files, self.checker.report, program, self.whole)
 
     def _redeclare(self, edits: list[_Edit], telling: set[Pou]) -> bool:
         """Declares everything again, and checks only bodies that may see what changed; false when that cannot be told."""

@@ -133,7 +133,8 @@ class Job:
         found = self._checks.diagnose(sources.files, model_of(sources), sources.interval_ns)
         required = self._required(sources, found)
         numbers = self._numbers(sources) if ask.numbers else None
-        return Checked(ask.ref, CheckOutcome((*found.problems, *required), found.pous, found.checks, numbers))
+        problems = (*found.problems, *required)
+        return Checked(ask.ref, CheckOutcome(problems, found.pous, found.checks, numbers, found.tasks))
 
     def _numbers(self, sources: Sources) -> tuple[RaisedNumber, ...] | None:
         """Those that the program raises errors with, whatever is wrong with what is fitted."""

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from scanbench.check.build import PouInfo
+from scanbench.check.task_infos import TaskInfo
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
@@ -105,6 +106,7 @@ class CheckResult(Wire):
     problems: list[Problem]
     pous: tuple[PouInfo, ...]
     checks: list[EmbeddedCheck] = Field(description="none while there are errors")
+    tasks: tuple[TaskInfo, ...] = Field(default=(), description="none while there are errors")
     numbers: tuple[RaisedNumber, ...] | None = Field(
         default=None,
         description="constants in calls of FAL, FALS and their like; null where nobody asked, or the program has errors",

@@ -63,6 +63,7 @@ def check_result(found: CheckOutcome) -> wire.CheckResult:
         pous=found.pous,
         checks=list(map(embedded_check, found.checks)),
         numbers=found.numbers,
+        tasks=found.tasks,
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from dataclasses import fields
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.build import PouInfo
+from scanbench.check.task_infos import TaskInfo, TaskProgram
 from scanbench.debug.assign import Assign
 from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
@@ -97,7 +98,7 @@ _CLASSES: dict[str, type] = {
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, OutputRestart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
-        events.CheckOutcome, Problem, PouInfo, CheckSite, RaisedNumber, job_protocol.Reacted,
+        events.CheckOutcome, Problem, PouInfo, CheckSite, TaskInfo, TaskProgram, RaisedNumber, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord, DeviceStandby, protocol.DeviceIs, protocol.WantDevice,
         GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,

@@ -6,6 +6,7 @@ from datetime import datetime
 from typing import ClassVar, Literal, Protocol
 
 from scanbench.check.build import PouInfo
+from scanbench.check.task_infos import TaskInfo
 from scanbench.debug.breakpoint import Verdict
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors
@@ -41,6 +42,8 @@ class CheckOutcome:
     """Subrange checks that the compiler embedded, or proved needless; none while there are errors."""
     numbers: tuple[RaisedNumber, ...] | None = None
     """Those that the program raises errors with; None where nobody asked, or the program has errors."""
+    tasks: tuple[TaskInfo, ...] = ()
+    """None while there are errors."""
 
     @property
     def errors(self) -> int:

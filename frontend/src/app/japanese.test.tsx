@@ -99,6 +99,7 @@ function busy(server: FakeServer): void {
   }));
   server.on("POST", "/projects/*/check", () => ({
     checks: [],
+    tasks: [],
     pous: [],
     problems: [{ ...violation, code: "T001", severity: "error" as const, message: "`levle` は宣言されていません。" }],
   }));

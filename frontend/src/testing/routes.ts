@@ -57,7 +57,7 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "/projects/*/dialect", () => ({ dialect: "iec" as const }));
   on("GET", "/projects/*/versions", () => []);
   on("GET", "/projects/*/git", () => ({ missing: "", folder: "", branch: "", head: "", elsewhere: [], changes: [] }));
-  on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems: [] }));
+  on("POST", "/projects/*/check", () => ({ checks: [], tasks: [], pous: [], problems: [] }));
   on("POST", "/projects/*/watch-lists", ({ body }) => storedList(body, 1));
   on("PUT", "/watch-lists/*", ({ body }) => storedList(body, body.version + 1));
 }

@@ -3123,6 +3123,12 @@ export interface components {
             pous: components["schemas"]["Pou"][];
             /** Problems */
             problems: components["schemas"]["Problem"][];
+            /**
+             * Tasks
+             * @description none while there are errors
+             * @default []
+             */
+            tasks: components["schemas"]["Task"][];
         };
         /** CheckTraceMapping */
         CheckTraceMapping: {
@@ -7070,6 +7076,54 @@ export interface components {
             values: components["schemas"]["EnumValue"][];
             /** Writable */
             writable: boolean;
+        };
+        /**
+         * Task
+         * @description A task of the CONFIGURATION; without one there is a single task, which runs every program.
+         */
+        Task: {
+            /**
+             * Event
+             * @description A rising edge starts it (SINGLE).
+             */
+            event: boolean;
+            /**
+             * File
+             * @description Where it is declared; empty where it is not.
+             */
+            file: string;
+            /**
+             * Interval Ns
+             * @description 0 where only an event starts it.
+             */
+            interval_ns: number;
+            /** Line */
+            line: number;
+            /** Name */
+            name: string;
+            /**
+             * Priority
+             * @description 0 is the highest.
+             */
+            priority: number;
+            /** Programs */
+            programs: components["schemas"]["TaskProgram"][];
+        };
+        /**
+         * TaskProgram
+         * @description What a task runs.
+         */
+        TaskProgram: {
+            /**
+             * Name
+             * @description The path of the instance.
+             */
+            name: string;
+            /**
+             * Pou
+             * @description What it is an instance of: a program, or a function block that the task runs by itself.
+             */
+            pou: string;
         };
         /**
          * TestRecord

@@ -34,6 +34,7 @@ export type Diagnostics = Shapes["Diagnostics"];
 export type Done = Shapes["Done"];
 export type Draft = Shapes["Draft"];
 export type DraftEdited = Shapes["DraftEdited"];
+export type Task = Shapes["Task"];
 export type EmbeddedCheck = Shapes["EmbeddedCheck"];
 export type ErrorDetail = Shapes["ErrorDetail"];
 export type ErrorGroup = Shapes["ErrorGroup"];

@@ -32,7 +32,11 @@ export async function check(): Promise<void> {
     );
     if (turn !== checkTurn || get().project !== project) return;
     const broken = result.problems.some((problem) => problem.severity === "error");
-    set({ problems: result.problems, pous: result.pous, ...(broken ? {} : { checks: result.checks }) });
+    set({
+      problems: result.problems,
+      pous: result.pous,
+      ...(broken ? {} : { checks: result.checks, tasks: result.tasks }),
+    });
     if (wantsNumbers && get().wantsNumbers) set({ numbers: result.numbers ?? null });
   } catch (error) {
     if (turn === checkTurn) set({ trouble: messageOf(error) });

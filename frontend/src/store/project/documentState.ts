@@ -10,6 +10,7 @@ import type {
   Pou,
   Problem,
   RaisedNumber,
+  Task,
 } from "../../wire/types";
 
 export interface Document {
@@ -54,6 +55,8 @@ interface Documents {
   cursor: { line: number; column: number } | null;
   pous: readonly Pou[];
   problems: readonly Problem[];
+  /** The tasks of the edited texts; the last good ones while there are errors. */
+  tasks: readonly Task[];
   /** Subrange checks of the edited texts; the last good ones while there are errors. */
   checks: readonly EmbeddedCheck[];
   /** The numbers that the program raises errors with, while somebody wants them; null while it has errors. */
@@ -75,6 +78,7 @@ export const nothing: Omit<Documents, "project" | "wantsNumbers"> = {
   cursor: null,
   pous: [],
   problems: [],
+  tasks: [],
   checks: [],
   numbers: null,
   build: { phase: "idle" },

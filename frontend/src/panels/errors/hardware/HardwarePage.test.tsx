@@ -100,6 +100,7 @@ test("what is wrong is told at its row, and what is wrong with the file above th
   await openHardware(TEXT, (server) =>
     server.on("POST", "/projects/*/check", () => ({
       checks: [],
+      tasks: [],
       pous: [],
       problems: [problem(3, "fal 42 is fitted already"), problem(1, "one too many")],
     })),
@@ -122,6 +123,7 @@ test("the numbers that the program raises are added with a click", async () => {
   const { user, server } = await openHardware(TEXT, (server) =>
     server.on("POST", "/projects/*/check", ({ body }) => ({
       checks: [],
+      tasks: [],
       pous: [],
       problems: [],
       ...(body.numbers ? { numbers: [found(42, ""), found(43, "PUMP HOT"), found(44, "")] } : {}),

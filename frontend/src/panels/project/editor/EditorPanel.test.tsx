@@ -170,7 +170,7 @@ test("a build that is refused opens the problems", async () => {
       project,
     };
     server.on("POST", "/projects/*/build", () => result);
-    server.on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems: [problem] }));
+    server.on("POST", "/projects/*/check", () => ({ checks: [], tasks: [], pous: [], problems: [problem] }));
   });
   await user.click(buildButton());
   await waitFor(() => expect(places).toEqual(["panel problems"]));
@@ -199,7 +199,7 @@ test("a build that was refused for errors in the text says so until there are no
   const error = (code: string): Problem => ({ ...at, severity: "error", code, message: code });
   let problems = [error("S001")];
   const { server, user } = await openEditor((server) => {
-    server.on("POST", "/projects/*/check", () => ({ checks: [], pous: [], problems }));
+    server.on("POST", "/projects/*/check", () => ({ checks: [], tasks: [], pous: [], problems }));
     server.on("POST", "/projects/*/build", () => ({
       ok: false,
       message: "it has errors",

@@ -89,3 +89,21 @@ test("a new file is of the kind that its name says until somebody chooses, and i
   }[];
   expect(sent?.text).toMatch(/^PROGRAM FB_Belt\n[\s\S]*LD {3}enable/);
 });
+
+test("tasks are listed with how often they run and what; a task leads to its declaration, a program to its text", async () => {
+  const pous = [{ name: "Belt", kind: "program" as const, file: "Belt.st", line: 3 }];
+  const programs = [{ name: "second", pou: "Belt" }];
+  const place = { file: "plant.st", line: 5 };
+  const fast = { name: "fast", interval_ns: 10_000_000, event: false, priority: 1, ...place, programs };
+  const once = { name: "once", interval_ns: 0, event: true, priority: 2, ...place, line: 6, programs: [] };
+  const { user, places } = await openPage((server) => {
+    server.on("POST", "/projects/*/check", () => ({ checks: [], tasks: [fast, once], pous, problems: [] }));
+  });
+  render(<Explorer />);
+  const row = await screen.findByRole("treeitem", { name: /^fast/ });
+  expect(textOf(row)).toContain(`10 ms · ${t("explorer.task.priority", { priority: 1 })}`);
+  expect(textOf(screen.getByRole("treeitem", { name: /^once/ }))).toContain(t("explorer.task.event"));
+  await user.dblClick(row);
+  await user.dblClick(screen.getByRole("treeitem", { name: /^second/ }));
+  expect([...new Set(places)]).toEqual(["file plant.st", "file Belt.st"]);
+});

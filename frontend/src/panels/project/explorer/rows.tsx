@@ -1,4 +1,4 @@
-import { useEffect, useState } from "react";
+import { useEffect } from "react";
 import { lineOf } from "../../../logic/debug/breakpoints";
 import { allErrors } from "../../../logic/errors/catalogue";
 import { percent } from "../../../logic/format/numbers";
@@ -30,8 +30,10 @@ import type { MenuItem } from "../../../ui/Menu";
 import { StateWord } from "../../../ui/StateWord";
 import type { TreeRow } from "../../../ui/Tree";
 import type { Area, ModelInfo, PlcSymbol, Pou, Problem } from "../../../wire/types";
+import { type Folding, folder, useFolding } from "./folding";
 import { rowsWith } from "./found";
 import { PouLabel } from "./PouLabel";
+import { taskRows } from "./taskRows";
 
 const POU_ICONS: Record<Exclude<PouGroup["kind"], "plant">, IconName> = {
   program: "program",
@@ -49,11 +51,6 @@ const SYMBOL_ICONS: Partial<Record<PlcSymbol["kind"], IconName>> = { array: "arr
 
 /** Kinds of declarations that run, and so can be verified. */
 const VERIFIED: readonly PouGroup["kind"][] = ["program", "function_block", "function"];
-
-interface Folding {
-  isOpen: (key: string) => boolean;
-  toggle: (key: string) => void;
-}
 
 type OpenMenu = (items: readonly MenuItem[], at: { x: number; y: number }) => void;
 
@@ -73,9 +70,10 @@ export function useExplorerRows(
     "panel",
     "plant",
     "file",
+    "tasks",
     "instances",
   ]);
-  const { pous, files, active, cursor, problems } = useDocuments();
+  const { pous, tasks, files, active, cursor, problems } = useDocuments();
   const here = active === null ? undefined : shownAt(pous, active, cursor?.line ?? 1);
   const { instance, model } = useBench();
   const members = useMembers((state) => state.of);
@@ -128,6 +126,7 @@ export function useExplorerRows(
       });
     }
   }
+  rows.push(...taskRows(tasks, pous, folding));
   if (instance) rows.push(rackRow());
   if (instance) {
     rows.push({ ...folder(folding, "instances", t("explorer.instances")), icon: "folder" });
@@ -157,33 +156,6 @@ function isAround(node: PouNode | FileNode, kind: PouGroup["kind"], here: Pou | 
   if (node.kind === "file") return true;
   if (kind === "global") return here === undefined;
   return here ? node.name === here.name : !node.shared;
-}
-
-function useFolding(initial: readonly string[]): Folding {
-  const [open, setOpen] = useState<ReadonlySet<string>>(() => new Set(initial));
-  return {
-    isOpen: (key) => open.has(key),
-    toggle: (key) =>
-      setOpen((before) => {
-        const next = new Set(before);
-        if (!next.delete(key)) next.add(key);
-        return next;
-      }),
-  };
-}
-
-function folder(folding: Folding, key: string, name: string, count?: number): TreeRow {
-  const open = folding.isOpen(key);
-  return {
-    key,
-    level: 0,
-    icon: "folder",
-    label: name,
-    name,
-    meta: open || count === undefined ? undefined : count,
-    open,
-    onToggle: () => folding.toggle(key),
-  };
 }
 
 interface Marked {
