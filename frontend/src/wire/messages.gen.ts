@@ -1509,6 +1509,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/drafts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The texts that somebody edited, and nobody has saved since
+         * @description The texts that somebody edited, and nobody has saved since.
+         */
+        get: operations["list_project_drafts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/files": {
         parameters: {
             query?: never;
@@ -7559,6 +7579,16 @@ export interface components {
              */
             why: "condition" | "left" | "task" | "body";
         };
+        /**
+         * UnsavedText
+         * @description A file as people edit it together, which is not what was saved last.
+         */
+        UnsavedText: {
+            /** Path */
+            path: string;
+            /** Text */
+            text: string;
+        };
         /** Unwatch */
         Unwatch: {
             /** Ids */
@@ -11448,6 +11478,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProjectDialect"];
+                };
+            };
+        };
+    };
+    list_project_drafts: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UnsavedText"][];
                 };
             };
         };
