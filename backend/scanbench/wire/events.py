@@ -38,12 +38,12 @@ class CheckOutcome:
 
     problems: tuple[Problem, ...]
     pous: tuple[PouInfo, ...]
-    checks: tuple[CheckSite, ...] = ()
-    """Subrange checks that the compiler embedded, or proved needless; none while there are errors."""
+    checks: tuple[
+        CheckSite, ...
+    ] = ()  # subrange checks that are embedded, or proved needless; none while there are errors
     numbers: tuple[RaisedNumber, ...] | None = None
     """Those that the program raises errors with; None where nobody asked, or the program has errors."""
     tasks: tuple[TaskInfo, ...] = ()
-    """None while there are errors."""
 
     @property
     def errors(self) -> int:
