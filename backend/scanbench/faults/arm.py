@@ -241,12 +241,12 @@ def _bad_errors(wanted: Wanted, view: View) -> Refusal | None:
             continue
         if wanted.shape.kind != "stay":
             return Refusal(
-                f"{entry.id} is fatal: it stops the program, and while that is stopped no scans pass after which it "
-                "could go. Let it stay, and recover it by hand"
+                f"{entry.id} is fatal: where it stops the program, no scans pass after which it could go. Let it stay, and "
+                "recover it by hand"
             )
         if wanted.gap and index < len(wanted.errors) - 1:
             return Refusal(
-                f"{entry.id} is fatal: it stops the program, so the errors after it would never come. Put it last, or "
+                f"{entry.id} is fatal: where it stops the program, the errors after it would never come. Put it last, or "
                 "raise all at once (gap 0)"
             )
     return None

@@ -64,7 +64,9 @@ class Generate(Command):
         known = present_choices(view, present)
         gone = (self._gives_way(one, present, known) for one in chosen)
         refs = tuple(raised.ref for each in gone for raised, _ in each)
-        standby = self.origin == "simulator" and takes_over(view, _fatal(chosen))
+        fatal = _fatal(chosen)
+        stops = self._stops(fatal, present, known)
+        standby = self.origin == "simulator" and bool(fatal) and (not stops or takes_over(view, stops))
         return replace(self, errors=tuple(map(settled_ref, self.errors, chosen)), replaces=refs, standby=standby)
 
     def plan(self, view: View) -> Plan | Refusal:
@@ -89,7 +91,7 @@ class Generate(Command):
         patches = list(switch(view, off=changed, on=chosen, others=_flat(others)))
         patches += log_patches(view, chosen)
         patches += time_patches(view, chosen)
-        fatal, follows = _fatal(chosen), ""
+        fatal, follows = self._stops(_fatal(chosen), present, known), ""
         if self.origin == "simulator" and takes_over(view, fatal):
             more, said = taken_over(view, fatal)
             patches += more
@@ -107,6 +109,10 @@ class Generate(Command):
         if self.origin == "simulator":
             return [] if self.again else _rivals(one, present, others)
         return [each for each in _of_kind(one, present, others) if each[1].details == one.details]
+
+    def _stops(self, fatal: Iterable[Chosen], present: Mapping[str, Active], others: Choices) -> list[Chosen]:
+        """Of fatal errors, those that would stop the program: an error that the standby took over for may change its details."""
+        return [one for one in fatal if not any(raised.standby for raised, _ in self._gives_way(one, present, others))]
 
     def _gives_way(self, one: Chosen, present: Mapping[str, Active], others: Choices) -> list[tuple[Raised, Chosen]]:
         """What is present and is so no more when it is raised."""
@@ -176,7 +182,7 @@ class Recover(Command):
                 message += "; the program stays stopped: change to MONITOR or RUN, or restart"
         if halt and _any_fatal(_without(off, survived)):
             message += f"; the program stays stopped: {_why_stopped(view, halt, _without(left, survived))}"
-        if self.way == "simulator" and is_repaired(view.model, off, left):
+        if self.way == "simulator" and (self.ids is None or is_repaired(view.model, off, left)):
             back, said = restored(view)
             patches += back
             message += f"; {said}" if said else ""
@@ -293,7 +299,9 @@ def unfitted(model: Model, one: Chosen, anyway: bool = False) -> Refusal | None:
         return None
     where = f"{one.instance} is not fitted: {HARDWARE_FILE} does not have it"
     if can_be_absent(one.error):
-        return Refusal(f"{where}. Add it there, or raise it anyway: the device can report it all the same")
+        return Refusal(
+            f"{where}. Add it there; at the error simulator, and by REST with anyway, it can be raised all the same, as the device can report it"
+        )
     return Refusal(f"{where}. Add it there, and build: the device reports no such error of what is not there")
 
 

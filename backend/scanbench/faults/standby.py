@@ -93,7 +93,11 @@ def watched_bits(model: Model, error: str, layout: Layout) -> list[Bits]:
     if standby is None or not standby.takes_over_for(error):
         return []
     places = [standby.duplex, standby.side, *(place for id, place in standby.causes if id == error)]
-    return [part for place in places for part in field_bits(place, 0, 1, 1, layout)]
+    found = [part for place in places for part in field_bits(place, 0, 1, 1, layout)]
+    if standby.time is not None:
+        bits = 8 * len(standby.fields)
+        found += field_bits(standby.time, 0, bits, (1 << bits) - 1, layout)
+    return found
 
 
 def causes_on(memory: bytes | bytearray | memoryview, layout: Layout, standby: Standby) -> Iterator[str]:

@@ -11,8 +11,7 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
   BOOL: value <> 0. Integer to REAL: nearest, ties to even, in one rounding. REAL to integer: ties to even, saturated
   at the target's bounds, NaN is 0. LREAL to REAL: nearest. To or from STRING: only STRING to STRING (cut at capacity).
 - AND, OR on BOOL evaluate both sides. Operands and arguments are evaluated from left to right; an assignment evaluates
-  the value, then the address of its target; the address of an output's target is taken after the call,
-  and for a function after all outputs and the result are read.
+  the value, then the address of its target; that of an output's target comes after the call, of a function after all it gives is read.
 - FOR: bounds and step are evaluated once, in the order start, end, step; the counter is a value of its own that is
   stored to the variable at the start of every round, and once more when the loop ends normally (the value that failed
   the test, wrapped at the width of the variable). A loop over the full range of its type ends. Step 0 gives no round.

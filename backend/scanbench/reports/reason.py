@@ -24,9 +24,10 @@ def reason_of(reaction: Reaction) -> str:
             return f"{read}, but nothing differed in {window} scans"
         case "stored" | "stored_only":
             kept = ", ".join(some([each.path for each in reaction.differences]))
-            return f"{read}; stored in {kept}, which decides nothing"
+            return "; ".join(filter(None, (read, f"stored in {kept}, which decides nothing")))
         case "displayed":
-            return f"{read}; displayed in {', '.join(some(reaction.displayed))}, which only tools read"
+            told = f"displayed in {', '.join(some(reaction.displayed))}, which only tools read"
+            return "; ".join(filter(None, (read, told)))
         case "decided":
             return "; ".join(filter(None, (read, _decided(reaction))))
         case _:

@@ -34,13 +34,11 @@ VerifyPace = Literal["free", "scan", "step"]
 
 @dataclass(frozen=True, slots=True)
 class CheckOutcome:
-    """What a check found."""
+    """What a check found: no subrange checks, embedded or proved needless, while there are errors."""
 
     problems: tuple[Problem, ...]
     pous: tuple[PouInfo, ...]
-    checks: tuple[
-        CheckSite, ...
-    ] = ()  # subrange checks that are embedded, or proved needless; none while there are errors
+    checks: tuple[CheckSite, ...] = ()
     numbers: tuple[RaisedNumber, ...] | None = None
     """Those that the program raises errors with; None where nobody asked, or the program has errors."""
     tasks: tuple[TaskInfo, ...] = ()

@@ -165,7 +165,7 @@ def equipped() -> Resource:
         (f"{SPECIAL}:unit=4", f"{SPECIAL}:unit=4 is not fitted: hardware.json does not have it. Add it there, and build"),
         ("cpu-bus-unit-error:unit=0", "the device reports no such error of what is not there"),
         ("fal:number=7", "raise it anyway: the device can report it all the same"),
-        ("special-io-unit-setting-error:unit=4", "or raise it anyway"),
+        ("special-io-unit-setting-error:unit=4", "it can be raised all the same"),
     ],
 )  # fmt: skip
 def test_what_is_not_fitted_is_refused_with_the_reason(text: str, words: str) -> None:

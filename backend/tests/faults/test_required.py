@@ -197,6 +197,30 @@ def test_a_requirement_of_a_state_counts_there() -> None:
     assert [each.text for each in there.required if each.is_finding] == []
 
 
+def test_of_several_units_the_one_that_is_present_is_tried_elsewhere() -> None:
+    made, make = checked({"main.st": SOURCE}, "CJ2M-CPU33"), MAKES["native"]
+    live = standing(made, make)
+    points = {}
+    for name, unit in (("A", 3), ("B", 20)):
+        assert isinstance(live.submit(Generate("Ada", (ref(f"special-io-unit-error:unit={unit}"),))), Entry)
+        live.run(2)
+        points[name] = point_of(live)
+        assert isinstance(live.submit(Recover("Ada", None)), Entry)
+    wanted = Rules(made, read_requirements("special-io-unit-error:unit=3: lamp = lamp\n"))
+    cells = sweep(points, [ref("special-io-unit-error:unit=3")], WINDOW, programs(made, make), rules=wanted)
+    assert [(each.point, [one.reason for one in each.required], each.unmet) for each in cells] == [
+        ("A", ["present"], ()), ("B", [""], ()),
+    ]  # fmt: skip
+
+
+def test_a_rule_that_exempts_what_is_not_fitted_has_it_raised_nowhere() -> None:
+    made = checked({"main.st": SOURCE, "hardware.json": '{"version": 1, "fitted": []}'})
+    kind = [ref("special-io-unit-error:unit=3")]
+    for text, expected in (("at least none", kind), ("lamp", [*kind, ref("special-io-unit-error:unit=9")])):
+        found = Rules(made, read_requirements(f"special-io-unit-error:unit=9: {text}\n")).raised(kind)
+        assert found == expected
+
+
 def test_what_could_not_be_raised_is_not_tried() -> None:
     """Each requirement is named, with the reason, and is a finding. An error that is present in one state is tried in another one."""
     made, make = checked({"main.st": SOURCE, "hardware.json": '{"version": 1, "fitted": []}'}), MAKES["native"]

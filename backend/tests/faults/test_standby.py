@@ -102,6 +102,22 @@ def test_the_second_one_stops_the_program(engine: EngineFactory) -> None:
     assert value(resource, "A300") == 2
 
 
+def test_what_the_standby_took_over_for_may_change_its_details() -> None:
+    again = Generate("Ada", (ErrorRef(MEMORY, (("location", "flash-memory"),)),), again=True)
+    resource = ran(5, raised(MEMORY), 3, again, 3)
+    assert (resource.runnable, value(resource, "Main.n")) == (True, 110)
+    assert status(resource) == (False, True, True)
+    assert (value(resource, "A403.00"), value(resource, "A403.10")) == (False, True)
+    assert ran(5, raised(MEMORY), 3, again, 3, Recover("Ada", (MEMORY,)), 1).runnable
+
+
+def test_all_that_is_recovered_without_names_repairs_too() -> None:
+    """Also while something else is present."""
+    resource = ran(5, raised(MEMORY), ClearErrors("Tool", "all"), raised("battery-error"), Recover("Ada", None))
+    assert status(resource) == (True, True, True)
+    assert message(resource) == "recovered battery-error; duplex again, the right CPU Unit controls"
+
+
 @pytest.mark.parametrize("error", [BUS, SETTING, "too-many-io", "duplicated-unit-number", "duplicated-rack-number"])
 def test_what_concerns_both_stops_it(error: str) -> None:
     resource = ran(5, raised(error), 3)
@@ -209,6 +225,7 @@ PROGRAMS: tuple[tuple[str, str, Verdict], ...] = (
     ("IF %A023.10 THEN %QX0.0 := TRUE; END_IF;", MEMORY, "acted"),
     ("%D100 := %A328;", MEMORY, "displayed"),
     ("IF NOT %A328.08 THEN ; END_IF;", MEMORY, "no_effect"),
+    ("IF %A24 = 16#FFFF THEN %QX0.0 := TRUE; END_IF;", MEMORY, "no_effect"),
     ("n := n + 1;", MEMORY, "never_read"),
     ("IF %A023.04 THEN %QX0.0 := TRUE; END_IF;", MEMORY, "never_read"),
     ("IF NOT %A328.08 THEN %QX0.0 := TRUE; END_IF;", BUS, "stopped"),

@@ -10,6 +10,7 @@ from scanbench.faults.details import choose
 from scanbench.faults.reaction.reaction import Grade
 from scanbench.faults.reaction.required import Wanted
 from scanbench.faults.reference import ErrorRef, find_error, parse_reference
+from scanbench.plcmodel.hardware import is_fitted
 from scanbench.problems import Problem, Severity, Span
 from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
@@ -92,7 +93,12 @@ class Rules:
             found.setdefault(self._whole(ref), ref)
             if all(later.id != ref.id for later in errors[number + 1 :]):
                 for rule in self._rules:
-                    if rule.ref is not None and rule.ref.details and rule.ref.id == ref.id:
+                    if (
+                        rule.ref is not None
+                        and rule.ref.details
+                        and rule.ref.id == ref.id
+                        and (rule.wants or self._is_fitted(rule.ref))
+                    ):
                         found.setdefault(self._whole(rule.ref), rule.ref)
         there = {ref.id for ref in errors}
         for rule in self._rules:
@@ -126,6 +132,13 @@ class Rules:
         if rule.ref is None:
             return rule.group in ("all", entry.severity)
         return rule.ref.id == ref.id and set(rule.ref.details) <= set(self._whole(ref).details)
+
+    def _is_fitted(self, ref: ErrorRef) -> bool:
+        layout, entry = self.program.layout, find_error(self.program.layout.model, ref.id)
+        chosen = entry if isinstance(entry, Refusal) else choose(entry, dict(ref.details), layout)
+        if isinstance(entry, Refusal) or isinstance(chosen, Refusal):
+            return False
+        return is_fitted(layout.model.fitted, entry, chosen.instance.details)
 
     def _whole(self, ref: ErrorRef) -> ErrorRef:
         """With all its details decided."""

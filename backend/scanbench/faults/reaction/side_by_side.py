@@ -10,7 +10,7 @@ from concurrent.futures.process import BrokenProcessPool
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.faults.reaction.required_rules import Rules
 from scanbench.faults.reaction.steps import Point
-from scanbench.faults.reaction.sweep import Cell, Sweeper, pairs_of
+from scanbench.faults.reaction.sweep import Cell, Sweeper, pairs_of, sweep
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.programs import Programs
 
@@ -41,13 +41,12 @@ def sweep_side_by_side(
 ) -> Iterator[Cell]:  # fmt: skip
     """The cells of `sweep`, in its order. `processes`: as many as there are cores, if it is not given. `on_try` is told the first
     case that is not over. `Died`: a process is gone, and with it what it tried."""
-    sweeper, pairs = Sweeper(points, window, programs, rules, known), pairs_of(points, errors, done)
+    pairs = pairs_of(points, errors, done)
     count = min(processes or cores(), MOST_PROCESSES, len(pairs))
     if count < 2 or len(pairs) < _FEWEST:
-        for ref, name in pairs:
-            on_try(str(ref), name)
-            yield sweeper.cell(ref, name)
+        yield from sweep(points, errors, window, programs, done, on_try, rules, known)
         return
+    sweeper = Sweeper(points, window, programs, rules, known)
     for point in points.values():
         programs.get(point.version)  # built once, for all of them
     yield from _on_several(sweeper, pairs, count, on_try)

@@ -3,13 +3,14 @@
 from collections.abc import Collection, Iterable, Mapping
 from difflib import get_close_matches
 
-from scanbench.faults.inject import ACTIVE
+from scanbench.faults.inject import ACTIVE, INSTANCES
 from scanbench.faults.reaction.reaction import RequiredResult, Unchecked
 from scanbench.faults.reaction.required_rules import Made, Rules
 from scanbench.faults.reaction.required_watch import not_checked, result
 from scanbench.faults.reaction.steps import Point
-from scanbench.faults.reference import ErrorRef
+from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.problems import perhaps
+from scanbench.runtime.command import Refusal
 
 OWN = ("Start", "Now")
 """The names of the state from which the command line and a server begin when nobody chooses one: there is always such a state."""
@@ -55,14 +56,19 @@ class Untried:
     def _missing(self, states: Iterable[str]) -> tuple[Unchecked, str] | None:
         unknown = [each for each in states if each.casefold() not in self._known]
         if unknown:
-            near = [self._known[each] for one in unknown for each in get_close_matches(one.casefold(), self._known)]
+            named = {each.casefold(): each for each in self._named}  # of the others there may be none here
+            near = [named[each] for one in unknown for each in get_close_matches(one.casefold(), named)]
             some = " and ".join(f"`{each}`" for each in unknown)
             there = ", ".join(f"`{each}`" for each in self._named[:_NAMED])
             return "no_state", f"there is no state {some}.{perhaps(dict.fromkeys(near)) or f' There are: {there}.'}"
         return None if any(each.casefold() in self._begun for each in states) else ("other_state", _ELSEWHERE)
 
     def _is_present(self, ref: ErrorRef, name: str) -> bool:
-        return ref.id in self._points[name].journal.derived(ACTIVE)
+        journal, entry = self._points[name].journal, find_error(self._rules.program.layout.model, ref.id)
+        if isinstance(entry, Refusal) or not entry.several:
+            return ref.id in journal.derived(ACTIVE)
+        present = (raised.ref for raised in journal.derived(INSTANCES).values())
+        return any(each.id == ref.id and set(ref.details) <= set(each.details) for each in present)
 
 
 def by_hand(rules: Rules, ref: ErrorRef) -> tuple[RequiredResult, ...]:
