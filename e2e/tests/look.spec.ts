@@ -41,6 +41,18 @@ test('at 1024 x 700 everything is in reach', async ({ openAs }) => {
     await mika.showPanel('Error simulator');
     await expect(mika.page.getByRole('button', { name: 'Recover', exact: true })).toBeInViewport({ ratio: 1 });
     await expect(mika.simulator.word('A402')).toBeInViewport({ ratio: 1 });
+    const seen = await mika.simulator.tree.locator('.name .cut').evaluateAll((names) =>
+      names.map((name) => {
+        const length = name.textContent?.length ?? 0;
+        return {
+          text: name.textContent,
+          whole: (name.clientWidth / name.scrollWidth) * length,
+          least: Math.min(24, length),
+        };
+      }),
+    );
+    expect(seen.length).toBeGreaterThan(8);
+    expect(seen.filter(({ whole, least }) => whole < least)).toEqual([]);
     await mika.problems.show();
     await expect(mika.page.getByText('No problems.')).toBeInViewport();
     await mika.showPanel('Events');

@@ -265,6 +265,13 @@ def present_choices(view: View, present: Mapping[str, Active]) -> dict[str, list
     return found
 
 
+def in_the_way(view: View, ref: ErrorRef) -> ErrorRef | None:
+    """What is present so that this error cannot be raised beside it."""
+    chosen, present = _choose_all(view, (ref,)), view.derived(ACTIVE)
+    rivals = [] if isinstance(chosen, Refusal) else _rivals(chosen[0], present, present_choices(view, present))
+    return rivals[-1][0].ref if rivals else None
+
+
 def describe(chosen: Chosen) -> str:
     """An error with code and details, for people."""
     details = f" ({chosen})" if chosen.details else ""

@@ -92,7 +92,7 @@ def test_a_state_knows_what_outlives_a_restart(project: Path) -> None:
     told = [{"name": "Power was off", "scans": 30, "do": ["5: raise battery-error", "10: restart power"]}]
     result = scanbench("errors", "sweep", str(project), "--only", "battery-error", "--states", states(project, told), "--json")  # fmt: skip
     (cell,) = json.loads(result.stdout)["results"]
-    assert "already generated" in cell["note"]
+    assert "is present in this state already" in cell["note"]
 
 
 def test_a_copy_of_error_memory_fails_a_build(project: Path) -> None:

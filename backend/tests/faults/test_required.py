@@ -241,7 +241,7 @@ def test_what_could_not_be_raised_is_not_tried() -> None:
     assert [(each.text, each.reason) for each in low.required] == [("lamp", "present"), ("motor", "not_raised")]
     assert low.unmet == ("motor",)
     assert low.required[1].note == low.note
-    assert "already generated" in low.note
+    assert low.note == "battery-error is present in this state already"
     unfitted = told["special-io-unit-error:unit=3", "Free"]
     assert [(each.text, each.reason) for each in unfitted.required] == [
         ("at least acted", "not_raised"), ("fan", "not_raised"), ("fan", "no_state"),

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from scanbench.engines.observe import Observer, ReadAt
 from scanbench.faults.details import Chosen, choose
-from scanbench.faults.inject import ACTIVE, Generate, Recover, present_texts, takes_back
+from scanbench.faults.inject import ACTIVE, Generate, Recover, in_the_way, present_texts, takes_back
 from scanbench.faults.reaction.effects import SHOWN, Effects, Variables
 from scanbench.faults.reaction.error_memory import Watched, code_bits, kept_bits, without_patches
 from scanbench.faults.reaction.following import commands_without, following_of, is_about, spared
@@ -147,6 +147,8 @@ class Comparison:
     ) -> Reaction | Refusal:  # fmt: skip
         """The reaction to an error that is raised alone, now, with the commands that follow."""
         resource = resource_at(self._point, self._programs)
+        if (there := in_the_way(resource.view, ref)) is not None:
+            return Refusal(f"{there} is present in this state already")
         entry = resource.submit(Generate(author, (ref,), anyway=True))
         if isinstance(entry, Refusal):
             return entry
