@@ -132,16 +132,19 @@ def _head(case: Case, part: str, rest: str) -> None:
             case.both = True
 
 
+def project_of(case: Case) -> dict[str, str]:
+    """The files of the case, with the dialect that it is in."""
+    sources = {"case.st": case.source, **case.files}
+    dialect = dialect_named(case.dialect) if case.dialect else None
+    assert dialect is not None or not case.dialect, f"there is no dialect {case.dialect}"
+    return sources if dialect is None else dict(with_dialect(sources, dialect))
+
+
 def build(case: Case) -> Program:
     """The checked program; problems fail the test."""
     model = MODELS[case.model]
     model = replace(model, in_out=case.in_out) if case.in_out else model
-    sources = {"case.st": case.source, **case.files}
-    if case.dialect:
-        dialect = dialect_named(case.dialect)
-        assert dialect is not None, f"there is no dialect {case.dialect}"
-        sources = with_dialect(sources, dialect)
-    checked = check_sources(sources, model, case.interval_ns)
+    checked = check_sources(project_of(case), model, case.interval_ns)
     assert checked.program is not None, "\n".join(map(str, checked.problems))
     return checked.program
 

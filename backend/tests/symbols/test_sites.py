@@ -14,7 +14,7 @@ from scanbench.program.program import Program
 from scanbench.symbols.sites import sites_of
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import read
-from tests.caseformat import MODELS, Case, read_cases
+from tests.caseformat import MODELS, Case, project_of, read_cases
 
 CASES = Path(__file__).parent.parent / "cases"
 STATEMENTS = (
@@ -64,7 +64,7 @@ def starts(case: Case, program: Program) -> set[Start]:
 @pytest.mark.parametrize("topic", sorted(path.stem for path in CASES.glob("*.case")))
 def test_every_statement_of_the_cases_has_a_site(topic: str) -> None:
     for case in read_cases(CASES / f"{topic}.case"):
-        program = check_sources(sources(case), MODELS[case.model], case.interval_ns).program
+        program = check_sources(project_of(case), MODELS[case.model], case.interval_ns).program
         assert program is not None
         known, sites = starts(case, program), sites_of(program).statements
         connections = {each.name for task in program.tasks for each in task.programs if each.before or each.after}
