@@ -108,7 +108,10 @@ export class Editor {
     const offset = async () => {
       const box = (await line.count()) > 0 ? await line.boundingBox() : null;
       if (!box) return null;
-      if (box.y < area.y) return -1;
+      // The first lines are covered by those of the sections around them.
+      const widget = this.region.locator('.sticky-widget').first();
+      const sticky = (await widget.count()) > 0 ? ((await widget.boundingBox())?.height ?? 0) : 0;
+      if (box.y < area.y + sticky) return -1;
       return box.y + box.height > area.y + area.height - 10 ? 1 : 0;
     };
     for (let turn = 0, seen = await offset(); turn < 60 && seen !== 0; turn += 1) {
