@@ -154,8 +154,8 @@ function Outlook({ refused, why, count, points, absent }: OutlookProps) {
     );
   return (
     <span className="hint grow" role="status">
-      {why ?? t(points === 1 ? "sweep.run.outlook.one" : "sweep.run.outlook", { count, points })}{" "}
-      {absent > 0 && t(absent === 1 ? "sweep.run.absent.one" : "sweep.run.absent", { count: absent })}
+      {why ?? t(points === 1 ? "sweep.run.outlook.one" : "sweep.run.outlook", { count, points })}
+      {absent > 0 && ` ${t(absent === 1 ? "sweep.run.absent.one" : "sweep.run.absent", { count: absent })}`}
     </span>
   );
 }
