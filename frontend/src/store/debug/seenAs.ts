@@ -3,7 +3,7 @@
 import { create } from "zustand";
 import { rest } from "../../wire/rest";
 import type { PlcSymbol } from "../../wire/types";
-import { isAway, loadMembers, useMembers } from "../plc/members";
+import { isAway, loadMembers, sameProgram, useMembers } from "../plc/members";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
 import { useStack } from "./stack";
@@ -34,12 +34,13 @@ export async function loadInstances(pou: string): Promise<void> {
   const { instance } = useMembers.getState();
   if (instance === null || isAway() || asked.has(key)) return;
   asked.add(key);
+  const isCurrent = sameProgram();
   try {
     const paths = (await rest.instancesOf(instance, pou)).map(({ path }) => path);
-    if (useMembers.getState().instance !== instance) return;
+    if (!isCurrent()) return;
     set(({ instances }) => ({ instances: new Map(instances).set(key, paths) }));
   } catch {
-    asked.delete(key); // The PLC cannot answer: the instances are requested again when the text is shown the next time.
+    if (isCurrent()) asked.delete(key); // The PLC cannot answer: the instances are requested again when the text is shown the next time.
   }
 }
 

@@ -1,6 +1,7 @@
-import { afterEach, expect, it } from "vitest";
-import type { InstanceState } from "../../wire/types";
-import { isAway } from "./members";
+import { afterEach, expect, it, vi } from "vitest";
+import { rest } from "../../wire/rest";
+import type { InstanceState, PlcSymbol } from "../../wire/types";
+import { isAway, loadMembers, resetMembers, useMembers } from "./members";
 import { resetPlc, usePlc } from "./plc";
 
 afterEach(resetPlc);
@@ -11,4 +12,22 @@ it("asks no PLC that waits for disk space without a process, but asks one that h
   expect(isAway()).toBe(true);
   usePlc.setState({ state: { ...waiting, pid: 7 } });
   expect(isAway()).toBe(false);
+});
+
+it("drops the answer about a program that was replaced meanwhile, and asks for the members of the new one", async () => {
+  const inProgram = (version: number) =>
+    usePlc.setState({ state: { state: "running", program_version: version } as InstanceState });
+  const answers: ((symbols: PlcSymbol[]) => void)[] = [];
+  vi.spyOn(rest, "symbols").mockImplementation(() => new Promise((answer) => answers.push(answer)));
+  resetMembers(1);
+  inProgram(1);
+  const old = loadMembers("Main");
+  inProgram(2);
+  answers[0]?.([{ name: "old" } as PlcSymbol]);
+  await old;
+  expect(useMembers.getState().of.has("Main")).toBe(false);
+  const now = loadMembers("Main");
+  answers[1]?.([{ name: "err" } as PlcSymbol]);
+  await now;
+  expect(useMembers.getState().of.get("Main")?.[0]?.name).toBe("err");
 });

@@ -35,15 +35,30 @@ export function isAway(): boolean {
   return ["off", "starting", "restarting", "silent", "failed"].includes(state.state);
 }
 
+/** Whether the page still shows the PLC and the program of now: what was asked of them meanwhile is about a different program. */
+export function sameProgram(): () => boolean {
+  const asked = programNow();
+  return () => {
+    const now = programNow();
+    return now.instance === asked.instance && now.version === asked.version;
+  };
+}
+
+const programNow = () => ({
+  instance: useMembers.getState().instance,
+  version: usePlc.getState().state?.program_version,
+});
+
 /** Fetches the members below a path ('' is the top: programs and globals), once. */
 export async function loadMembers(path: string): Promise<readonly PlcSymbol[]> {
   const { instance, of } = useMembers.getState();
   const known = of.get(path);
   if (known) return known;
   if (instance === null || isAway()) return [];
+  const isCurrent = sameProgram();
   try {
     const symbols = await rest.symbols(instance, path);
-    if (useMembers.getState().instance === instance) {
+    if (isCurrent()) {
       useMembers.setState((state) => {
         const refused = new Map(state.refused);
         refused.delete(path);
@@ -54,7 +69,7 @@ export async function loadMembers(path: string): Promise<readonly PlcSymbol[]> {
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
     // Users of this store ask again when it changes, so the same refusal must not change it.
-    if (useMembers.getState().refused.get(path) === message) return [];
+    if (!isCurrent() || useMembers.getState().refused.get(path) === message) return [];
     useMembers.setState((state) => ({ refused: new Map(state.refused).set(path, message) }));
     return [];
   }

@@ -4,14 +4,13 @@ import { usePrefs } from "../../../store/page/prefs";
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import type { EmbeddedCheck } from "../../../wire/types";
+import { inlaysChanged, onInlaysChanged } from "./inlayChanges";
 import { PAST } from "./models";
-import { Emitter, type editor, languages } from "./monaco";
+import { type editor, languages } from "./monaco";
 import { LANGUAGE } from "./st";
 
-const changed = new Emitter<void>();
-
 languages.registerInlayHintsProvider(LANGUAGE, {
-  onDidChangeInlayHints: changed.event,
+  onDidChangeInlayHints: onInlaysChanged,
   provideInlayHints: (model: editor.ITextModel, range) => {
     if (!usePrefs.getState().checks) return { hints: [], dispose: () => undefined };
     // The compiler reports them for the edited texts, not for the program that ran in the past.
@@ -44,8 +43,8 @@ function hint(check: EmbeddedCheck, named: boolean): languages.InlayHint {
 }
 
 useDocuments.subscribe((now, before) => {
-  if (now.checks !== before.checks) changed.fire();
+  if (now.checks !== before.checks) inlaysChanged();
 });
 usePrefs.subscribe((now, before) => {
-  if (now.checks !== before.checks) changed.fire();
+  if (now.checks !== before.checks) inlaysChanged();
 });

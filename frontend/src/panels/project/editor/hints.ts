@@ -2,6 +2,7 @@
 
 import type { InlayHint } from "vscode-languageserver-types";
 import { askOf } from "../../../store/project/language";
+import { asked } from "./inlayChanges";
 import { languages } from "./monaco";
 import { isPast, lspRangeOf, pathOfModel, signalOf } from "./serverShapes";
 import { LANGUAGE } from "./st";
@@ -12,8 +13,9 @@ languages.registerInlayHintsProvider(LANGUAGE, {
   displayName: "Scanbench",
   provideInlayHints: async (model, range, token) => {
     if (isPast(model)) return NONE;
-    const asked = { range: lspRangeOf(range) };
-    const found = await askOf<InlayHint[]>("textDocument/inlayHint", pathOfModel(model), asked, signalOf(token));
+    const where = { range: lspRangeOf(range) };
+    const answer = askOf<InlayHint[]>("textDocument/inlayHint", pathOfModel(model), where, signalOf(token));
+    const found = await asked(answer);
     return { ...NONE, hints: (found ?? []).map(hintOf) };
   },
 });

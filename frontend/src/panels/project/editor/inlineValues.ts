@@ -93,8 +93,9 @@ export function showInlineValues(code: editor.IStandaloneCodeEditor, path: strin
     useForces.subscribe(schedule),
     useDocuments.subscribe((now, before) => now.pous !== before.pous && schedule()),
     usePlc.subscribe((now, before) => {
-      if (now.state?.halt !== before.state?.halt || now.state?.program_version !== before.state?.program_version)
-        schedule();
+      // A PLC that could not say what the names mean is asked again when it is in a different state.
+      const keys = ["halt", "program_version", "state"] as const;
+      if (keys.some((key) => now.state?.[key] !== before.state?.[key])) schedule();
     }),
   ];
   return () => {

@@ -203,7 +203,7 @@ export function monospaceFont(): string {
 }
 
 export type { IPosition, IRange, ISelection } from "monaco-editor/editor";
-export { Emitter, editor, KeyCode, KeyMod, languages, MarkerSeverity, Uri } from "monaco-editor/editor";
+export { editor, KeyCode, KeyMod, languages, MarkerSeverity, Uri } from "monaco-editor/editor";
 
 /** For who hears the page. The options of a comparison that say so do not reach its editors. */
 export function nameSides(view: editor.IStandaloneDiffEditor): void {
