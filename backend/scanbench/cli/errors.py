@@ -174,7 +174,8 @@ def sweep_errors(
     """
     for path in filter(None, (junit, html)):
         must_be_writable(path)
-    plc = find_model(model, sources := read_sources([project], dialect))
+    sources = read_sources([project], dialect)
+    plc = find_model(model, sources)
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
     program = _program(given, plc, as_json)
     chosen = _chosen(program.layout.model, only)
@@ -192,13 +193,19 @@ def sweep_errors(
     severities = _severities(severity)
     unhandled = result.unhandled(severities, required)
     _tell(result, unhandled, as_json)
+    _write(result, severities, required, junit, html)
+    if not whole:
+        typer.echo(f"scanbench: interrupted after {len(tried)} of {count(len(chosen), 'error')}", err=True)
+    raise typer.Exit(1 if unhandled or rules.problems else 0 if whole else INTERRUPTED)
+
+
+def _write(
+    result: SweepResult, severities: Sequence[Severity], required: Required, junit: Path | None, html: Path | None
+) -> None:
     if junit is not None:
         write_text(junit, sweep_junit(result, severities, required))
     if html is not None:
         write_text(html, sweep_page(result, iso(wall_time()), required))
-    if not whole:
-        typer.echo(f"scanbench: interrupted after {len(tried)} of {count(len(chosen), 'error')}", err=True)
-    raise typer.Exit(1 if unhandled or rules.problems else 0 if whole else INTERRUPTED)
 
 
 def _swept(

@@ -4,10 +4,9 @@ from pathlib import Path
 
 import typer
 
+from scanbench.check.build import program_files
 from scanbench.cli.inputs import ARCHIVE, read_sources, usage
 from scanbench.language.format import formatted
-from scanbench.plcmodel.user_errors import is_of_catalogue
-from scanbench.syntax.language_file import is_language_file
 from scanbench.syntax.parse_file import is_exported, is_stimulus
 from scanbench.syntax.source import encoded
 
@@ -24,8 +23,8 @@ def format(
     if packed is not None:
         usage(f"{packed} is packed: unpack it, and format the folder")
     unread = changed = 0
-    for name, text in read_sources(paths).texts.items():
-        if is_stimulus(name) or is_exported(name, text) or is_of_catalogue(name) or is_language_file(name):
+    for name, text in program_files(read_sources(paths).texts).items():
+        if is_stimulus(name) or is_exported(name, text):
             continue
         made = formatted(name, text)
         if made is None:

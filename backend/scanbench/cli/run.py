@@ -86,7 +86,7 @@ def run(
     program, problems = _compiled(sources, find_model(model, sources), read_interval(interval), as_json)
     commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine)
     shown = [(each, find_symbol(program, each)) for each in show]
-    begun, sample = list[Resource](), values if as_json else texts
+    begun: list[Resource] = []
     condition = None if until is None else read_condition(program, until)
     try:
         with (
@@ -95,7 +95,7 @@ def run(
             progress(scans, lambda: _scans(begun), lambda: f"{_scans(begun):,} of {scans:,} scans"),
         ):
             result = run_headless(
-                program, scans, _engine(engine, scans), commands, every, lambda plc: sample(plc, shown),
+                program, scans, _engine(engine, scans), commands, every, lambda plc: (values if as_json else texts)(plc, shown),
                 detect=Detection(), agenda=Joined(Schedule(OBSERVED[engine]), DisturbanceSchedule()), recording=recording, until=condition,
                 interrupt=interrupt, on_begin=begun.append,
             )  # fmt: skip

@@ -16,12 +16,11 @@ from html import escape, unescape
 from pathlib import PurePosixPath
 from uuid import NAMESPACE_URL, uuid5
 
-from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
-from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, DialectName, guess_dialect
+from scanbench.server.project_files import OWN_FILES
+from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
-from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -135,9 +134,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
     compiled, missing = (None, list[str]()) if PROJECT_FILE in inside else _compiled(archive, inside)
     files, panels = {}, {}
     for path, each in sorted(inside.items()):
-        if path in (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS) or (
-            is_program_file(path) and (compiled is None or path in compiled)
-        ):
+        if path in OWN_FILES or (is_program_file(path) and (compiled is None or path in compiled)):
             files[path] = decode(_read(archive, each))
         elif is_panel_file(path):
             panels[path] = decode(_read(archive, each))

@@ -4,10 +4,8 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from scanbench.plcmodel.user_errors import CATALOGUE_FILES
-from scanbench.syntax.language_file import LANGUAGE_FILE
+from scanbench.server.project_files import OWN_FILES
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
-from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -28,7 +26,7 @@ def program_files(path: Path) -> list[Path]:
     found = sorted(each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and each.is_file())
     if not found:
         raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
-    return found + [each for name in (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS) if (each := path / name).is_file()]
+    return found + [each for name in OWN_FILES if (each := path / name).is_file()]
 
 
 def read_text(path: Path) -> str:

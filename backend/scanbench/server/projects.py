@@ -6,16 +6,17 @@ from collections.abc import Callable, Mapping, Sequence
 from scanbench.jobs.checker import INTERVAL_NS, Checker
 from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.model import Model
-from scanbench.plcmodel.user_errors import CATALOGUE_FILES, USER_ERRORS
+from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.archive import Archive, pack
 from scanbench.server.drafts import Drafts
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
+from scanbench.server.project_files import is_project_file
 from scanbench.server.samples import templates
 from scanbench.session.session import Session
 from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, language_text
-from scanbench.syntax.parse_file import ENDINGS, is_program_file
+from scanbench.syntax.parse_file import ENDINGS
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
 from scanbench.wire.host import Preview, Previewed, Sources
@@ -249,9 +250,8 @@ def _question(changes: Sequence[Change]) -> str:
 
 def _check_path(path: str) -> None:
     parts = path.split("/")
-    known = is_program_file(path) or path in (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS) or is_panel_file(path)
     odd = any(part.strip(". ") == "" or part.rstrip(". ").lower() == ".git" for part in parts)
-    if not known or len(path) > 200 or odd:
+    if not is_project_file(path) or len(path) > 200 or odd:
         raise Refused(
             f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
             f"the project's own errors are in {USER_ERRORS}, what must happen then in {REQUIREMENTS}, its hardware in "

@@ -14,18 +14,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.public import Public
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.git import MISSING, asked, git, installed
-from scanbench.server.operator_panels import is_panel_file
+from scanbench.server.project_files import is_project_file
 from scanbench.server.working_tree import Foreign, write
 from scanbench.store.connected import check
 from scanbench.store.records import NotFound
 from scanbench.store.store import Store
-from scanbench.syntax.language_file import LANGUAGE_FILE
-from scanbench.syntax.parse_file import is_program_file
-from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -259,11 +255,7 @@ def _is_text(path: str) -> bool:
 
 
 def _is_ours(path: str) -> bool:
-    return (
-        path in (PROJECT_FILE, *CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS)
-        or is_program_file(path)
-        or is_panel_file(path)
-    )
+    return path == PROJECT_FILE or is_project_file(path)
 
 
 def _changes(before: Mapping[str, str], now: Mapping[str, str]) -> list[FileChange]:

@@ -6,13 +6,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from scanbench.plcmodel.user_errors import CATALOGUE_FILES
-from scanbench.server.operator_panels import is_panel_file
-from scanbench.syntax.language_file import LANGUAGE_FILE
-from scanbench.syntax.parse_file import is_program_file
-from scanbench.syntax.requirements import REQUIREMENTS
-
-_OTHERS = (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS)
+from scanbench.server.project_files import is_project_file
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,5 +46,5 @@ def _texts(folder: Traversable, path: str) -> Iterator[tuple[str, str]]:
     for each in sorted(folder.iterdir(), key=lambda each: each.name):
         if each.is_dir():
             yield from _texts(each, f"{path}{each.name}/")
-        elif is_program_file(f"{path}{each.name}") or is_panel_file(each.name) or f"{path}{each.name}" in _OTHERS:
+        elif is_project_file(f"{path}{each.name}"):
             yield f"{path}{each.name}", each.read_text("utf-8")

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import ClassVar, Literal
 
+from scanbench.faults.present import Origin, Way
 from scanbench.faults.reaction.reaction import RequiredResult
 from scanbench.public import Moment, Public
 
 Status = Literal["generated", "cleared"]
-Origin = Literal["simulator", "plc", "program"]
-Way = Literal["simulator", "tool", "program"]
 ReactionState = Literal["recording", "done", "failed"]
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
 Json = Mapping[str, object]

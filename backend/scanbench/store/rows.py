@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import NamedTuple, cast
 
+from scanbench.faults.present import Origin, Way
 from scanbench.faults.reaction.reaction import RequiredResult
 from scanbench.store.records import (
     AcceptedRow,
@@ -14,7 +15,6 @@ from scanbench.store.records import (
     InstanceRow,
     Limits,
     LogRow,
-    Origin,
     ProjectRow,
     ReactionState,
     RecordInfo,
@@ -28,7 +28,6 @@ from scanbench.store.records import (
     WatchContent,
     WatchEntry,
     WatchListRow,
-    Way,
 )
 from scanbench.store.tables import (
     AcceptedFinding,

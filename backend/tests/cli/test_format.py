@@ -13,13 +13,21 @@ GOOD = "PROGRAM Main\nVAR x : INT; END_VAR\n  x := 1;\nEND_PROGRAM\n"
 def test_files_are_laid_out_in_place_and_then_nothing_is_left_to_do(tmp_path: Path) -> None:
     file = tmp_path / "main.st"
     file.write_text(UGLY)
+    beside = {
+        "required.reactions": "battery-error:\n  lamp\n",
+        "language.json": '{"dialect": "iec"}',
+        "hardware.json": "{}",
+    }
+    for name, text in beside.items():
+        (tmp_path / name).write_text(text)
     checked = scanbench("format", "--check", str(tmp_path))
     assert (checked.returncode, checked.stdout) == (1, f"{file}\n")
     assert file.read_text() == UGLY
     assert scanbench("format", str(tmp_path)).stdout == f"{file}\n"
     assert file.read_text() == GOOD
     again = scanbench("format", "--check", str(tmp_path))
-    assert (again.returncode, again.stdout) == (0, "")
+    assert (again.returncode, again.stdout, again.stderr) == (0, "", "")
+    assert {name: (tmp_path / name).read_text() for name in beside} == beside
 
 
 def test_a_file_that_cannot_be_read_stays_as_it_is(tmp_path: Path) -> None:

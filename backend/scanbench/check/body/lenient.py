@@ -6,6 +6,7 @@ Where the value depends on something that no documentation of the vendor tells, 
 from scanbench.check.body import fold, wide
 from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.context import Body
+from scanbench.check.body.wide import WHOLE
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
@@ -13,7 +14,6 @@ from scanbench.program.shown import OPERATORS
 from scanbench.program.types import ELEMENTARY, REAL, Elementary, Enumeration, Kind, Subrange, Type, base_of
 from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped
 
-WHOLE = (Kind.INT, Kind.UINT)
 INTEGRAL = (*WHOLE, Kind.BITS)
 CALCULATIONS = ("add", "sub", "mul", "div", "mod")
 LOGIC = ("and", "or", "xor")
@@ -33,15 +33,14 @@ def bits_of(type: Elementary) -> Elementary:
 
 def counted(body: Body, op: str, left: Expr, right: Expr, span: Span) -> tuple[Expr, Expr, Elementary | None]:
     """Bit strings among the operands as numbers, where the dialect has them so; and the bit string that the result is."""
-    kinds = [each.type.kind for each in (left, right) if isinstance(each.type, Elementary)]
-    if Kind.BITS not in kinds or len(kinds) < 2 or not set(kinds) <= {*INTEGRAL, Kind.REAL}:
+    types = [each.type for each in (left, right) if isinstance(each.type, Elementary)]
+    kinds, bits = [each.kind for each in types], [each for each in types if each.kind is Kind.BITS]
+    if not bits or len(kinds) < 2 or not set(kinds) <= {*INTEGRAL, Kind.REAL}:
         return left, right, None
     literal = is_untyped(left) or is_untyped(right)
     if op not in CALCULATIONS and (kinds[0] is kinds[1] or (literal and not wide.is_wide(body, left, right))):
         return left, right, None  # compared bit by bit, which is the same
-    first = next(
-        each.type for each in (left, right) if isinstance(each.type, Elementary) and each.type.kind is Kind.BITS
-    )
+    first = bits[0]
     what = f"`{OPERATORS[op]}` takes {first} as the unsigned number {unsigned(first)}"
     if not may(body, Allowance.BIT_NUMBERS):
         return left, right, None
@@ -49,10 +48,9 @@ def counted(body: Body, op: str, left: Expr, right: Expr, span: Span) -> tuple[E
         _same_sign(body, op, left, right, span)
     name = unsigned(first).name
     used(body, Allowance.BIT_NUMBERS, span, what, f"`{first}_TO_{name}(...)`, and back with `{name}_TO_{first}(...)`")
-    both = all(kind is Kind.BITS for kind in kinds) or literal
-    largest = max((each.type for each in (left, right) if _is_bits(each)), key=_size, default=first)
-    real = any(each.type == ANY_REAL for each in (left, right))
-    return _as_number(body, left), _as_number(body, right), largest if both and not real else None  # type: ignore[return-value]
+    fits = (len(bits) == 2 or literal) and ANY_REAL not in types
+    largest = max(bits, key=lambda each: each.size)
+    return _as_number(body, left), _as_number(body, right), largest if fits else None
 
 
 def _is_bits(expr: Expr) -> bool:

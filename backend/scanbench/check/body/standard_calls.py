@@ -7,7 +7,7 @@ from scanbench.check.body import conversions, fold, standard_fold, wide
 from scanbench.check.body.allowed import may, used
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.lenient import inverted, shifted
+from scanbench.check.body.lenient import bits_of, inverted, shifted
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, integer, ordered
 from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel
@@ -128,7 +128,7 @@ def _shift(body: Body, node: tree.Call, name: str, row: Shift, wanted: Type | No
     if not isinstance(bits.type, Elementary) or bits.type.kind is not Kind.BITS or not bits.type.size:
         hint = ""
         if isinstance(given, Elementary) and given.kind in (Kind.INT, Kind.UINT):
-            same = {1: "BYTE", 2: "WORD", 4: "DWORD", 8: "LWORD"}[given.size]
+            same = bits_of(given)
             hint = f" Convert it with {given}_TO_{same}, or write {same}#..."
         raise body.report.reject("T002", f"`{name}` needs a bit string, not {given}.{hint}", bits_tree.span)
     count = integer(body, body.expression(count_tree), count_tree.span, name)

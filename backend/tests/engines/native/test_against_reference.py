@@ -18,10 +18,8 @@ SCANS = 4
 BUDGET = 300
 
 
-@settings(max_examples=amount(160, 26))
-@given(st.integers(0, (1 << 32) - 1), st.sampled_from([0, 2, 2, 2]))
-def test_the_engines_agree(seed: int, opt_level: int) -> None:
-    """A seed, as programs made of hypothesis' own choices come out too plain to go wrong."""
+def agree(seed: int, opt_level: int) -> None:
+    """Runs a random program on both engines. A seed, as programs made of hypothesis' own choices come out too plain to go wrong."""
     source = program_text(Random(seed))
     program = check_sources({"random.st": source}, MODEL, 1_000_000).program
     assume(program is not None)
@@ -34,3 +32,9 @@ def test_the_engines_agree(seed: int, opt_level: int) -> None:
         stops = [engine.run(1) for engine in engines]
         assert stops[0] == stops[1], f"scan {scan} of\n{source}"
         assert first_difference(program, *memories) == "", f"scan {scan} of\n{source}"
+
+
+@settings(max_examples=amount(160, 26))
+@given(st.integers(0, (1 << 32) - 1), st.sampled_from([0, 2, 2, 2]))
+def test_the_engines_agree(seed: int, opt_level: int) -> None:
+    agree(seed, opt_level)

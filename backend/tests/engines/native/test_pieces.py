@@ -1,27 +1,22 @@
 """Large bodies in pieces: the same bytes as in one, and no function that LLVM takes long for."""
 
 from pathlib import Path
-from random import Random
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scanbench.check.build import check_sources
-from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native import inlining
 from scanbench.engines.native.compiler import QUICK
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.engines.native.engine import NativeEngine
-from scanbench.program.layout import Layout
 from tests.amounts import amount, some
-from tests.caseformat import Case, first_difference, read_cases, run_case
+from tests.caseformat import Case, read_cases, run_case
 from tests.engines.native.plc import MODEL
-from tests.engines.native.program_text import program_text
+from tests.engines.native.test_against_reference import agree
 
 CASES = [each for path in sorted((Path(__file__).parents[2] / "cases").glob("*.case")) for each in read_cases(path)]
-SCANS = 4
-BUDGET = 300
 
 
 def divide(patch: pytest.MonkeyPatch) -> None:
@@ -39,20 +34,9 @@ def test_cases_in_pieces(case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
 @settings(max_examples=amount(120, 10))
 @given(st.integers(0, (1 << 32) - 1))
 def test_the_engines_agree_in_pieces(seed: int) -> None:
-    source = program_text(Random(seed))
-    program = check_sources({"random.st": source}, MODEL, 1_000_000).program
-    assume(program is not None)
-    assert program is not None
-    image = bytearray(program.initial_image)
-    image[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = BUDGET.to_bytes(8, "little")
-    memories = bytearray(image), bytearray(image)
     with pytest.MonkeyPatch.context() as patch:
         divide(patch)
-        engines = ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1], QUICK)
-    for scan in range(SCANS):
-        stops = [engine.run(1) for engine in engines]
-        assert stops[0] == stops[1], f"scan {scan} of\n{source}"
-        assert first_difference(program, *memories) == "", f"scan {scan} of\n{source}"
+        agree(seed, QUICK)
 
 
 def text_of(body: str) -> str:

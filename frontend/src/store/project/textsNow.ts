@@ -2,6 +2,7 @@
 import { rest } from "../../wire/rest";
 import type { FileInfo } from "../../wire/types";
 import { textHere, useDocuments } from "./documents";
+import { savedText } from "./sourceText";
 
 /** A saved text does not change: it is asked for once, as each key that is typed may need all of them. */
 const saved = new Map<string, { version: number; text: Promise<string | null> }>();
@@ -27,10 +28,7 @@ function savedOf(project: number, path: string, version: number): Promise<string
   const key = `${project} ${path}`;
   const known = saved.get(key);
   if (known?.version === version) return known.text;
-  const text = rest.file(project, path).then(
-    (file) => file.text,
-    () => null,
-  );
+  const text = savedText(path);
   saved.set(key, { version, text });
   void text.then((came) => came === null && saved.get(key)?.text === text && saved.delete(key));
   return text;
