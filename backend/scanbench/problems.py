@@ -113,6 +113,7 @@ TABLE: dict[str, str] = {
     "W005": "character number 0",
     "W006": "construct that only the dialect of the project allows",
     "W007": "statement that is never reached",
+    "W008": "use of a stub, whose results the user sets",
     # R: required reactions
     "R001": "requirement that cannot be checked",
     # X: constructs that are known, and not supported

@@ -29,9 +29,10 @@ from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
-from scanbench.check.dialect import DIALECTS, IEC, Dialect
+from scanbench.check.dialect import IEC, Dialect, dialect_in
 from scanbench.check.order import Order
 from scanbench.check.recursion import allow
+from scanbench.check.stubs import tell_stubs
 from scanbench.check.system.plant import Plant, plant_files
 from scanbench.check.system.stimuli import Stimuli
 from scanbench.check.system.system import System, system_of
@@ -92,7 +93,7 @@ class Checked:
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
     """Checks all files of a project together. `interval_ns` is the interval of the task, unless a CONFIGURATION has one."""
     files = [read(name, text) for name, text in program_files(sources).items()]
-    checker = checker_of(files, model, dialect=DIALECTS[dialect_of(sources)[0]])
+    checker = checker_of(files, model, dialect=dialect_in(sources))
     return with_user_errors(concluded(files, checker.report, checker.run(interval_ns)), sources, model)
 
 
@@ -212,6 +213,7 @@ class Checker:
         self.declarations.reference_of = self._reference
         self.declarations.looked_at = self.looked_at
         self.declarations.dialect = self.dialect
+        self.declarations.names.prefixes = self.dialect.prefixes
         self.system = system_of(self.model, areas)
         self.declarations.symbols = self.system.symbols
         self.names = Collector(self.report, self.declarations, self.system.file, self.enabling)
@@ -252,6 +254,7 @@ class Checker:
         self._check_library(common)
         check_borrowed(self.report, self.pous.dispatchers.values())
         self.plant.check(self.parsed)
+        tell_stubs(self.report, self.names.user)
         order = self._order(common)
         self.report.join(order)
         configurations = [each for file in self.parsed for each in file.configurations]

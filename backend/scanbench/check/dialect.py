@@ -5,10 +5,12 @@ writes the same. What a vendor's tool computes there is known from its documenta
 it is not known, the dialect does not allow it.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 
-from scanbench.syntax.language_file import DialectName
+from scanbench.check.libraries.catalogue import library_of_file
+from scanbench.syntax.language_file import DialectName, language_of
 
 
 class Allowance(Enum):
@@ -123,6 +125,8 @@ class Dialect:
     name: DialectName
     title: str
     allows: frozenset[Allowance] = frozenset()
+    prefixes: frozenset[str] = frozenset()
+    """Names of libraries, in upper case, that mean nothing before a name: their texts are among the project's own."""
 
 
 _CODESYS = frozenset(Allowance)
@@ -130,11 +134,19 @@ DIALECTS: dict[DialectName, Dialect] = {
     each.name: each
     for each in (
         Dialect("iec", "IEC 61131-3"),
-        Dialect("codesys", "CODESYS", _CODESYS),
-        Dialect("twincat", "TwinCAT", _CODESYS),
+        Dialect("codesys", "CODESYS", _CODESYS, frozenset({"STANDARD"})),
+        Dialect("twincat", "TwinCAT", _CODESYS, frozenset({"TC2_STANDARD", "STANDARD"})),
         Dialect("siemens", "Siemens SCL", frozenset({Allowance.CHAINED_ASSIGNMENT})),
         Dialect("rockwell", "Rockwell Logix", frozenset({Allowance.INTEGER_BITS})),
         Dialect("omron", "Omron Sysmac"),
     )
 }
 IEC = DIALECTS["iec"]
+
+
+def dialect_in(sources: Mapping[str, str]) -> Dialect:
+    """What these files are written in, with the names of the libraries that they have or name."""
+    language = language_of(sources)[0]
+    dialect = DIALECTS[language.dialect]
+    named = {*language.namespaces, *(library for file in sources if (library := library_of_file(file)))}
+    return replace(dialect, prefixes=dialect.prefixes | {each.upper() for each in named}) if named else dialect

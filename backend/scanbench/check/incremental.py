@@ -23,14 +23,13 @@ from scanbench.check.build import (
 )
 from scanbench.check.context import Report
 from scanbench.check.declare.names import qualified
-from scanbench.check.dialect import DIALECTS, IEC, Dialect
+from scanbench.check.dialect import IEC, Dialect, dialect_in
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Pou
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk, Chunked, read
-from scanbench.syntax.language_file import dialect_of
 from scanbench.syntax.parse_file import is_stimulus
 
 _TELLS_PLACE = re.compile(r"\bline \d|:\d+:\d+")
@@ -56,8 +55,8 @@ class Checks:
         return self._changed(sources, model, interval_ns, whole=False)
 
     def _changed(self, files: Mapping[str, str], model: Model, interval_ns: int, whole: bool) -> "Project":
-        sources, dialect = program_files(files), DIALECTS[dialect_of(files)[0]]
-        found = (each for each in self._known if each.dialect is dialect and each.is_about(sources, model, interval_ns))
+        sources, dialect = program_files(files), dialect_in(files)
+        found = (each for each in self._known if each.dialect == dialect and each.is_about(sources, model, interval_ns))
         project = next(found, None)
         if project is None:
             project = Project(model, interval_ns, dialect)

@@ -1,4 +1,5 @@
-"""`language.json`: which dialect of Structured Text the programs of a project are written in; and a guess for imported programs.
+"""`language.json`: which dialect of Structured Text the programs of a project are written in, and which names of libraries they
+write before others; and a guess of the dialect for imported programs.
 
 It is one of the project's files, so each version, archive and run file has the dialect that its programs were checked in.
 """
@@ -6,7 +7,8 @@ It is one of the project's files, so each version, archive and run file has the 
 import json
 import posixpath
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
 from typing import Literal, get_args
 
 from scanbench.problems import Problem, Severity, Span
@@ -14,12 +16,13 @@ from scanbench.syntax.parse_file import XML_ENDINGS, is_program_file
 
 LANGUAGE_FILE = "language.json"
 """The name of the file, at the top of a project."""
-FORMAT = 1
+FORMAT = 2
+"""Version 1 had no `namespaces`; a file without them is still written in it."""
 DialectName = Literal["iec", "codesys", "twincat", "siemens", "rockwell", "omron"]
 DIALECTS: tuple[DialectName, ...] = get_args(DialectName)
 STRICT: DialectName = "iec"
 """The dialect of a project that names none: IEC 61131-3 as it is."""
-_KEYS = ("version", "dialect")
+_KEYS = ("version", "dialect", "namespaces")
 _TWINCAT_MARKS = re.compile(r"\bTc[23]_\w+|\bT_MaxString\b|\bT_AmsNetId\b")
 _CODESYS_MARKS = re.compile(
     r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|SYMFILEFLAGS)\b|^\s*\{attribute\s+'", re.MULTILINE
@@ -31,15 +34,38 @@ def is_language_file(path: str) -> bool:
     return posixpath.basename(path.replace("\\", "/")) == LANGUAGE_FILE
 
 
-def language_text(dialect: DialectName) -> str:
+@dataclass(frozen=True, slots=True)
+class Language:
+    """What the file says."""
+
+    dialect: DialectName = STRICT
+    namespaces: tuple[str, ...] = ()
+    """Names of libraries whose texts are among the project's own: `Lib.Name` is `Name`."""
+
+
+def language_text(dialect: DialectName, namespaces: Collection[str] = ()) -> str:
     """The text of the file for a dialect."""
-    return json.dumps({"version": FORMAT, "dialect": dialect}, indent=2) + "\n"
+    said: dict[str, object] = {"version": FORMAT if namespaces else 1, "dialect": dialect}
+    if namespaces:
+        said["namespaces"] = sorted(namespaces)
+    return json.dumps(said, indent=2) + "\n"
 
 
 def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = LANGUAGE_FILE) -> dict[str, str]:
     """The sources, in this dialect whatever they say themselves; `name` is that of the file if they have none."""
     own = next((each for each in sources if is_language_file(each)), name)
-    return {**sources, own: language_text(dialect)}
+    return {**sources, own: language_text(dialect, language_of(sources)[0].namespaces)}
+
+
+def with_namespaces(
+    sources: Mapping[str, str], namespaces: Collection[str], name: str = LANGUAGE_FILE
+) -> dict[str, str]:
+    """The sources, which say these names of libraries besides their own."""
+    if not namespaces:
+        return dict(sources)
+    own = next((each for each in sources if is_language_file(each)), name)
+    said = language_of(sources)[0]
+    return {**sources, own: language_text(said.dialect, {*said.namespaces, *namespaces})}
 
 
 def dialect_named(name: str) -> DialectName | None:
@@ -49,19 +75,25 @@ def dialect_named(name: str) -> DialectName | None:
 
 def dialect_of(sources: Mapping[str, str]) -> tuple[DialectName, list[Problem]]:
     """The dialect that these files are written in, and what is wrong with the file that says so."""
+    language, problems = language_of(sources)
+    return language.dialect, problems
+
+
+def language_of(sources: Mapping[str, str]) -> tuple[Language, list[Problem]]:
+    """What these files say of their language, and what is wrong with the file that says so."""
     names = [name for name in sources if is_language_file(name)]
     if not names:
-        return STRICT, []
+        return Language(), []
     found = _read(sources[names[0]], names[0])
-    problems = [] if isinstance(found, str) else [found]
+    problems = [] if isinstance(found, Language) else [found]
     for name in names[1:]:
         message = f"A program has one {LANGUAGE_FILE}, and {names[0]} is it already: delete this one."
         problems.append(_problem(name, message))
-    return (found if isinstance(found, str) else STRICT), problems
+    return (found if isinstance(found, Language) else Language()), problems
 
 
-def _read(text: str, file: str) -> DialectName | Problem:
-    choice = f'Write {{"version": {FORMAT}, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
+def _read(text: str, file: str) -> Language | Problem:
+    choice = f'Write {{"version": 1, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
     try:
         content = json.loads(text)
     except (ValueError, RecursionError) as error:
@@ -76,7 +108,14 @@ def _read(text: str, file: str) -> DialectName | Problem:
         return _problem(file, f"There is no setting `{unknown}`. {choice}")
     name = content.get("dialect", STRICT)
     dialect = dialect_named(name) if isinstance(name, str) else None
-    return dialect or _problem(file, f"There is no dialect `{name}`. {choice}")
+    if dialect is None:
+        return _problem(file, f"There is no dialect `{name}`. {choice}")
+    namespaces = content.get("namespaces", [])
+    if not isinstance(namespaces, list) or not all(
+        isinstance(each, str) and each.isidentifier() for each in namespaces
+    ):
+        return _problem(file, '`namespaces` is a list of names, as ["Tc2_Utilities"].')
+    return Language(dialect, tuple(namespaces))
 
 
 def _problem(file: str, message: str, line: int = 1) -> Problem:

@@ -9,7 +9,7 @@ from scanbench.syntax.cursor import NAME, Cursor
 from scanbench.syntax.parse_declaration import ACCESS
 from scanbench.syntax.parse_statement import BLOCK_ENDS
 from scanbench.syntax.parse_type import POU_STARTS
-from scanbench.syntax.pragmas import InOutPragma
+from scanbench.syntax.pragmas import InOutPragma, has_stub_pragma
 from scanbench.syntax.source import Stretch
 
 MODIFIERS = frozenset(("ABSTRACT", "FINAL", "OVERRIDE"))
@@ -54,10 +54,11 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
         c.report("S003", f"A {kind} has no statements of its own; put them into a METHOD.", where)
     _pou_end(c, kind, name)
     _check_kept(c, kind, sections)
+    stub = bool(c.pragmas) and has_stub_pragma(c.pragmas, c.starts[first], c.starts[c.at])
     result, extends, implements, more = header
     return tree.PouDeclaration(
         kind.lower(), c.texts[name], result, tuple(sections), body, c.span_of(name), tuple(methods),
-        extends, implements, modifiers, access, namespace, using + more, in_out,
+        extends, implements, modifiers, access, namespace, using + more, in_out, stub,
     )  # fmt: skip
 
 

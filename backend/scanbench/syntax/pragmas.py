@@ -1,4 +1,5 @@
-"""Pragmas that mean something: `{in_out 'value'}` before a FUNCTION_BLOCK or in its head. All others are comments."""
+"""Pragmas that mean something: `{in_out 'value'}` before a FUNCTION_BLOCK or in its head, and `{stub}` in a POU. All others are
+comments."""
 
 import re
 from collections.abc import Iterable
@@ -6,6 +7,7 @@ from dataclasses import dataclass
 
 CONVENTIONS = ("reference", "value")
 _IN_OUT = re.compile(r"\{\s*in_out\b\s*(?::=|=)?\s*(.*?)\s*\}", re.IGNORECASE | re.DOTALL)
+_STUB = re.compile(r"\{\s*stub\s*\}", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,3 +29,8 @@ def in_out_pragmas(pragmas: Iterable[tuple[int, str]]) -> list[InOutPragma]:
     """Those of a text that are about in-outs."""
     found = ((at, text, _IN_OUT.fullmatch(text)) for at, text in pragmas)
     return [InOutPragma(at, at + len(text), match.group(1)) for at, text, match in found if match]
+
+
+def has_stub_pragma(pragmas: Iterable[tuple[int, str]], start: int, end: int) -> bool:
+    """Whether the POU between these positions is a stub."""
+    return any(start <= at < end and _STUB.fullmatch(text) for at, text in pragmas)

@@ -334,6 +334,8 @@ class PouDeclaration:
     """Namespaces whose names are visible without qualification, the enclosing ones not included."""
     in_out: str = ""
     """How it takes its in-outs, where a pragma says so: `reference` or `value`."""
+    stub: bool = False
+    """Whether a pragma says that its body takes the place of one that needs a device: the user sets what it gives."""
 
 
 @node

@@ -15,8 +15,10 @@ from scanbench.syntax.language_file import (
 from scanbench.syntax.language_file import (
     LANGUAGE_FILE,
     DialectName,
+    Language,
     dialect_of,
     guess_dialect,
+    language_of,
     language_text,
     with_dialect,
 )
@@ -144,7 +146,7 @@ def test_the_library_is_strict_in_every_dialect() -> None:
         ("{", "This is no JSON"),
         ("[]", "This does not name a dialect"),
         ('{"version": 1, "dialect": "codesis"}', "There is no dialect `codesis`"),
-        ('{"version": 2, "dialect": "codesys"}', "which a newer Scanbench reads"),
+        ('{"version": 3, "dialect": "codesys"}', "which a newer Scanbench reads"),
         ('{"dialekt": "codesys"}', "There is no setting `dialekt`"),
     ],
 )
@@ -217,3 +219,5 @@ def test_the_text_of_the_language_file_names_the_dialect() -> None:
 def test_the_golden_file_is_read() -> None:
     golden = Path(__file__).parents[1] / "syntax/golden" / LANGUAGE_FILE
     assert dialect_of({LANGUAGE_FILE: golden.read_text("utf-8")}) == ("twincat", [])
+    second = golden.parent / "2" / LANGUAGE_FILE
+    assert language_of({LANGUAGE_FILE: second.read_text("utf-8")}) == (Language("twincat", ("MyLib",)), [])

@@ -1,5 +1,7 @@
 """What a call runs: a FUNCTION, a method, a standard function."""
 
+from dataclasses import replace
+
 from scanbench.check.body.arguments import Invocation, invoke
 from scanbench.check.body.context import Body
 from scanbench.check.body.generic import instantiated
@@ -64,8 +66,11 @@ def invoked(body: Body, callee: Pou | tuple[Receiver, Method], node: tree.Call, 
 
 def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Place | None = None) -> Expr:
     """A function that is no POU; `eno` becomes FALSE where it finds that its result is not right."""
+    path = dotted(node.callee)
+    plain = None if path is None else body.declarations.names.plain(path)
+    if plain != path and plain is not None and "." not in plain:
+        node = replace(node, callee=tree.Name(plain, node.callee.span))
     if not isinstance(node.callee, tree.Name):
-        path = dotted(node.callee)
         if path is not None and _is_qualified_name(body, node.callee):
             hint = body.report.near(path, lambda: [pou.name for pou in body.pous.functions.values()], "path")
             raise body.report.reject("T001", f"There is no function `{path}`.{hint}", node.span)

@@ -71,10 +71,13 @@ def _qualified_variable(body: Body, node: tree.MemberOf) -> str | None:
     path = dotted(node)
     if path is None or body.scope.find(path.split(".")[0]) is not None:
         return None
-    alias = body.pous.aliases.get(path.upper())
-    if alias is not None:
-        return alias
-    return path if body.scope.find(path) is not None else None
+    for name in (path, body.declarations.names.plain(path)):
+        alias = body.pous.aliases.get(name.upper())
+        if alias is not None:
+            return alias
+        if body.scope.find(name) is not None:
+            return name
+    return None
 
 
 def _own_member(body: Body, node: tree.MemberOf, word: str) -> Found | None:

@@ -8,6 +8,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import LIBRARY, Space, qualified
 from scanbench.check.declare.scopes import Pous
+from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.check.standard.library import library
 from scanbench.problems import Span
 from scanbench.program.types import ELEMENTARY, Record, Section
@@ -38,7 +39,7 @@ class Collector:
     def collect(self, parsed: list[tree.File]) -> None:
         """All names of types and POUs."""
         internal = self.declarations.names.internal
-        for file in parsed:
+        for file in sorted(parsed, key=lambda each: library_of_file(each.name) is not None):
             internal |= {space.upper(): space.upper().rpartition(".")[0] for space in file.internal}
             for declaration in file.types:
                 key = self._first(declaration.namespace, declaration.name, declaration.span)
@@ -76,7 +77,7 @@ class Collector:
             self.report.error("D001", f"`{name}` is a standard type; choose another name.", span)
             return None
         first = self._seen.setdefault(key, span)
-        if first is not span:
+        if first is not span and library_of_file(span.file) is None:  # a library steps back
             self.report.error("D001", f"`{name}` is declared already in {first}; rename one.", span)
         return key if first is span else None
 

@@ -40,6 +40,8 @@ class Names:
     space: Space = field(default_factory=Space)
     internal: dict[str, str] = field(default_factory=dict)
     """Declarations and namespaces that are INTERNAL: key, and the namespace that may use it."""
+    prefixes: frozenset[str] = frozenset()
+    """Names of libraries, in upper case, that mean nothing before a name."""
 
     @contextmanager
     def within(self, space: Space) -> Iterator[None]:
@@ -57,6 +59,9 @@ class Names:
         def known(full: str) -> bool:
             return any(full in table for table in tables)
 
+        plain = self.plain(key)
+        if plain != key and not known(key):
+            key = plain
         if not self.space.namespace and not self.space.using and not self.internal:
             return key if known(key) else None
         found = self._candidates(key, known)
@@ -65,6 +70,11 @@ class Names:
         if found and self.internal:
             self._may_use(name, found[0], span)
         return found[0] if found else None
+
+    def plain(self, name: str) -> str:
+        """The name without that of a library before it."""
+        library, point, rest = name.partition(".")
+        return rest if point and library.upper() in self.prefixes else name
 
     def _may_use(self, name: str, key: str, span: Span) -> None:
         """Refuses what is INTERNAL of a namespace that this place is not in, itself or what is around it."""

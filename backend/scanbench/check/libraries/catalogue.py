@@ -1,0 +1,110 @@
+"""The libraries that Scanbench has: each is one text of this folder, and becomes a file of the project that uses it.
+
+There it is like every text of the project: it is kept with each version and in run files, can be read, stepped through and
+changed, so no run depends on which version of a library Scanbench has later.
+"""
+
+import posixpath
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from scanbench.syntax import tree
+from scanbench.syntax.language_file import DialectName
+from scanbench.syntax.parse_file import is_program_file, is_stimulus, parse_file
+from scanbench.syntax.parse_st import parse_st
+from scanbench.syntax.source import Source
+
+FOLDER = "libraries"
+"""Of a project: the file `libraries/Util.st` is the library `Util`, whose name may be written before what it declares."""
+SHIPPED: dict[str, tuple[DialectName, ...]] = {
+    "Tc2_System": ("twincat",),
+    "Util": ("codesys", "twincat"),
+}
+"""Each name, and the dialects that it is written in."""
+_WORD = re.compile(r"[A-Z_]\w*")
+
+
+@dataclass(frozen=True, slots=True)
+class Library:
+    """One of them."""
+
+    name: str
+    dialects: tuple[DialectName, ...]
+    text: str
+    about: str
+    """What it is, in a sentence: the comment that its text begins with."""
+    declared: tuple[tree.PouDeclaration | tree.TypeDeclaration, ...]
+    names: frozenset[str]
+    """All that it declares, in upper case."""
+    words: frozenset[str]
+    """All words of its text, in upper case."""
+
+    @property
+    def path(self) -> str:
+        """Where it is in a project."""
+        return f"{FOLDER}/{self.name}.st"
+
+    @property
+    def stubs(self) -> tuple[str, ...]:
+        """Names of its POUs that need a device."""
+        return tuple(each.name for each in self.declared if isinstance(each, tree.PouDeclaration) and each.stub)
+
+
+@cache
+def catalogue() -> tuple[Library, ...]:
+    """All of them, by name."""
+    return tuple(_library(name, dialects) for name, dialects in SHIPPED.items())
+
+
+def library_named(name: str) -> Library | None:
+    """The one of this name, in any case."""
+    return next((each for each in catalogue() if each.name.lower() == name.lower()), None)
+
+
+def library_of_file(path: str) -> str | None:
+    """The library that a file of a project is; None of all others."""
+    folder, name = posixpath.split(path.replace("\\", "/"))
+    stem, point, ending = name.rpartition(".")
+    return stem if posixpath.basename(folder) == FOLDER and point and ending.lower() == "st" else None
+
+
+def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Library]:
+    """The libraries of the dialect that declare what these programs name and do not have themselves; those that they use as well."""
+    possible = [each for each in catalogue() if dialect in each.dialects]
+    if not possible:
+        return []
+    texts = {name: text for name, text in sources.items() if is_program_file(name) and not is_stimulus(name)}
+    own = {name for path, text in texts.items() for name in _names(parse_file(Source(path, text))[0])}
+    have = {library.lower() for path in texts if (library := library_of_file(path))}
+    wanted = {word for text in texts.values() for word in _WORD.findall(text.upper())} - own
+    found: list[Library] = []
+    grown = True
+    while grown:
+        fresh = [each for each in possible if each not in found and not wanted.isdisjoint(each.names)]
+        found += fresh
+        wanted |= {word for each in fresh for word in each.words}
+        grown = bool(fresh)
+    return [each for each in found if each.name.lower() not in have]
+
+
+def where_declared(name: str, dialect: DialectName) -> str | None:
+    """The library of the dialect that declares this name."""
+    return next((each.name for each in catalogue() if dialect in each.dialects and name.upper() in each.names), None)
+
+
+def _library(name: str, dialects: tuple[DialectName, ...]) -> Library:
+    text = files("scanbench.check").joinpath(f"libraries/{name}.st").read_text("utf-8")
+    file, problems = parse_st(Source(f"{FOLDER}/{name}.st", text))
+    assert not problems, problems
+    about = " ".join(text.partition("(*")[2].partition("*)")[0].split())
+    words = frozenset(_WORD.findall(text.upper()))
+    return Library(name, dialects, text, about, (*file.types, *file.pous), frozenset(_names(file)), words)
+
+
+def _names(file: tree.File) -> Iterable[str]:
+    yield from (each.name.upper() for each in file.types)
+    yield from (each.name.upper() for each in file.pous)
+    yield from (each.name.upper() for section in file.globals for each in section.variables)

@@ -1,0 +1,80 @@
+"""The libraries of vendors: every text checks, what they compute is what their documentation says, and a name may have theirs before it."""
+
+import pytest
+
+from scanbench.check.build import Checked, check_sources
+from scanbench.check.libraries.catalogue import Library, catalogue, library_named, library_of_file, used_libraries
+from scanbench.problems import Severity
+from scanbench.syntax.language_file import DialectName, with_dialect, with_namespaces
+from tests.caseformat import MODELS
+
+MODEL = MODELS["GENERIC-IEC"]
+
+
+def check(text: str, dialect: DialectName = "twincat", **more: str) -> Checked:
+    sources = with_dialect({"Main.st": text, **more}, dialect)
+    added = {each.path: each.text for each in used_libraries(sources, dialect)}
+    return check_sources(sources | added, MODEL)
+
+
+def said(checked: Checked) -> list[str]:
+    return [f"{each.code} {each.message}" for each in checked.problems if each.code != "W006"]
+
+
+@pytest.mark.parametrize("library", catalogue(), ids=lambda each: each.name)
+def test_every_library_checks_with_those_that_it_uses(library: Library) -> None:
+    for dialect in library.dialects:
+        sources = with_dialect({library.path: library.text, "Main.st": "PROGRAM Main END_PROGRAM"}, dialect)
+        sources |= {each.path: each.text for each in used_libraries(sources, dialect)}
+        found = check_sources(sources, MODEL)
+        assert not [each for each in found.problems if each.severity is Severity.ERROR or each.code != "W006"]
+        assert found.program is not None
+
+
+@pytest.mark.parametrize("library", catalogue(), ids=lambda each: each.name)
+def test_every_library_says_what_it_is_and_where_it_is_documented(library: Library) -> None:
+    assert library.about.startswith(f"{library.name} of ")
+    assert "https://" in library.about
+    assert library_named(library.name.upper()) is library
+    assert library_of_file(library.path) == library.name
+
+
+def test_a_name_may_have_its_library_before_it() -> None:
+    found = check(
+        """PROGRAM Main
+        VAR t : Tc2_Standard.TON; s : Tc2_System.T_MaxString; b : BOOL; END_VAR
+        t(IN := TRUE, PT := Tc2_System.DEFAULT_ADS_TIMEOUT);
+        s := Tc2_Standard.CONCAT('a', 'b');
+        b := Util.EXTRACT(16#10, 4);
+        END_PROGRAM"""
+    )
+    assert said(found) == []
+    assert found.program is not None
+
+
+def test_the_names_of_libraries_whose_texts_are_in_the_project_are_its_own_choice() -> None:
+    text = "FUNCTION Twice : INT VAR_INPUT x : INT; END_VAR Twice := 2 * x; END_FUNCTION\n"
+    text += "PROGRAM Main VAR x : INT; END_VAR x := MyLib.Twice(x); END_PROGRAM"
+    assert [each[:4] for each in said(check(text))] == ["T001"]
+    named = with_namespaces(with_dialect({"Main.st": text}, "twincat"), ["MyLib"])
+    assert check_sources(named, MODEL).problems == ()
+
+
+def test_what_the_project_declares_itself_goes_before_the_library() -> None:
+    own = "TYPE T_AmsPort : DINT; END_TYPE\nPROGRAM Main VAR p : T_AmsPort := 100_000; s : T_MaxString; END_VAR END_PROGRAM"
+    assert said(check(own)) == []
+
+
+def test_who_uses_a_stub_is_told_once() -> None:
+    found = check(
+        "PROGRAM Main VAR d : DINT; END_VAR d := ADSLOGSTR(1, 'a', 'b') + ADSLOGSTR(2, 'a', 'b'); END_PROGRAM"
+    )
+    assert len(said(found)) == 1
+    assert said(found)[0].startswith("W008 `ADSLOGSTR` needs a device")
+    assert "in 2 places" in said(found)[0]
+
+
+def test_only_what_is_named_is_added() -> None:
+    assert [each.name for each in used_libraries({"a.st": "x := PACK(TRUE);"}, "codesys")] == ["Util"]
+    assert used_libraries({"a.st": "x := PACK(TRUE);"}, "iec") == []
+    assert used_libraries({"a.st": "x := ADD(1, 2);"}, "twincat") == []
