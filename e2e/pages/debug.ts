@@ -42,11 +42,16 @@ export class Debug {
   /** The gutter beside the line that contains a text. */
   private async gutterAt(file: string, part: string): Promise<{ x: number; y: number }> {
     const editor = new Editor(this.page, file);
-    await editor.reveal(part);
-    const line = await editor.line(part).first().boundingBox();
-    const margin = await editor.region.locator('.glyph-margin').first().boundingBox();
-    if (!line || !margin) throw new Error(`the line of ${part} is not to be seen`);
-    return { x: margin.x + 9, y: line.y + 10 };
+    let place = { x: 0, y: 0 };
+    // The page scrolls by itself, too: to where a tour or a halt is.
+    await expect(async () => {
+      await editor.reveal(part);
+      const line = await editor.line(part).first().boundingBox();
+      const margin = await editor.region.locator('.glyph-margin').first().boundingBox();
+      if (!line || !margin) throw new Error(`the line of ${part} is not to be seen`);
+      place = { x: margin.x + 9, y: line.y + 10 };
+    }).toPass();
+    return place;
   }
 
   async clickGutter(file: string, part: string): Promise<void> {

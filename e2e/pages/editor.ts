@@ -114,11 +114,13 @@ export class Editor {
       if (box.y < area.y + sticky) return -1;
       return box.y + box.height > area.y + area.height - 10 ? 1 : 0;
     };
-    for (let turn = 0, seen = await offset(); turn < 60 && seen !== 0; turn += 1) {
+    // In sight twice in a row: the page may be scrolling by itself.
+    for (let turn = 0, still = 0, seen = await offset(); turn < 60 && still < 2; turn += 1) {
       // The line is not in the page: search from the top downward.
-      await this.page.mouse.wheel(0, seen === null && turn === 0 ? -100_000 : 40 * (seen ?? 1));
+      if (seen !== 0) await this.page.mouse.wheel(0, seen === null && turn === 0 ? -100_000 : 40 * (seen ?? 1));
       await this.page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
       seen = await offset();
+      still = seen === 0 ? still + 1 : 0;
     }
   }
 

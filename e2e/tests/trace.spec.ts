@@ -92,6 +92,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
   });
 
   await test.step('a retrospective trace records any signals of the last 1,000 scans', async () => {
+    await expect.poll(() => mika.top.scan(), 'there are 1,000 scans').toBeGreaterThan(1000);
     await trace.choose('Choose a trace', 'Record earlier scans…');
     const dialog = mika.page.getByRole('dialog');
     await dialog.getByLabel('Signals, one per line').fill('Main.uptime\nMain.belt.position\nlamp');

@@ -8,10 +8,11 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources, program_files
-from scanbench.cli.check_report import report_files, report_json, report_lines
-from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources
+from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources, usage
 from scanbench.faults.reaction.required_rules import problems_of
 from scanbench.problems import Severity
+from scanbench.reports.program_page import program_page
+from scanbench.reports.program_report import program_report, report_json, report_lines
 from scanbench.syntax.language_file import STRICT, guess_dialect, is_language_file
 
 
@@ -29,19 +30,22 @@ def check(
     format: Format = typer.Option(Format.TEXT, help="text: `file:line:column: code message`, one a line."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
     dialect: str | None = typer.Option(None, metavar="NAME", help=DIALECT_HELP),
-    report: bool = typer.Option(False, help="Count supported and refused constructs per file instead."),
+    report: bool = typer.Option(False, help="Tell how much of the programs runs, and what stops the rest, instead."),
+    html: Path | None = typer.Option(None, metavar="FILE", help="Write that report as a page."),
 ) -> None:
     """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
     sources = read_sources(paths, dialect)
     checked = check_sources(sources.texts, find_model(model, sources))
     problems = (*checked.problems, *problems_of(checked.program, sources.texts))
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
-    if report:
-        files = report_files(program_files(sources.texts), problems)
+    told = program_report(program_files(sources.texts), problems, sources.missing) if report or html else None
+    if html is not None and told is not None:
+        _write(html, program_page(told, ", ".join(path.name or str(path) for path in paths)))
+    if report and told is not None:
         if format is Format.JSON:
-            typer.echo(json.dumps({"files": report_json(files), "errors": errors}, ensure_ascii=False))
+            typer.echo(json.dumps({**report_json(told), "errors": errors}, ensure_ascii=False))
         else:
-            typer.echo("\n".join(report_lines(files)))
+            typer.echo("\n".join(report_lines(told)))
     elif format is Format.JSON:
         shown = {"problems": [problem_json(problem) for problem in problems], "errors": errors}
         typer.echo(json.dumps(shown, ensure_ascii=False))
@@ -64,3 +68,10 @@ def _tell_dialect(texts: Mapping[str, str]) -> None:
         typer.echo(
             f"scanbench: this looks like {likely}: with --dialect {likely}, what it allows is no error", err=True
         )
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, "utf-8")
+    except OSError as error:
+        usage(f"{path} cannot be written: {error.strerror or error}")

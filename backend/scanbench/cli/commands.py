@@ -9,6 +9,7 @@ from scanbench.cli.device import clear, log, present
 from scanbench.cli.diff import diff
 from scanbench.cli.errors import errors
 from scanbench.cli.format import format
+from scanbench.cli.library import library
 from scanbench.cli.lsp import lsp
 from scanbench.cli.model import model
 from scanbench.cli.replay import replay
@@ -30,6 +31,7 @@ for command in (present, log, clear):
     errors.command()(command)
 app.add_typer(model, name="model")
 app.add_typer(errors, name="errors")
+app.add_typer(library, name="library")
 app.add_typer(vscode, name="vscode")
 
 

@@ -23,7 +23,7 @@ def format(
     if packed is not None:
         usage(f"{packed} is packed: unpack it, and format the folder")
     unread = changed = 0
-    for name, text in program_files(read_sources(paths).texts).items():
+    for name, text in program_files(read_sources(paths, libraries=False).texts).items():
         if is_stimulus(name) or is_exported(name, text):
             continue
         made = formatted(name, text)

@@ -7,6 +7,7 @@ from typing import NoReturn
 
 import typer
 
+from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.plcmodel.load import NoModels, NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
@@ -14,7 +15,9 @@ from scanbench.recording.format import Damaged
 from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
 from scanbench.server.archive import unpack
-from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
+from scanbench.server.completed import completed, unknown_libraries
+from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text, twincat_projects
+from scanbench.server.twincat_project import TwinCatProject
 from scanbench.syntax.language_file import DIALECTS, LANGUAGE_FILE, dialect_named, with_dialect
 from scanbench.wire.refused import Refused
 
@@ -30,6 +33,8 @@ class Sources:
 
     texts: dict[str, str]
     model: str | None
+    missing: tuple[str, ...] = ()
+    """Libraries that a project of TwinCAT refers to, of which there is no text."""
 
 
 def usage(message: str) -> NoReturn:
@@ -71,12 +76,13 @@ def with_near(message: str, near: Sequence[str]) -> str:
     return ended if not near or "id you mean" in message else f"{ended} Near: {', '.join(near)}."
 
 
-def read_sources(paths: list[Path], dialect: str | None = None) -> Sources:
+def read_sources(paths: list[Path], dialect: str | None = None, libraries: bool = True) -> Sources:
     """A file is taken whatever its ending; a folder or zip file gives every program file in it, and its own errors.
 
-    `dialect` goes before what the project itself says.
+    `dialect` goes before what the project itself says. With `libraries`, the texts of those that the programs use are among them.
     """
     texts: dict[str, str] = {}
+    projects: list[TwinCatProject] = []
     model = None
     try:
         for path in paths:
@@ -84,18 +90,21 @@ def read_sources(paths: list[Path], dialect: str | None = None) -> Sources:
                 archive = unpack(_bytes(path))
                 texts |= {str(path / each): text for each, text in archive.files.items()}
                 model = model or archive.model or None
+                projects += archive.twincat
                 continue
             texts |= {str(each): read_text(each) for each in program_files(path)}
             model = model or project_model(path)
+            projects += twincat_projects(path).values() if path.is_dir() else ()
     except Refused as error:
         usage(str(error))
+    folder = paths[0] if paths[0].is_dir() or paths[0].suffix.lower() == ARCHIVE else paths[0].parent
     if dialect is not None:
         named = dialect_named(dialect)
         if named is None:
             usage(f"there is no dialect {dialect}: write one of {', '.join(DIALECTS)}")
-        folder = paths[0] if paths[0].is_dir() or paths[0].suffix.lower() == ARCHIVE else paths[0].parent
         texts = with_dialect(texts, named, str(folder / LANGUAGE_FILE))
-    return Sources(texts, model)
+    made = completed(texts, projects, str(folder)) if libraries else texts
+    return Sources(made, model, tuple(unknown_libraries(projects, made)))
 
 
 def _bytes(path: Path) -> bytes:
@@ -108,8 +117,14 @@ def _bytes(path: Path) -> bytes:
 def below(path: Path, texts: Mapping[str, str]) -> dict[str, str]:
     """The texts by the names that they have in a project: below the folder that was given, wherever that is."""
     if not path.is_dir():
-        return {Path(name).name: text for name, text in texts.items()}
+        return {_in_project(name): text for name, text in texts.items()}
     return {Path(name).relative_to(path).as_posix(): text for name, text in texts.items()}
+
+
+def _in_project(name: str) -> str:
+    """The name of a single file, and of a library, which is in a folder of its own."""
+    library = library_of_file(name)
+    return Path(name).name if library is None else str(Path(name).relative_to(Path(name).parents[1]))
 
 
 def find_model(name: str | None, sources: Sources) -> Model:

@@ -12,13 +12,14 @@ import zipfile
 import zlib
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from html import escape, unescape
+from html import escape
 from pathlib import PurePosixPath
 from uuid import NAMESPACE_URL, uuid5
 
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.server.project_files import OWN_FILES
+from scanbench.server.twincat_project import ENDING, TwinCatProject, is_twincat_project, read_twincat_project
 from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
 from scanbench.syntax.source import decode
@@ -27,10 +28,7 @@ from scanbench.wire.refused import Refused
 LARGEST = 64 << 20
 """Bytes, packed or not."""
 MOST_FILES = 5000
-TWINCAT_PROJECT = ".plcproj"
-_COMPILED = re.compile(r"<Compile\s[^>]*Include\s*=\s*[\"']([^\"']*)[\"']")
 _NO_FILE_NAME = re.compile(r'[<>:"/\\|?*\x00-\x1f]')
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _WHEN = (1980, 1, 1, 0, 0, 0)
 """The same project makes the same bytes."""
 
@@ -53,6 +51,8 @@ class Archive:
     """Files that are no programs, or not compiled by their TwinCAT project."""
     dialect: DialectName = STRICT
     """The one that its programs are probably written in, where no file of it says so; of what Scanbench packed the strict one."""
+    twincat: tuple[TwinCatProject, ...] = ()
+    """What the project files of TwinCAT say that are in it; of what Scanbench packed none."""
 
 
 def pack(name: str, model: str, watch: Sequence[str], files: Mapping[str, str]) -> bytes:
@@ -95,7 +95,7 @@ def _twincat_project(name: str, files: Mapping[str, str]) -> dict[str, str]:
         "</Project>",
     ]
     plain = _NO_FILE_NAME.sub("_", name)
-    return {f"{plain}{TWINCAT_PROJECT}": "\n".join(lines) + "\n"}
+    return {f"{plain}{ENDING}": "\n".join(lines) + "\n"}
 
 
 def _windows(path: str) -> str:
@@ -131,14 +131,15 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
     inside = {path.removeprefix(root): each for path, each in named.items() if path.startswith(root)}
     left_out += [path for path in named if not path.startswith(root)]
     # of an archive of Scanbench all files are the project's, whatever its project file for TwinCAT lists
-    compiled, missing = (None, list[str]()) if PROJECT_FILE in inside else _compiled(archive, inside)
+    projects = {} if PROJECT_FILE in inside else _twincat_projects(archive, inside)
+    compiled, missing = _compiled(projects, inside)
     files, panels = {}, {}
     for path, each in sorted(inside.items()):
         if path in OWN_FILES or (is_program_file(path) and (compiled is None or path in compiled)):
             files[path] = decode(_read(archive, each))
         elif is_panel_file(path):
             panels[path] = decode(_read(archive, each))
-        elif path != PROJECT_FILE and not _is_twincat(path):
+        elif path != PROJECT_FILE and not is_twincat_project(path):
             left_out.append(path)
     if missing:
         raise Refused(f"the TwinCAT project compiles files that are not in this archive: {', '.join(missing)}")
@@ -154,6 +155,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
         panels,
         tuple(left_out),
         STRICT if PROJECT_FILE in inside else guess_dialect(files, named),
+        tuple(projects.values()),
     )
 
 
@@ -170,13 +172,9 @@ def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> bytes:
     return archive.read(entry)
 
 
-def _is_twincat(path: str) -> bool:
-    return path.lower().endswith(TWINCAT_PROJECT)
-
-
 def _root(texts: Collection[str]) -> str:
     """The folder that the project is in, with `/`: that of its project file, else what all programs have in common."""
-    marks = [path for path in texts if posixpath.basename(path) == PROJECT_FILE or _is_twincat(path)]
+    marks = [path for path in texts if posixpath.basename(path) == PROJECT_FILE or is_twincat_project(path)]
     if len(marks) > 1 and not any(path == PROJECT_FILE for path in marks):
         raise Refused(f"this archive has several projects: {', '.join(sorted(marks))}. Pack one of their folders")
     if marks:
@@ -188,13 +186,20 @@ def _root(texts: Collection[str]) -> str:
     return f"{folder}/" if folder else ""
 
 
-def _compiled(archive: zipfile.ZipFile, files: Mapping[str, zipfile.ZipInfo]) -> tuple[set[str] | None, list[str]]:
+def _twincat_projects(archive: zipfile.ZipFile, files: Mapping[str, zipfile.ZipInfo]) -> dict[str, TwinCatProject]:
+    return {
+        path: read_twincat_project(decode(_read(archive, each)))
+        for path, each in files.items()
+        if is_twincat_project(path)
+    }
+
+
+def _compiled(projects: Mapping[str, TwinCatProject], files: Collection[str]) -> tuple[set[str] | None, list[str]]:
     """The files that a TwinCAT project compiles, whose names Windows does not tell apart by capitals, and those that are missing;
     None where there is none."""
-    projects = [_COMMENT.sub("", decode(_read(archive, each))) for path, each in files.items() if _is_twincat(path)]
     if not projects:
         return None, []
-    wanted = [unescape(path).replace("\\", "/") for text in projects for path in _COMPILED.findall(text)]
+    wanted = [path for project in projects.values() for path in project.compiled]
     known = {path.lower(): path for path in files}
     found = {known[each.lower()] for each in wanted if each.lower() in known}
     return found, [each for each in wanted if each.lower() not in known and is_program_file(each)]

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from scanbench.server.project_files import OWN_FILES
+from scanbench.server.twincat_project import ENDING, TwinCatProject, left_out, read_twincat_project
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
@@ -24,9 +25,17 @@ def program_files(path: Path) -> list[Path]:
             raise Refused(f"{path} does not exist")
         return [path]
     found = sorted(each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and each.is_file())
+    unused = left_out([str(each) for each in found], twincat_projects(path))
+    found = [each for each in found if str(each) not in unused]
     if not found:
         raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
     return found + [each for name in OWN_FILES if (each := path / name).is_file()]
+
+
+def twincat_projects(folder: Path) -> dict[str, TwinCatProject]:
+    """What the project files of TwinCAT in a folder and below say, by path."""
+    found = (each for each in sorted(folder.rglob(f"*{ENDING}")) if each.is_file())
+    return {str(each): read_twincat_project(read_text(each)) for each in found}
 
 
 def read_text(path: Path) -> str:

@@ -8,6 +8,7 @@ from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.server.archive import Archive, pack
+from scanbench.server.completed import completed
 from scanbench.server.drafts import Drafts
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
 from scanbench.server.project_files import is_project_file
@@ -170,7 +171,7 @@ class Projects:
     async def from_archive(self, name: str, model: str, archive: Archive, author: str) -> ProjectRow:
         """A project with the files of an archive, which are not built yet."""
         guessed = {} if archive.dialect == STRICT else {LANGUAGE_FILE: language_text(archive.dialect)}
-        texts = {**guessed, **archive.files, **archive.panels}
+        texts = completed({**guessed, **archive.files}, archive.twincat) | archive.panels
         for path in texts:
             _check_path(path)
         for path, text in archive.panels.items():

@@ -1,7 +1,8 @@
 """`scanbench check --report`: how many POUs are whole, and what the files are made of."""
 
 from scanbench.check.build import check_sources
-from scanbench.cli.check_report import report_files, report_json, report_lines
+from scanbench.reports.program_page import program_page
+from scanbench.reports.program_report import ProgramReport, program_report, report_files, report_json, report_lines
 from tests.caseformat import MODELS
 
 TEXTS = {
@@ -23,17 +24,26 @@ END_PROGRAM
 }
 
 
+def files_of(report: ProgramReport) -> list[dict[str, object]]:
+    files = report_json(report)["files"]
+    assert isinstance(files, list)
+    return files
+
+
 def test_pous_with_errors_are_counted_apart_from_constructs() -> None:
     checked = check_sources(TEXTS, MODELS["GENERIC-IEC"])
     reports = report_files(TEXTS, checked.problems)
     assert [(each.name, each.pous, each.clean) for each in reports] == [("Types.st", 0, 0), ("Main.st", 3, 1)]
     assert [each.errors for each in reports] == [1, 2]
     assert sum(each.refused.total() for each in reports) == 1
-    lines = report_lines(reports)
+    report = program_report(TEXTS, checked.problems, ["Parts"])
+    lines = report_lines(report)
     assert "1 of 3 POUs (33.3 %) have no error of their own" in lines
     assert "1 of 3 POUs (33.3 %) run: neither they nor what they use has an error" in lines
     assert not any("100" in line for line in lines)
-    found = [(each["pous"], each["pous_without_errors"]) for each in report_json(reports)]
+    assert "missing libraries: Parts" in lines
+    assert any("T001 `_` is not declared." in line and line.startswith("     1       2") for line in lines), lines
+    found = [(each["pous"], each["pous_without_errors"]) for each in files_of(report)]
     assert found == [(0, 0), (3, 1)]
 
 
@@ -55,4 +65,36 @@ END_FUNCTION_BLOCK
     }
     reports = report_files(texts, check_sources(texts, MODELS["GENERIC-IEC"]).problems)
     assert [(each.name, each.pous, each.run) for each in reports] == [("Types.st", 0, 0), ("Blocks.st", 3, 1)]
-    assert [each["pous_that_run"] for each in report_json(reports)] == [0, 1]
+    report = program_report(texts, check_sources(texts, MODELS["GENERIC-IEC"]).problems)
+    assert [each["pous_that_run"] for each in files_of(report)] == [0, 1]
+
+
+def test_pous_that_use_a_stub_by_whatever_way_are_told_apart_and_libraries_are_not_counted() -> None:
+    texts = {
+        "libraries/Drive.st": """VAR_GLOBAL Stub_Heat : INT; END_VAR
+FUNCTION Heat : INT
+{stub}
+Heat := Stub_Heat;
+END_FUNCTION
+""",
+        "Main.st": """FUNCTION Hot : BOOL
+Hot := Heat() > 80;
+END_FUNCTION
+PROGRAM Main
+VAR hot : BOOL; n : INT; END_VAR
+hot := Hot();
+n := <script>;
+END_PROGRAM
+PROGRAM Plain
+END_PROGRAM
+""",
+    }
+    problems = check_sources(texts, MODELS["GENERIC-IEC"]).problems
+    report = program_report(texts, problems)
+    assert [(each.name, each.pous, each.run, each.stubbed) for each in report.files] == [("Main.st", 3, 2, 1)]
+    assert report.libraries == ("Drive",)
+    assert [each.code for each in report.stubs] == ["W008"]
+    page = program_page(report, "Line <1>")
+    assert "Line &lt;1&gt;" in page
+    assert "1 of these 2 use stubs" in page
+    assert "<script>" not in page

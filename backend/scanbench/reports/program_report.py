@@ -1,0 +1,248 @@
+"""How much of a program runs here: its POUs, its constructs, what stops the others, and which libraries it uses and misses."""
+
+import re
+from bisect import bisect
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from scanbench.check.libraries.catalogue import library_of_file
+from scanbench.problems import Problem, Severity, Span
+from scanbench.syntax import tree
+from scanbench.syntax.constructs import count_constructs
+from scanbench.syntax.parse_file import parse_file
+from scanbench.syntax.source import Source
+
+REFUSED = "X001"
+OF_THE_WHOLE = "D011"
+"""No program: an error of no POU."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileReport:
+    """One file: constructs that are supported by name, refused ones by message, and other errors."""
+
+    name: str
+    pous: int
+    clean: int
+    """POUs without an error of their own. Such a POU may still use one that has an error."""
+    run: int
+    """POUs that would run: neither they nor anything that they use has an error."""
+    stubbed: int
+    """Of these, POUs that use a stub, by whatever way."""
+    supported: Counter[str]
+    refused: Counter[str]
+    errors: int
+
+
+@dataclass(slots=True)
+class _Unit:
+    """One declaration: a POU, a type, a list of globals."""
+
+    line: int
+    names: tuple[str, ...]
+    """What others use of it, in upper case."""
+    is_pou: bool
+    stub: bool = False
+    wrong: bool = False
+    words: set[str] = field(default_factory=set)
+    """All words in its text, in upper case."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """A mistake that is the same but for the names in it."""
+
+    code: str
+    message: str
+    """With `_` for each name that is not the same everywhere."""
+    places: tuple[Span, ...]
+    """Where each is."""
+    pous: int
+    """POUs that have it."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramReport:
+    """What is said of a whole program."""
+
+    files: tuple[FileReport, ...]
+    """Those of the project itself; libraries are not counted."""
+    causes: tuple[Cause, ...]
+    """What stops most POUs comes first."""
+    libraries: tuple[str, ...]
+    """Those whose texts are among its files."""
+    missing: tuple[str, ...]
+    """Those that it refers to and has no text of."""
+    stubs: tuple[Problem, ...]
+    """What is told of each stub that it uses."""
+
+
+WORD = re.compile(r"[A-Za-z_]\w*")
+_NAMED = re.compile(r"`[^`]*`")
+STUB = "W008"
+
+
+def program_report(
+    texts: Mapping[str, str], problems: Sequence[Problem], missing: Collection[str] = ()
+) -> ProgramReport:
+    """The report of a program with these texts, in which its check found these problems. `missing` are libraries without a text."""
+    files = report_files(texts, problems)
+    errors = [each for each in problems if each.severity is Severity.ERROR]
+    return ProgramReport(
+        tuple(files),
+        _causes(errors, texts),
+        tuple(sorted(library for name in texts if (library := library_of_file(name)))),
+        tuple(missing),
+        tuple(each for each in problems if each.code == STUB),
+    )
+
+
+def _causes(errors: Sequence[Problem], texts: Mapping[str, str]) -> tuple[Cause, ...]:
+    begins = {name: [each.span.line for each in parse_file(Source(name, text))[0].pous] for name, text in texts.items()}
+    same: dict[tuple[str, str], list[Problem]] = {}
+    for each in errors:
+        same.setdefault((each.code, _NAMED.sub("`_`", each.message)), []).append(each)
+    made = []
+    for (code, general), found in same.items():
+        pous = {(each.span.file, bisect(begins.get(each.span.file, []), each.span.line)) for each in found}
+        message = found[0].message if len({each.message for each in found}) == 1 else general
+        made.append(Cause(code, message, tuple(each.span for each in found), len(pous)))
+    return tuple(sorted(made, key=lambda each: (-each.pous, -len(each.places), each.code, each.message)))
+
+
+def report_files(texts: Mapping[str, str], problems: Sequence[Problem]) -> list[FileReport]:
+    """A report of every file, by the problems that its check found."""
+    files = {name: parse_file(Source(name, text))[0] for name, text in texts.items()}
+    errors = [each for each in problems if each.severity is Severity.ERROR]
+    units = {name: _units(file, texts[name], errors) for name, file in files.items()}
+    every = [each for own in units.values() for each in own]
+    stopped = _reached(every, [each for each in every if each.wrong])
+    stubbed = _reached(every, [each for each in every if each.stub])
+    made = []
+    for name, file in files.items():
+        if library_of_file(name):
+            continue
+        own = [each for each in errors if each.span.file == name]
+        refused = Counter(each.message for each in own if each.code == REFUSED)
+        pous = [each for each in units[name] if each.is_pou]
+        clean = sum(not each.wrong for each in pous)
+        run = [each for each in pous if id(each) not in stopped]
+        with_stubs = sum(id(each) in stubbed for each in run)
+        others = len(own) - refused.total()
+        made.append(FileReport(name, len(pous), clean, len(run), with_stubs, count_constructs(file), refused, others))
+    return made
+
+
+def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]:
+    """What a file declares, in order, with the errors that are in the lines of each."""
+    made = [_Unit(each.span.line, (each.name.upper(),), True, each.stub) for each in file.pous]
+    made += [_Unit(each.span.line, (each.name.upper(),), is_pou=False) for each in file.types]
+    for section in file.globals:
+        made.append(_Unit(section.span.line, tuple(each.name.upper() for each in section.variables), is_pou=False))
+    made.sort(key=lambda each: each.line)
+    begins = [each.line for each in made]
+    for error in errors:
+        at = bisect(begins, error.span.line) - 1
+        if error.span.file == file.name and at >= 0 and error.code != OF_THE_WHOLE:
+            made[at].wrong = True
+    lines = text.split("\n")
+    for each, end in zip(made, [*begins[1:], len(lines) + 1], strict=True):
+        each.words = {word.upper() for word in WORD.findall("\n".join(lines[each.line - 1 : end - 1]))}
+    return made
+
+
+def _reached(units: Sequence[_Unit], first: Sequence[_Unit]) -> set[int]:
+    """The units, by identity, that are among the first ones or use one of them, by whatever way."""
+    users: dict[str, list[_Unit]] = {}
+    for each in units:
+        for word in each.words:
+            users.setdefault(word, []).append(each)
+    open_ = list(first)
+    reached = {id(each) for each in open_}
+    while open_:
+        for name in open_.pop().names:
+            for user in users.get(name, ()):
+                if id(user) not in reached:
+                    reached.add(id(user))
+                    open_.append(user)
+    return reached
+
+
+def report_lines(report: ProgramReport) -> list[str]:
+    """For people: a line a file, how many POUs run, what stops the others, libraries, then what the program uses."""
+    reports = report.files
+    width = max((len(each.name) for each in reports), default=3)
+    whole = whole_of(reports)
+    lines = [f"{'file':{width}}  POUs  run  with stubs  without errors  constructs  refused  other errors"]
+    for each in [*reports, whole] if len(reports) > 1 else reports:
+        lines.append(
+            f"{each.name:{width}}  {each.pous:4}  {each.run:3}  {each.stubbed:10}  {each.clean:14}  "
+            f"{each.supported.total():10}  {each.refused.total():7}  {each.errors:12}"
+        )
+    if whole.pous:
+        lines += ["", *pou_lines(whole)]
+    if whole.refused or whole.errors:
+        lines.append("a program runs when none of its files has an error")
+    if report.missing:
+        lines += ["", f"missing libraries: {', '.join(report.missing)}"]
+    if report.libraries:
+        lines += ["", f"libraries: {', '.join(report.libraries)}"]
+    if report.stubs:
+        lines += ["", "stubs:", *(f"  {each.span}: {each.message}" for each in report.stubs)]
+    if report.causes:
+        lines += ["", "  POUs  places  what stops them"]
+        for cause in report.causes:
+            lines.append(f"{cause.pous:6}  {len(cause.places):6}  {cause.code} {cause.message} ({cause.places[0]})")
+    return [*lines, "", "in use:", *(f"{count:6}  {name}" for name, count in whole.supported.most_common())]
+
+
+def pou_lines(whole: FileReport) -> list[str]:
+    """How many POUs run, in sentences."""
+    lines = [
+        f"{whole.run} of {whole.pous} POUs ({_share(whole.run, whole.pous)}) run: neither they nor what they use has an error"
+    ]
+    if whole.stubbed:
+        lines.append(f"{whole.stubbed} of these {whole.run} use stubs, whose results the user sets")
+    lines.append(f"{whole.clean} of {whole.pous} POUs ({_share(whole.clean, whole.pous)}) have no error of their own")
+    return lines
+
+
+def report_json(report: ProgramReport) -> dict[str, object]:
+    """For machines: `files` has one object a file."""
+    files = [
+        {
+            "file": each.name,
+            "supported": dict(each.supported),
+            "refused": dict(each.refused),
+            "other_errors": each.errors,
+            "pous": each.pous,
+            "pous_without_errors": each.clean,
+            "pous_that_run": each.run,
+            "pous_that_run_with_stubs": each.stubbed,
+        }
+        for each in report.files
+    ]
+    causes = [
+        {"code": each.code, "message": each.message, "pous": each.pous, "places": [str(place) for place in each.places]}
+        for each in report.causes
+    ]
+    stubs = [{"place": str(each.span), "message": each.message} for each in report.stubs]
+    libraries, missing = list(report.libraries), list(report.missing)
+    return {"files": files, "causes": causes, "libraries": libraries, "missing_libraries": missing, "stubs": stubs}
+
+
+def whole_of(reports: Sequence[FileReport]) -> FileReport:
+    """All files as one."""
+    supported: Counter[str] = Counter()
+    refused: Counter[str] = Counter()
+    for each in reports:
+        supported += each.supported
+        refused += each.refused
+    counts = [(each.pous, each.clean, each.run, each.stubbed, each.errors) for each in reports]
+    pous, clean, run, stubbed, errors = map(sum, zip((0, 0, 0, 0, 0), *counts, strict=True))
+    return FileReport("all", pous, clean, run, stubbed, supported, refused, errors)
+
+
+def _share(part: int, whole: int) -> str:
+    return f"{100 * part / whole:.1f} %"

@@ -1,0 +1,29 @@
+"""Programs of other tools, with what they need to be checked here: the libraries that they use, and what these are called."""
+
+from collections.abc import Collection, Iterable, Mapping
+from pathlib import PurePath
+
+from scanbench.check.dialect import DIALECTS
+from scanbench.check.libraries.catalogue import catalogue, library_of_file, used_libraries
+from scanbench.server.twincat_project import TwinCatProject, missing_libraries
+from scanbench.syntax.language_file import LANGUAGE_FILE, dialect_of, is_language_file, with_namespaces
+
+
+def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (), folder: str = "") -> dict[str, str]:
+    """The files of a project at `folder`, with the texts of the libraries that they use. The names of these TwinCAT projects, whose
+    files are among them, may be written before other names.
+
+    Nothing is different in the strict language, which has no libraries.
+    """
+    names = {name for project in projects for name in project.names if name.isidentifier()}
+    made = dict(files)
+    if names and any(map(is_language_file, made)):
+        made = with_namespaces(made, names, str(PurePath(folder, LANGUAGE_FILE)))
+    libraries = used_libraries(made, dialect_of(made)[0])
+    return made | {str(PurePath(folder, each.path)): each.text for each in libraries}
+
+
+def unknown_libraries(projects: Collection[TwinCatProject], files: Iterable[str]) -> list[str]:
+    """Libraries that these projects refer to, and that nothing is known of: neither Scanbench nor the files have a text."""
+    known = {each.name for each in catalogue()} | {name for each in DIALECTS.values() for name in each.prefixes}
+    return missing_libraries(projects, known | {library for file in files if (library := library_of_file(file))})

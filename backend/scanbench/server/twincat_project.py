@@ -1,0 +1,71 @@
+"""The project file of TwinCAT (`.plcproj`): which files it compiles, what it is called, and which libraries it refers to."""
+
+import posixpath
+import re
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from html import unescape
+
+from scanbench.syntax.parse_file import XML_ENDINGS
+
+ENDING = ".plcproj"
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_COMPILED = re.compile(r"<Compile\s[^>]*Include\s*=\s*[\"']([^\"']*)[\"']")
+_REFERENCE = re.compile(
+    r"<(?:Placeholder|Library)Reference\s[^>]*Include\s*=\s*[\"']([^\"',]*)[^\"']*[\"'][^>]*?(?:/>|>(.*?)</(?:Placeholder|Library)Reference>)",
+    re.DOTALL,
+)
+_NAMES = re.compile(r"<(?:Name|Title|DefaultNamespace)>\s*([^<]*?)\s*</")
+_NAMESPACE = re.compile(r"<Namespace>\s*([^<]*?)\s*</Namespace>")
+
+
+@dataclass(frozen=True, slots=True)
+class TwinCatProject:
+    """What such a file says."""
+
+    compiled: tuple[str, ...]
+    """Paths from where the file is, with `/`."""
+    names: tuple[str, ...]
+    """What others write before the names of this project, when it is their library."""
+    references: tuple[tuple[str, str], ...]
+    """Libraries: how each is called, and what is written before its names."""
+
+
+def is_twincat_project(path: str) -> bool:
+    """Whether a file of this path is one."""
+    return path.lower().endswith(ENDING)
+
+
+def read_twincat_project(text: str) -> TwinCatProject:
+    """What the text of the file says; of one that is damaged what can still be found."""
+    text = _COMMENT.sub("", text)
+    compiled = tuple(unescape(path).replace("\\", "/") for path in _COMPILED.findall(text))
+    references = [(unescape(name).strip(), inside) for name, inside in _REFERENCE.findall(text)]
+    named = {name: (_NAMESPACE.findall(inside) or [name])[0] for name, inside in references if name}
+    names = dict.fromkeys(unescape(name) for name in _NAMES.findall(_REFERENCE.sub("", text)) if name)
+    return TwinCatProject(compiled, tuple(names), tuple(named.items()))
+
+
+def left_out(paths: Collection[str], projects: Mapping[str, TwinCatProject]) -> set[str]:
+    """The exported files at and below these projects that none of them compiles; Windows does not tell capitals apart."""
+    compiled = {
+        posixpath.normpath(posixpath.join(posixpath.dirname(path), each)).lower()
+        for path, project in projects.items()
+        for each in project.compiled
+    }
+    folders = [posixpath.dirname(path) for path in projects]
+    below = [f"{folder}/" if folder else "" for folder in folders]
+    return {
+        path
+        for path in paths
+        if path.lower().endswith(XML_ENDINGS)
+        and path.lower() not in compiled
+        and any(path.startswith(folder) for folder in below)
+    }
+
+
+def missing_libraries(projects: Collection[TwinCatProject], known: Collection[str]) -> list[str]:
+    """Libraries that these projects refer to, of which there is no text: not among themselves, nor `known`."""
+    own = {name.lower() for project in projects for name in project.names} | {name.lower() for name in known}
+    wanted = {name for project in projects for name, _ in project.references if name.lower() not in own}
+    return sorted(wanted, key=str.lower)

@@ -1,0 +1,71 @@
+"""`scanbench library`, and the libraries and names that `check` and `run` find for a project of TwinCAT."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.calling import scanbench
+
+PROJECT = """<Project><PropertyGroup><Name>Line</Name><Title>Line</Title></PropertyGroup><ItemGroup>
+{compiled}</ItemGroup><ItemGroup>
+<PlaceholderReference Include="Tc2_System"><Namespace>Tc2_System</Namespace></PlaceholderReference>
+<LibraryReference Include="Parts,*,somebody"><Namespace>Parts</Namespace></LibraryReference>
+</ItemGroup></Project>"""
+
+
+def exported(declaration: str, body: str) -> str:
+    name = declaration.split()[1]
+    return (
+        f'<TcPlcObject><POU Name="{name}"><Declaration><![CDATA[{declaration}]]></Declaration>'
+        f"<Implementation><ST><![CDATA[{body}]]></ST></Implementation></POU></TcPlcObject>"
+    )
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """Two projects of TwinCAT in one folder: a line, and the library Parts that it uses."""
+    files = {
+        "line/Line.plcproj": PROJECT.format(compiled='<Compile Include="POUs\\MAIN.TcPOU" />'),
+        "line/POUs/MAIN.TcPOU": exported(
+            "PROGRAM MAIN\nVAR n : INT; s : Tc2_System.T_MaxString; d : DINT; END_VAR",
+            "n := Parts.Twice(n + 1);\nd := ADSLOGSTR(ADSLOG_MSGTYPE_LOG, s, s);",
+        ),
+        "line/POUs/Old.TcPOU": exported("PROGRAM Old\nVAR x : NoSuchType; END_VAR", ""),
+        "parts/Parts.plcproj": "<Project><PropertyGroup><Name>Parts</Name></PropertyGroup><ItemGroup>"
+        '<Compile Include="Twice.TcPOU" /></ItemGroup></Project>',
+        "parts/Twice.TcPOU": exported("FUNCTION Twice : INT\nVAR_INPUT x : INT; END_VAR", "Twice := 2 * x;"),
+    }
+    for path, text in files.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+    return tmp_path
+
+
+def test_a_twincat_project_is_checked_and_run_with_the_libraries_that_it_uses(project: Path) -> None:
+    found = scanbench("check", str(project), "--dialect", "twincat")
+    assert found.returncode == 0, found
+    assert [line for line in found.stdout.splitlines() if "W006" not in line] == [
+        f"{project}/line/POUs/MAIN.TcPOU:3:6: W008 warning: `ADSLOGSTR` needs a device, and is a stub here: `Stub_ADSLOGSTR` is "
+        f"its result. Set that in the watch table, by a force or by a stimulus, or write a body in {project}/libraries/Tc2_System.st."
+    ]
+    options = ("--dialect", "twincat", "--scans", "3", "--print", "MAIN.n", "--print", "MAIN.d")
+    ran = scanbench("run", str(project), *options, "--set", "Stub_ADSLOGSTR=7")
+    assert (ran.returncode, ran.stdout.split()) == (0, ["MAIN.n", "=", "14", "MAIN.d", "=", "7"]), ran
+
+
+def test_the_report_says_which_libraries_are_missing(project: Path) -> None:
+    found = scanbench("check", str(project / "line"), "--dialect", "twincat", "--report")
+    assert "Parts" in found.stdout.partition("missing libraries")[2]
+
+
+def test_libraries_are_listed_shown_and_added(tmp_path: Path) -> None:
+    assert "Util" in scanbench("library", "list").stdout
+    shown = scanbench("library", "show", "tc2_system").stdout
+    assert "function        ADSLOGSTR  stub" in shown
+    assert "type            T_MaxString" in shown
+    assert "FUNCTION EXTRACT" in scanbench("library", "show", "Util", "--text").stdout
+    assert scanbench("library", "add", "Util", str(tmp_path)).stdout.strip() == str(tmp_path / "libraries/Util.st")
+    again = scanbench("library", "add", "Util", str(tmp_path))
+    assert (again.returncode, "is there already" in again.stderr) == (2, True)
+    unknown = scanbench("library", "show", "Utils")
+    assert (unknown.returncode, "there is no library Utils" in unknown.stderr) == (2, True)
