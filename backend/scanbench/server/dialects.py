@@ -2,7 +2,7 @@
 
 from scanbench.server.projects import Projects
 from scanbench.store.records import FileRow, NotFound
-from scanbench.syntax.language_file import LANGUAGE_FILE, DialectName, dialect_of, language_text
+from scanbench.syntax.language_file import LANGUAGE_FILE, DialectName, dialect_of, with_dialect
 
 
 async def dialect_in(projects: Projects, id: int) -> DialectName:
@@ -17,7 +17,7 @@ async def change_dialect(projects: Projects, id: int, dialect: DialectName, auth
     sources = {} if file is None else {LANGUAGE_FILE: file.text}
     if dialect_of(sources) != (dialect, []):
         version = 0 if file is None else file.version
-        await projects.save(id, LANGUAGE_FILE, language_text(dialect), version, author)
+        await projects.save(id, LANGUAGE_FILE, with_dialect(sources, dialect)[LANGUAGE_FILE], version, author)
     return dialect
 
 

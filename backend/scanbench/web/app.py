@@ -31,6 +31,7 @@ from scanbench.web.routes import errors as routes_errors
 from scanbench.web.routes import git as routes_git
 from scanbench.web.routes import instances as routes_instances
 from scanbench.web.routes import invitations as routes_invitations
+from scanbench.web.routes import libraries as routes_libraries
 from scanbench.web.routes import memory as routes_memory
 from scanbench.web.routes import models as routes_models
 from scanbench.web.routes import past as routes_past
@@ -96,7 +97,7 @@ def bare_app() -> FastAPI:
     )  # fmt: skip
     for routes in (
         routes_instances, routes_dap, routes_lsp, routes_errors, routes_sweeps, routes_records, routes_projects, routes_archives, routes_git, routes_user_errors,
-        routes_models, routes_invitations, routes_memory, routes_binding, routes_debug, routes_dialects, routes_traces, routes_values, routes_watch, routes_verify,
+        routes_models, routes_invitations, routes_memory, routes_binding, routes_debug, routes_dialects, routes_libraries, routes_traces, routes_values, routes_watch, routes_verify,
         routes_past,
     ):  # fmt: skip
         app.include_router(routes.router)

@@ -35,6 +35,18 @@ class ProjectDialect(Wire):
     dialect: DialectName
 
 
+class ProjectLibrary(Wire):
+    """A library of a vendor, for the programs of a project."""
+
+    name: str
+    about: str = Field(description="what it is, and where it is documented")
+    declared: int = Field(description="types, functions and blocks")
+    stubs: int = Field(description="of these, POUs that need a device")
+    path: str = Field(description="of its text in a project")
+    added: bool = Field(description="its text is a file of the project")
+    used: bool = Field(description="programs name what it declares, and nothing in the project declares that")
+
+
 class UnsavedText(Wire):
     """A file as people edit it together, which is not what was saved last."""
 

@@ -24,6 +24,7 @@ _NAMES = {
     ("POST", "instances/{instance}/errors/log/clear"): "clear_instance_error_log",
     ("POST", "instances/{instance}/trace-check"): "check_trace_mapping",
     ("POST", "projects/{project}/git"): "begin_project_git",
+    ("POST", "projects/{project}/libraries/{name}"): "add_project_library",
     ("POST", "projects/{project}/records"): "import_project_record",
     ("POST", "projects/{project}/traces"): "upload_project_trace",
     ("POST", "projects/{project}/trace-mappings"): "save_project_trace_mapping",

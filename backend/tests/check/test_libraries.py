@@ -78,3 +78,14 @@ def test_only_what_is_named_is_added() -> None:
     assert [each.name for each in used_libraries({"a.st": "x := PACK(TRUE);"}, "codesys")] == ["Util"]
     assert used_libraries({"a.st": "x := PACK(TRUE);"}, "iec") == []
     assert used_libraries({"a.st": "x := ADD(1, 2);"}, "twincat") == []
+
+
+def test_a_name_of_a_library_that_the_project_does_not_have_is_told_with_the_library() -> None:
+    text = (
+        "PROGRAM Main VAR s : T_MaxString; b : BOOL; t : Tc2_System.T_AmsPort; END_VAR b := EXTRACT(1, 2); END_PROGRAM"
+    )
+    found = check_sources(with_dialect({"Main.st": text}, "twincat"), MODEL).problems
+    libraries = ["Tc2_System" if "library Tc2_System" in each.message else "Util" in each.message for each in found]
+    assert libraries == ["Tc2_System", "Tc2_System", True], found
+    strict = check_sources({"Main.st": text}, MODEL).problems
+    assert not any("library" in each.message for each in strict)

@@ -48,6 +48,33 @@ def test_an_imported_project_has_the_dialect_of_its_files_and_a_packed_one_its_o
     assert server.http.put(f"/api/projects/{first}/dialect", json={"dialect": "basic"}).status_code == 422
 
 
+def test_an_imported_project_gets_the_libraries_that_it_uses_and_more_on_request(server: Server) -> None:
+    text = "PROGRAM Main\nVAR s : Tc2_System.T_MaxString; b : BOOL; END_VAR\nTestAndSet(b);\nEND_PROGRAM\n"
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w") as archive:
+        archive.writestr("Main.st", text)
+    project = _taken(server, "with libraries", made.getvalue())
+
+    def of_project() -> dict[str, tuple[bool, bool]]:
+        found = server.http.get(f"/api/projects/{project}/libraries").json()
+        return {each["name"]: (each["added"], each["used"]) for each in found}
+
+    assert of_project()["Tc2_System"] == (True, False)
+    assert (
+        server.http.get(f"/api/projects/{project}/files/libraries/Tc2_System.st")
+        .json()["text"]
+        .startswith("(* Tc2_System")
+    )
+    assert server.http.post(f"/api/projects/{project}/libraries/util").json()["path"] == "libraries/Util.st"
+    assert server.http.post(f"/api/projects/{project}/libraries/util").status_code == 409
+    assert server.http.post(f"/api/projects/{project}/libraries/nothing").status_code == 404
+    assert of_project()["Util"] == (True, False)
+    report = server.http.get(f"/api/projects/{project}/report")
+    assert report.headers["content-type"].startswith("text/html")
+    assert "1 of 1 POUs (100.0 %) run" in report.text
+    assert "default-src 'none'" in report.headers["content-security-policy"]
+
+
 def _taken(server: Server, name: str, content: bytes) -> int:
     params = {"name": name, "model": "GENERIC-IEC"}
     reply = server.http.post("/api/archives/projects", params=params, content=content)

@@ -1645,6 +1645,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/libraries": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The libraries for the dialect of a project, and whether it uses and has them
+         * @description The libraries for the dialect of a project, and whether it uses and has them.
+         */
+        get: operations["list_project_libraries"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/libraries/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Saves the text of a library as a file of the project
+         * @description Saves the text of a library as a file of the project.
+         */
+        post: operations["add_project_library"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/records": {
         parameters: {
             query?: never;
@@ -1688,6 +1728,26 @@ export interface paths {
          * @description Deletes an imported test record.
          */
         delete: operations["delete_project_record"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/report": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * How much of what is saved runs, what stops the rest, and which stubs it uses: a page
+         * @description How much of what is saved runs, what stops the rest, and which stubs it uses: a page.
+         */
+        get: operations["get_project_report"];
+        put?: never;
+        post?: never;
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -5874,6 +5934,44 @@ export interface components {
              * @enum {string}
              */
             dialect: "iec" | "codesys" | "twincat" | "siemens" | "rockwell" | "omron";
+        };
+        /**
+         * ProjectLibrary
+         * @description A library of a vendor, for the programs of a project.
+         */
+        ProjectLibrary: {
+            /**
+             * About
+             * @description what it is, and where it is documented
+             */
+            about: string;
+            /**
+             * Added
+             * @description its text is a file of the project
+             */
+            added: boolean;
+            /**
+             * Declared
+             * @description types, functions and blocks
+             */
+            declared: number;
+            /** Name */
+            name: string;
+            /**
+             * Path
+             * @description of its text in a project
+             */
+            path: string;
+            /**
+             * Stubs
+             * @description of these, POUs that need a device
+             */
+            stubs: number;
+            /**
+             * Used
+             * @description programs name what it declares, and nothing in the project declares that
+             */
+            used: boolean;
         };
         /**
          * ProjectTemplate
@@ -11813,6 +11911,69 @@ export interface operations {
             };
         };
     };
+    list_project_libraries: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProjectLibrary"][];
+                };
+            };
+        };
+    };
+    add_project_library: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FileInfo"];
+                };
+            };
+        };
+    };
     list_project_records: {
         parameters: {
             query?: never;
@@ -11933,6 +12094,35 @@ export interface operations {
             };
             /** @description Successful Response */
             204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    get_project_report: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
                 headers: {
                     [name: string]: unknown;
                 };

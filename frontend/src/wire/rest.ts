@@ -30,6 +30,7 @@ import type {
   Project,
   ProjectArchive,
   ProjectDialect,
+  ProjectLibrary,
   ProjectTemplate,
   ProjectVersion,
   Reaction,
@@ -172,6 +173,9 @@ export const rest = {
   dialect: (project: number) => json<ProjectDialect>("GET", `/projects/${project}/dialect`),
   changeDialect: (project: number, dialect: ProjectDialect["dialect"]) =>
     json<ProjectDialect>("PUT", `/projects/${project}/dialect`, { dialect }),
+  libraries: (project: number) => json<ProjectLibrary[]>("GET", `/projects/${project}/libraries`),
+  addLibrary: (project: number, name: string) =>
+    json<FileInfo>("POST", `/projects/${project}/libraries/${encodeURIComponent(name)}`),
   /** Texts that somebody edited, and nobody saved since. */
   drafts: (project: number) => json<UnsavedText[]>("GET", `/projects/${project}/drafts`),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),

@@ -53,6 +53,7 @@ export type ImportedInstance = Shapes["ImportedInstance"];
 export type ImportedRecord = Shapes["ImportedRecord"];
 export type ProjectArchive = Shapes["ProjectArchive"];
 export type ProjectDialect = Shapes["ProjectDialect"];
+export type ProjectLibrary = Shapes["ProjectLibrary"];
 export type UnsavedText = Shapes["UnsavedText"];
 export type ProjectTemplate = Shapes["ProjectTemplate"];
 export type ProjectVersion = Shapes["ProjectVersion"];

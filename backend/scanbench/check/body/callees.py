@@ -97,7 +97,7 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         if key not in FUNCTIONS:
             body.report.use(node.callee.span, name, Symbol("function", "", key))
         return standard
-    hint = body.report.near(name, lambda: _known(body), "function")
+    hint = body.declarations.library_hint(name) or body.report.near(name, lambda: _known(body), "function")
     if body.declarations.find_type(name, node.span) in body.declarations.block_trees:
         hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
     untyped = {(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken

@@ -9,6 +9,7 @@ from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified
 from scanbench.check.dialect import IEC, Dialect
+from scanbench.check.libraries.catalogue import where_declared
 from scanbench.check.uses import Symbol
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
@@ -102,7 +103,9 @@ class Declarations:
             raise self.report.reject("D003", f"`{name}` contains itself ({path}), so it has no size.", span)
         declaration, block = self.type_trees.get(key), self.block_trees.get(key)
         if declaration is None and block is None:
-            hint = self.report.near(name, lambda: [*TYPE_NAMES, *self.type_trees, *self.block_trees], "declared")
+            hint = self.library_hint(name) or self.report.near(
+                name, lambda: [*TYPE_NAMES, *self.type_trees, *self.block_trees], "declared"
+            )
             raise self.report.reject("D002", f"There is no type `{name}`.{hint}", span)
         origin = declaration or block
         assert origin is not None
@@ -173,6 +176,11 @@ class Declarations:
         if made is None or made.members or name.startswith("STRUCT of "):
             made = self.shells[name.upper()] = Record(name, kind)
         return made
+
+    def library_hint(self, name: str) -> str:
+        """` It is in the library ...`, or nothing: of a name that is not known."""
+        library = where_declared(self.names.plain(name), self.dialect.name)
+        return "" if library is None else f" It is in the library {library}, which is not in this project: add it."
 
     def find_type(self, name: str, span: Span) -> str | None:
         """The key of the type or block that this name means here."""

@@ -91,8 +91,9 @@ def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Lib
 
 
 def where_declared(name: str, dialect: DialectName) -> str | None:
-    """The library of the dialect that declares this name."""
-    return next((each.name for each in catalogue() if dialect in each.dialects and name.upper() in each.names), None)
+    """The library of the dialect that declares this name, perhaps with its own name before it."""
+    plain = name.rpartition(".")[2].upper()
+    return next((each.name for each in catalogue() if dialect in each.dialects and plain in each.names), None)
 
 
 def _library(name: str, dialects: tuple[DialectName, ...]) -> Library:

@@ -25,7 +25,7 @@ from scanbench.web.reach import Bench, xml_body
 router = APIRouter(prefix="/api", tags=["records"])
 Format = Literal["csv", "xml", "html", "json"]
 _TYPES = {"csv": "text/csv; charset=utf-8", "xml": "application/xml", "html": "text/html; charset=utf-8"}
-_STYLE_ONLY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"}
+STYLE_ONLY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"}
 
 
 @router.get("/instances/{instance}/history/versions")
@@ -92,7 +92,7 @@ def _written(format: Format, record: TestRecord, language: Language, told: Calla
     if format == "json":
         return Response(told().model_dump_json(), media_type="application/json")
     if format == "html":
-        return Response(to_html(record, language), media_type=_TYPES[format], headers=_STYLE_ONLY)
+        return Response(to_html(record, language), media_type=_TYPES[format], headers=STYLE_ONLY)
     text = to_csv(record) if format == "csv" else to_xml(record)
     name = f"{record.head.instance}-version-{record.head.program_version}-record.{format}"
     plain = re.sub(r"[^A-Za-z0-9._ -]", "_", name)

@@ -46,3 +46,33 @@ test("a change that is refused is taken back, and the reason is told", async () 
   expect((await screen.findByRole("alert")).textContent).toContain("you may only look");
   expect(choice.value).toBe("iec");
 });
+
+test("a library that the programs use is added as a file, and then shown", async () => {
+  const library = {
+    name: "Util",
+    about: "Util of CODESYS: bits. From https://x",
+    declared: 8,
+    stubs: 0,
+    path: "libraries/Util.st",
+  };
+  let added = false;
+  const page = await openPage((server) => {
+    server.on("GET", "/projects/*/dialect", () => ({ dialect: "codesys" as const }));
+    server.on("GET", "/projects/*/libraries", () => [{ ...library, added, used: !added }]);
+    server.on("POST", "/projects/*/libraries/*", () => {
+      added = true;
+      return { path: library.path, version: 1, author: "Mika" };
+    });
+  });
+  const project = page.server.instance.project.id;
+  render(<DialectChoice project={project} />);
+  await page.user.click(await screen.findByRole("button", { name: t("libraries.open") }));
+  expect(await screen.findByText(t("libraries.used"))).toBeTruthy();
+  expect(screen.getByRole("link", { name: t("libraries.report") }).getAttribute("href")).toBe(
+    `/api/projects/${project}/report`,
+  );
+  await page.user.click(screen.getByRole("button", { name: t("libraries.add.of", { name: "Util" }) }));
+  expect(await screen.findByRole("button", { name: t("libraries.show.of", { name: "Util" }) })).toBeTruthy();
+  expect(page.server.askedOf("POST", `/projects/${project}/libraries/Util`)).toHaveLength(1);
+  expect(screen.queryByText(t("libraries.used"))).toBeNull();
+});

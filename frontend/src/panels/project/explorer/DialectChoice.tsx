@@ -1,4 +1,4 @@
-import { useEffect } from "react";
+import { useEffect, useState } from "react";
 import {
   changeDialect,
   DIALECTS,
@@ -8,30 +8,38 @@ import {
   useDialectVersion,
 } from "../../../store/project/dialect";
 import { t } from "../../../text";
+import { IconButton } from "../../../ui/IconButton";
+import { Libraries } from "./Libraries";
+import "./libraries.css";
 
 /** The dialect that the programs of the project are written in: shown, and changed. */
 export function DialectChoice({ project }: { project: number }) {
   const { dialect, trouble } = useDialect();
+  const [open, setOpen] = useState(false);
   const version = useDialectVersion();
   // biome-ignore lint/correctness/useExhaustiveDependencies: a new version of the file may name a different dialect
   useEffect(() => void loadDialect(project), [project, version]);
   if (dialect === null) return null;
   return (
     <>
-      <label className="sub dialect" title={t("dialect.about")}>
-        <span>{t("dialect")}</span>
-        <select
-          className="inp sm grow"
-          value={dialect}
-          onChange={(event) => void changeDialect(project, event.target.value as Dialect)}
-        >
-          {DIALECTS.map((one) => (
-            <option key={one} value={one}>
-              {t(`dialect.${one}`)}
-            </option>
-          ))}
-        </select>
-      </label>
+      <div className="sub dialect">
+        <label className="grow" title={t("dialect.about")}>
+          <span>{t("dialect")}</span>
+          <select
+            className="inp sm grow"
+            value={dialect}
+            onChange={(event) => void changeDialect(project, event.target.value as Dialect)}
+          >
+            {DIALECTS.map((one) => (
+              <option key={one} value={one}>
+                {t(`dialect.${one}`)}
+              </option>
+            ))}
+          </select>
+        </label>
+        <IconButton icon="stack" label={t("libraries.open")} onClick={() => setOpen(true)} />
+      </div>
+      {open && <Libraries project={project} onClose={() => setOpen(false)} />}
       {trouble !== null && (
         <p className="lonely" role="alert">
           {trouble}
