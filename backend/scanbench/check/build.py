@@ -30,6 +30,7 @@ from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.dialect import IEC, Dialect, dialect_in
+from scanbench.check.folding import folded
 from scanbench.check.order import Order
 from scanbench.check.recursion import allow
 from scanbench.check.stubs import tell_stubs
@@ -135,6 +136,7 @@ def concluded(files: Sequence[Chunked], report: Report, program: Program | None,
     found = [*(problem for file in files for problem in file.problems), *report.problems]
     problems = list(dict.fromkeys(replace(problem, span=problem.span.plain()) for problem in found))
     problems.sort(key=lambda each: (each.span.file, each.span.line, each.span.column))
+    problems = folded(problems)
     trees = [file.file for file in files]
     infos = tuple(_infos(trees))
     if any(problem.severity is Severity.ERROR for problem in problems):

@@ -221,3 +221,13 @@ def test_the_golden_file_is_read() -> None:
     assert dialect_of({LANGUAGE_FILE: golden.read_text("utf-8")}) == ("twincat", [])
     second = golden.parent / "2" / LANGUAGE_FILE
     assert language_of({LANGUAGE_FILE: second.read_text("utf-8")}) == (Language("twincat", ("MyLib",)), [])
+
+
+def test_the_first_uses_of_a_rule_in_a_file_are_told_and_the_others_counted() -> None:
+    lines = "w := w + 1;\n" * 9
+    text = f"PROGRAM Main\nVAR w : WORD; i : INT; d : DINT; END_VAR\n{lines}i := d;\nEND_PROGRAM\n"
+    found = check_sources(with_dialect({"a.st": text}, "codesys"), MODEL)
+    assert found.program is not None
+    assert [each.span.line for each in found.problems] == [3, 4, 5, 6, 7, 12]
+    assert found.problems[4].message.endswith("The same rule is not kept at 4 more places in this file.")
+    assert "more place" not in found.problems[5].message

@@ -4,6 +4,9 @@ from scanbench.check.body.context import Body
 from scanbench.check.dialect import RULES, Allowance
 from scanbench.problems import Span
 
+MORE = ""
+"""Where `folding.py` adds how many more places there are: part of the sentence, so that it is translated with it."""
+
 
 def may(body: Body, allowance: Allowance) -> bool:
     """Whether the dialect allows it."""
@@ -15,7 +18,7 @@ def used(body: Body, allowance: Allowance, span: Span, what: str, instead: str =
     rule = RULES[allowance]
     body.report.warn(
         "W006",
-        f"{what}. {body.dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {instead or rule.instead}.",
+        f"{what}. {body.dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {instead or rule.instead}.{MORE}",
         span,
     )
 
