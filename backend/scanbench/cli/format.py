@@ -8,6 +8,7 @@ from scanbench.check.build import program_files
 from scanbench.cli.inputs import ARCHIVE, read_sources, usage
 from scanbench.language.format import formatted
 from scanbench.syntax.parse_file import is_exported, is_stimulus
+from scanbench.syntax.scl import is_scl
 from scanbench.syntax.source import encoded
 
 
@@ -24,7 +25,7 @@ def format(
         usage(f"{packed} is packed: unpack it, and format the folder")
     unread = changed = 0
     for name, text in program_files(read_sources(paths, libraries=False).texts).items():
-        if is_stimulus(name) or is_exported(name, text):
+        if is_stimulus(name) or is_exported(name, text) or is_scl(name):
             continue
         made = formatted(name, text)
         if made is None:

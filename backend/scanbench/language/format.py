@@ -15,6 +15,7 @@ from scanbench.program.types import ELEMENTARY
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import read
 from scanbench.syntax.lexer import Lex, Tokens, tokenize
+from scanbench.syntax.scl import is_scl
 from scanbench.syntax.source import Source, Stretch
 
 STEP = 2
@@ -61,7 +62,9 @@ class Line:
 
 
 def formatted(name: str, text: str) -> str | None:
-    """The text in its layout; None where it cannot be read, and so stays as it is."""
+    """The text in its layout; None where it cannot be read, or is SCL, and so stays as it is."""
+    if is_scl(name):
+        return None
     if "\r\n" in text:
         made = formatted(name, text.replace("\r\n", "\n"))
         return None if made is None else made.replace("\n", "\r\n")

@@ -136,7 +136,11 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
     files, panels = {}, {}
     for path, each in sorted(inside.items()):
         if path in OWN_FILES or (is_program_file(path) and (compiled is None or path in compiled)):
-            files[path] = decode(_read(archive, each))
+            data = _read(archive, each)
+            if path.lower().endswith(".db") and b"\0" in data[:512]:  # a database, and no data block
+                left_out.append(path)
+                continue
+            files[path] = decode(data)
         elif is_panel_file(path):
             panels[path] = decode(_read(archive, each))
         elif path != PROJECT_FILE and not is_twincat_project(path):

@@ -24,12 +24,20 @@ def program_files(path: Path) -> list[Path]:
         if not path.exists():
             raise Refused(f"{path} does not exist")
         return [path]
-    found = sorted(each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and each.is_file())
+    found = sorted(each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and _is_text(each))
     unused = left_out([str(each) for each in found], twincat_projects(path))
     found = [each for each in found if str(each) not in unused]
     if not found:
         raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
     return found + [each for name in OWN_FILES if (each := path / name).is_file()]
+
+
+def _is_text(path: Path) -> bool:
+    """Whether it is a file, and none of a database, which may have the ending of Siemens' data blocks."""
+    if not path.is_file() or path.suffix.lower() != ".db":
+        return path.is_file()
+    with path.open("rb") as file:
+        return b"\0" not in file.read(512)
 
 
 def twincat_projects(folder: Path) -> dict[str, TwinCatProject]:

@@ -11,6 +11,7 @@ from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import whole
 from scanbench.syntax.pragmas import in_out_pragmas
+from scanbench.syntax.scl import is_scl
 from scanbench.syntax.source import Source
 
 ENDS = {"PROGRAM": "END_PROGRAM", "FUNCTION": "END_FUNCTION", "FUNCTION_BLOCK": "END_FUNCTION_BLOCK"}
@@ -118,7 +119,13 @@ class Chunked:
 
 def read(name: str, text: str) -> Chunked:
     """Parses a file, chunk by chunk if it falls into chunks."""
-    if len(text) > MAX_SIZE or is_stimulus(name) or is_exported(name, text) or parse_foreign(Source(name, text)):
+    if (
+        len(text) > MAX_SIZE
+        or is_stimulus(name)
+        or is_exported(name, text)
+        or is_scl(name)
+        or parse_foreign(Source(name, text))
+    ):
         return _whole(name, text)
     source = Source(name, text)
     tokens, problems = tokenize(source)

@@ -13,6 +13,7 @@ from typing import Literal, get_args
 
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax.parse_file import XML_ENDINGS, is_program_file
+from scanbench.syntax.scl import is_scl
 
 LANGUAGE_FILE = "language.json"
 """The name of the file, at the top of a project."""
@@ -133,7 +134,7 @@ def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> Diale
     exported = any(name.endswith((".exp", ".project", ".export")) for name in names)
     if exported or any(map(_CODESYS_MARKS.search, programs)):
         return "codesys"
-    if any(name.endswith((".scl", ".udt", ".db", ".awl")) for name in names):
+    if any(name.endswith((".scl", ".udt", ".awl")) for name in names) or any(map(is_scl, files)):
         return "siemens"
     if any(name.endswith((".l5x", ".acd")) for name in names):
         return "rockwell"

@@ -7,13 +7,15 @@ from scanbench.syntax import tree
 from scanbench.syntax.foreign_files import parse_foreign
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.parse_stimulus import parse_stimulus
+from scanbench.syntax.scl import ENDINGS as SCL_ENDINGS
+from scanbench.syntax.scl import is_scl, parse_scl
 from scanbench.syntax.source import Source
 from scanbench.syntax.tcpou import parse_tc
 
 TEXT_ENDINGS = (".st", ".iecst", ".exp")
 """Plain text; `.exp` is what older CODESYS exports."""
 XML_ENDINGS = (".tcpou", ".tcdut", ".tcgvl", ".tcio")
-ENDINGS = TEXT_ENDINGS + XML_ENDINGS
+ENDINGS = TEXT_ENDINGS + XML_ENDINGS + SCL_ENDINGS
 """Of the names of program files, in lower case."""
 EXPORTED = re.compile(r"\s*(<\?xml[^>]*>\s*)?<TcPlcObject\b")
 MAX_SIZE = 8_000_000
@@ -49,4 +51,4 @@ def parse_file(source: Source) -> tuple[tree.File, list[Problem]]:
         return parse_stimulus(source)
     if is_exported(source.name, source.text):
         return parse_tc(source)
-    return parse_foreign(source) or parse_st(source)
+    return parse_foreign(source) or (parse_scl(source) if is_scl(source.name) else parse_st(source))

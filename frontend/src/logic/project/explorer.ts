@@ -80,7 +80,7 @@ const TABLE = /\.csv$/i;
 const NAMED = /^required\.reactions$/;
 
 /** What the file picker offers: files that the compiler reads, and operator panels. */
-export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.csv,.panel.json,.reactions";
+export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.scl,.udt,.db,.csv,.panel.json,.reactions";
 
 /** A table of inputs, not a program. */
 export const isTable = (path: string) => TABLE.test(path);

@@ -1,0 +1,199 @@
+"""Siemens SCL as text (.scl, .udt, .db): its tokens are made into those of the standard, with places in the text as it is.
+
+Names lose their quotes and `#`; a DATA_BLOCK becomes a global variable, an ORGANIZATION_BLOCK a PROGRAM; TITLE, AUTHOR and the
+like, REGION, BEGIN and VOID say nothing to the compiler. From the Programming Guide for S7-1200/S7-1500 and the description of
+external sources in the TIA Portal's help.
+"""
+
+import re
+
+from scanbench.problems import Problem
+from scanbench.syntax import tree
+from scanbench.syntax.cursor import Cursor
+from scanbench.syntax.lexer import AHEAD, Lex, Tokens, tokenize
+from scanbench.syntax.parse_st import whole
+from scanbench.syntax.source import Source
+
+ENDINGS = (".scl", ".udt", ".db")
+_SETTINGS = frozenset(("AUTHOR", "FAMILY", "KNOW_HOW_PROTECT", "NAME", "NON_RETAIN", "TITLE", "VERSION"))
+_OPENS = frozenset(("FUNCTION", "FUNCTION_BLOCK", "ORGANIZATION_BLOCK", "DATA_BLOCK", "TYPE"))
+_BLOCKS = {"ORGANIZATION_BLOCK": "PROGRAM", "END_ORGANIZATION_BLOCK": "END_PROGRAM"}
+_PREFIXES = {"B": "BYTE", "W": "WORD", "DW": "DWORD", "LW": "LWORD", "L": "DINT"}
+_INSTRUCTIONS = frozenset(("TON", "TOF", "TP", "CTU", "CTD", "CTUD"))
+"""Called as `#timer.TON(...)`, where the instance itself is called."""
+_NO_NAME = re.compile(r"\W")
+
+
+def is_scl(name: str) -> bool:
+    """Whether a file of this name is SCL."""
+    return name.lower().endswith(ENDINGS)
+
+
+def parse_scl(source: Source) -> tuple[tree.File, list[Problem]]:
+    """The tree, and what could not be read."""
+    tokens, problems = tokenize(source)
+    writer = _Writer(source, tokens)
+    cursor = Cursor(source, writer.write())
+    cursor.problems += [*problems, *writer.problems]
+    return whole(cursor)
+
+
+def name_of(quoted: str) -> str:
+    """The name between quotes, with `_` for what no name of the standard can have."""
+    plain = _NO_NAME.sub("_", quoted)
+    return f"_{plain}" if plain[:1].isdigit() else plain
+
+
+class _Writer:
+    """Reads the tokens from the first to the last, and writes those of the standard."""
+
+    def __init__(self, source: Source, tokens: Tokens) -> None:
+        self.problems: list[Problem] = []
+        self._source = source
+        self._in, self._out = tokens, Tokens([], [], [], tokens.pragmas)
+        self._at = 0
+
+    def write(self) -> Tokens:
+        """All of them, closed."""
+        while not self._ended():
+            self._one()
+        for _ in range(AHEAD):
+            self._put(Lex.END, "", self._in.starts[self._at])
+        return self._out
+
+    def _one(self) -> None:
+        word = self._word()
+        if word in _OPENS:
+            self._block(word)
+        elif word in _BLOCKS:
+            self._put(Lex.KEYWORD, _BLOCKS[word], self._in.starts[self._at])
+            self._at += 1
+        elif word in ("REGION", "END_REGION") and self._begins_line():
+            self._skip_line()
+        elif word == "BEGIN" and self._word(1) not in (":=", ".", "[", "("):
+            self._at += 1
+        elif word == "." and self._word(1) in _INSTRUCTIONS and self._word(2) == "(":
+            self._at += 2
+        else:
+            self._copy()
+
+    def _block(self, word: str) -> None:
+        """The head of a block or type, up to its declarations."""
+        start = self._in.starts[self._at]
+        self._at += 1
+        if word == "DATA_BLOCK":
+            self._data_block(start)
+            return
+        self._put(Lex.KEYWORD, _BLOCKS.get(word, word), start)
+        self._copy()
+        if word == "FUNCTION" and self._word() == ":" and self._word(1) == "VOID":
+            self._at += 2
+        elif word == "FUNCTION" and self._word() == ":":
+            self._copy()
+            self._copy()
+        self._skip_settings()
+        if word == "TYPE" and self._word() == "STRUCT":
+            self._put(Lex.OPERATOR, ":", self._in.starts[self._at])
+
+    def _data_block(self, start: int) -> None:
+        """A global variable: of a structure that is written there, or of a block or type; with its start values."""
+        self._put(Lex.KEYWORD, "VAR_GLOBAL", start)
+        self._copy()
+        self._skip_settings()
+        self._put(Lex.OPERATOR, ":", self._in.starts[self._at])
+        if self._word() in ("VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"):
+            self._put(Lex.KEYWORD, "STRUCT", self._in.starts[self._at])
+            while self._word().startswith("VAR"):
+                self._at += 2 if self._word(1) in ("RETAIN", "NON_RETAIN") else 1
+                while not self._ended() and self._word() != "END_VAR":
+                    self._copy()
+                self._at += 0 if self._ended() else 1
+            self._put(Lex.KEYWORD, "END_STRUCT", self._in.starts[self._at])
+        elif self._word() == "STRUCT":
+            self._structure()
+        else:
+            self._copy()
+        while self._word() == ";":
+            self._at += 1
+        if self._word() == "BEGIN":
+            self._at += 1
+            self._start_values()
+        end = self._in.starts[self._at]
+        self._put(Lex.OPERATOR, ";", end)
+        self._put(Lex.KEYWORD, "END_VAR", end)
+        if self._word() == "END_DATA_BLOCK":
+            self._at += 1
+
+    def _structure(self) -> None:
+        depth = 0
+        while not self._ended():
+            depth += {"STRUCT": 1, "END_STRUCT": -1}.get(self._word(), 0)
+            self._copy()
+            if depth == 0:
+                return
+
+    def _start_values(self) -> None:
+        """`x := 5;` and so on, as the start value of the whole; what is inside of a member has no such form."""
+        first = True
+        while not self._ended() and self._word() != "END_DATA_BLOCK":
+            if self._word() == ";":
+                self._at += 1
+                continue
+            if self._word(1) != ":=":
+                span = self._source.span(self._in.starts[self._at], self._in.starts[self._at] + 1)
+                message = "A start value of a DATA_BLOCK is read as `member := value;`. Write others where the member is declared."
+                self.problems.append(Problem("X001", message, span))
+                while not self._ended() and self._word() not in (";", "END_DATA_BLOCK"):
+                    self._at += 1
+                continue
+            at = self._in.starts[self._at]
+            if first:
+                self._put(Lex.OPERATOR, ":=", at)
+            self._put(Lex.OPERATOR, "(" if first else ",", at)
+            first = False
+            while not self._ended() and self._word() not in (";", "END_DATA_BLOCK"):
+                self._copy()
+        if not first:
+            self._put(Lex.OPERATOR, ")", self._in.starts[self._at])
+
+    # ---- one token ----------------------------------------------------------------------------------------------
+
+    def _copy(self) -> None:
+        kind, text, at = self._in.kinds[self._at], self._in.texts[self._at], self._in.starts[self._at]
+        self._at += 1
+        if text == "#":
+            return
+        if kind is Lex.STRING and text.startswith('"'):
+            self._put(Lex.NAME, name_of(text[1:-1]), at + 1)
+        elif kind is Lex.TYPED:
+            prefix, hash, value = text.partition("#")
+            self._put(kind, _PREFIXES.get(prefix.upper(), prefix) + hash + value, at)
+        else:
+            self._put(kind, text, at)
+
+    def _put(self, kind: Lex, text: str, at: int) -> None:
+        self._out.kinds.append(kind)
+        self._out.texts.append(text)
+        self._out.starts.append(at)
+
+    def _word(self, ahead: int = 0) -> str:
+        at = min(self._at + ahead, len(self._in.texts) - 1)
+        return "" if self._in.kinds[at] is Lex.STRING else self._in.texts[at].upper()
+
+    def _ended(self) -> bool:
+        return self._in.kinds[self._at] is Lex.END
+
+    # ---- lines --------------------------------------------------------------------------------------------------
+
+    def _skip_settings(self) -> None:
+        while self._word() in _SETTINGS and self._begins_line():
+            self._skip_line()
+
+    def _begins_line(self) -> bool:
+        before = self._in.starts[self._at - 1] if self._at else 0
+        return self._at == 0 or "\n" in self._source.text[before : self._in.starts[self._at]]
+
+    def _skip_line(self) -> None:
+        end = self._source.text.find("\n", self._in.starts[self._at])
+        while not self._ended() and (end < 0 or self._in.starts[self._at] < end):
+            self._at += 1
