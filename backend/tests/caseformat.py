@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from scanbench.check.build import check_sources
+from scanbench.check.libraries.catalogue import used_libraries
 from scanbench.engines.engine import Engine, Reason, Stop
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
@@ -20,7 +21,7 @@ from scanbench.syntax.language_file import dialect_named, with_dialect
 from scanbench.syntax.literals import date_and_time, duration
 
 HEAD = re.compile(
-    r"^\[(case|source|scans|trap|model|interval|budget|dialect|feature|violations|file|clock|start|both)\b\s*(.*?)\]\s*$"
+    r"^\[(case|source|scans|trap|model|interval|budget|dialect|feature|violations|file|clock|start|both|libraries)\b\s*(.*?)\]\s*$"
 )
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
 PAIR = re.compile(
@@ -61,6 +62,8 @@ class Case:
     """How blocks take their in-outs, when it is not as the model has it."""
     dialect: str = ""
     """In which the source is written; empty for the strict language."""
+    libraries: bool = False
+    """With the libraries of the dialect that it uses."""
     both: bool = False
     """It holds for both conventions."""
     starts: list[int] = field(default_factory=list)
@@ -130,6 +133,8 @@ def _head(case: Case, part: str, rest: str) -> None:
             case.violations = []
         case "both":
             case.both = True
+        case "libraries":
+            case.libraries = True
 
 
 def project_of(case: Case) -> dict[str, str]:
@@ -137,7 +142,10 @@ def project_of(case: Case) -> dict[str, str]:
     sources = {"case.st": case.source, **case.files}
     dialect = dialect_named(case.dialect) if case.dialect else None
     assert dialect is not None or not case.dialect, f"there is no dialect {case.dialect}"
-    return sources if dialect is None else dict(with_dialect(sources, dialect))
+    if dialect is None:
+        return sources
+    used = used_libraries(sources, dialect) if case.libraries else []
+    return dict(with_dialect(sources | {each.path: each.text for each in used}, dialect))
 
 
 def build(case: Case) -> Program:
@@ -196,15 +204,14 @@ def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) 
     for memory in memories:
         memory[Layout.EPOCH : Layout.EPOCH + 8] = case.epoch_ns.to_bytes(8, "little")
     running = [make(program, memory) for make, memory in zip(engines, memories, strict=True)]
-    steps = {step.scan: step for step in case.steps}
-    last = max(steps)
+    last = max(step.scan for step in case.steps)
     for scan in range(last + 1):
-        step = steps.get(scan)
+        steps = [step for step in case.steps if step.scan == scan]
         for memory in memories if scan in case.starts else ():
             memory[Layout.STARTED : Layout.STARTED + 8] = scan.to_bytes(8, "little")
             at = scan * program.interval_ns
             memory[Layout.STARTED_AT : Layout.STARTED_AT + 8] = at.to_bytes(8, "little")
-        for path, value in step.sets if step else ():
+        for path, value in (each for step in steps for each in step.sets):
             for memory in memories:
                 write(program, path, value, memory)
         stops = [engine.run(1) for engine in running]
@@ -212,9 +219,9 @@ def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) 
         for memory in memories[1:]:
             difference = first_difference(program, memories[0], memory)
             assert not difference, f"scan {scan}: {running[0].name} and {running[1].name} differ at {difference}"
-        for path, value in step.expected if step else ():
+        for line, path, value in ((step.line, *each) for step in steps for each in step.expected):
             shown = shown_asked(memories[0]) if path == "asked" else find(program, path, memories[0])[2]
-            assert same(shown, value), f"line {step.line if step else 0}, scan {scan}: {path} is {shown}, not {value}"
+            assert same(shown, value), f"line {line}, scan {scan}: {path} is {shown}, not {value}"
         check_stop(program, case, stops[0], scan == last)
     if case.violations is not None:
         assert shown_violations(program, memories[0]) == case.violations

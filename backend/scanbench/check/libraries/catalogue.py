@@ -20,11 +20,17 @@ from scanbench.syntax.source import Source
 FOLDER = "libraries"
 """Of a project: the file `libraries/Util.st` is the library `Util`, whose name may be written before what it declares."""
 SHIPPED: dict[str, tuple[DialectName, ...]] = {
+    "CAA": ("codesys",),
+    "FILE": ("codesys",),
+    "Tc2_MC2": ("twincat",),
     "Tc2_System": ("twincat",),
+    "Tc2_Utilities": ("twincat",),
     "Util": ("codesys", "twincat"),
 }
 """Each name, and the dialects that it is written in."""
-_WORD = re.compile(r"[A-Z_]\w*")
+_WORD = re.compile(r"\b[A-Z_]\w*")
+_IN_NAMESPACE = re.compile(r"\b(?=([A-Z_]\w*\.[A-Z_]\w*))")
+_NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,9 +44,9 @@ class Library:
     """What it is, in a sentence: the comment that its text begins with."""
     declared: tuple[tree.PouDeclaration | tree.TypeDeclaration, ...]
     names: frozenset[str]
-    """All that it declares, in upper case."""
+    """All that it declares, in upper case; what is in a namespace with its name in front."""
     words: frozenset[str]
-    """All words of its text, in upper case."""
+    """All words of its text, in upper case, and all that have a name in front."""
 
     @property
     def path(self) -> str:
@@ -79,7 +85,7 @@ def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Lib
     texts = {name: text for name, text in sources.items() if is_program_file(name) and not is_stimulus(name)}
     own = {name for path, text in texts.items() for name in _names(parse_file(Source(path, text))[0])}
     have = {library.lower() for path in texts if (library := library_of_file(path))}
-    wanted = {word for text in texts.values() for word in _WORD.findall(text.upper())} - own
+    wanted = {word for text in texts.values() for word in _words(text)} - own
     found: list[Library] = []
     grown = True
     while grown:
@@ -101,11 +107,19 @@ def _library(name: str, dialects: tuple[DialectName, ...]) -> Library:
     file, problems = parse_st(Source(f"{FOLDER}/{name}.st", text))
     assert not problems, problems
     about = " ".join(text.partition("(*")[2].partition("*)")[0].split())
-    words = frozenset(_WORD.findall(text.upper()))
-    return Library(name, dialects, text, about, (*file.types, *file.pous), frozenset(_names(file)), words)
+    return Library(name, dialects, text, about, (*file.types, *file.pous), frozenset(_names(file)), _words(text))
+
+
+def _words(text: str) -> frozenset[str]:
+    """The words of a text outside of comments and literals."""
+    code = _NO_CODE.sub(" ", text).upper()
+    return frozenset(_WORD.findall(code)) | frozenset(_IN_NAMESPACE.findall(code))
 
 
 def _names(file: tree.File) -> Iterable[str]:
-    yield from (each.name.upper() for each in file.types)
-    yield from (each.name.upper() for each in file.pous)
+    yield from (_full(each).upper() for each in (*file.types, *file.pous))
     yield from (each.name.upper() for section in file.globals for each in section.variables)
+
+
+def _full(declared: tree.PouDeclaration | tree.TypeDeclaration) -> str:
+    return f"{declared.namespace}.{declared.name}".lstrip(".")
