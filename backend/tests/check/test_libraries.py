@@ -12,6 +12,7 @@ from scanbench.syntax.tree import PouDeclaration
 from tests.caseformat import MODELS
 
 MODEL = MODELS["GENERIC-IEC"]
+PAGE = Path(__file__).parents[3] / "docs" / "libraries.md"
 HELPERS = {"Tc2_Utilities_Digits"}
 """What the libraries themselves need; cases of what uses them try these."""
 ARGUMENTS = {f"F_{each}" for each in "BYTE WORD DWORD LWORD SINT DINT LINT USINT UINT UDINT ULINT REAL BOOL".split()}
@@ -59,6 +60,15 @@ def test_every_library_says_what_it_is_and_where_it_is_documented(library: Libra
     assert "https://" in library.about
     assert library_named(library.name.upper()) is library
     assert library_of_file(library.path) == library.name
+
+
+@pytest.mark.parametrize("library", catalogue(), ids=lambda each: each.name)
+def test_the_page_has_a_row_for_every_library(library: Library) -> None:
+    what, _, address = library.about.partition(": ")[2].partition(". ")
+    dialects = ", ".join(f"`{each}`" for each in library.dialects)
+    pous = sum(isinstance(each, PouDeclaration) for each in library.declared)
+    row = f"| [`{library.name}`]({address.split()[-1]}) | {dialects} | {what} | {pous} | {len(library.stubs)} |"
+    assert row in PAGE.read_text("utf-8").splitlines()
 
 
 def test_a_name_may_have_its_library_before_it() -> None:

@@ -117,7 +117,8 @@ def _words(text: str) -> frozenset[str]:
 
 
 def _names(file: tree.File) -> Iterable[str]:
-    yield from (_full(each).upper() for each in (*file.types, *file.pous))
+    yield from (_full(each).upper() for each in file.types)
+    yield from (_full(each).upper() for each in file.pous)
     yield from (each.name.upper() for section in file.globals for each in section.variables)
 
 
