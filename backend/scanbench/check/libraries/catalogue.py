@@ -23,7 +23,9 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "CAA": ("codesys",),
     "FILE": ("codesys",),
     "Tc2_MC2": ("twincat",),
+    "Tc2_Math": ("twincat",),
     "Tc2_System": ("twincat",),
+    "Tc2_TcpIp": ("twincat",),
     "Tc2_Utilities": ("twincat",),
     "Util": ("codesys", "twincat"),
 }
