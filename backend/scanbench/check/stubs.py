@@ -1,4 +1,4 @@
-"""Stubs: POUs whose bodies take the place of what needs a device. Who uses one is told, as nothing else shows it."""
+"""Stubs: POUs without a real body, as they need a device or are not documented enough. Who uses one is told, as nothing else shows it."""
 
 from collections.abc import Iterable
 
@@ -34,6 +34,6 @@ def _said(stub: tree.PouDeclaration, places: int) -> str:
     often = "" if places == 1 else f" It is used in {places} places."
     how = f"`Stub_{stub.name}` is its result" if stub.kind == "function" else "its outputs keep what is written to them"
     return (
-        f"`{stub.name}` needs a device, and is a stub here: {how}. Set that in the watch table, by a force or by a stimulus, "
+        f"`{stub.name}` is a stub, without a real body: {how}. Set that in the watch table, by a force or by a stimulus, "
         f"or write a body in {stub.span.file}.{often}"
     )

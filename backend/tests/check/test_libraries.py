@@ -102,7 +102,7 @@ def test_who_uses_a_stub_is_told_once() -> None:
         "PROGRAM Main VAR d : DINT; END_VAR d := ADSLOGSTR(1, 'a', 'b') + ADSLOGSTR(2, 'a', 'b'); END_PROGRAM"
     )
     assert len(said(found)) == 1
-    assert said(found)[0].startswith("W008 `ADSLOGSTR` needs a device")
+    assert said(found)[0].startswith("W008 `ADSLOGSTR` is a stub")
     assert "in 2 places" in said(found)[0]
 
 
@@ -116,6 +116,14 @@ def test_a_library_may_be_a_namespace() -> None:
     assert [each[:4] for each in said(check(text, "codesys"))] == ["W008"]
     assert [each.name for each in used_libraries({"a.st": text}, "codesys")] == ["CAA", "FILE"]
     assert used_libraries({"a.st": "(* FILE.Open *) size := count; // CAA.SIZE\nname := 'CAA.SIZE';"}, "codesys") == []
+
+
+def test_a_name_that_is_missing_names_its_library_also_of_a_namespace() -> None:
+    sources = {"Main.st": "PROGRAM Main VAR f : FILE.Open; x : AXIS_REF; END_VAR END_PROGRAM"}
+    dialects: dict[DialectName, str] = {"codesys": "FILE", "twincat": "Tc2_MC2"}
+    for dialect, library in dialects.items():
+        found = check_sources(with_dialect(sources, dialect), MODEL)
+        assert any(f"It is in the library {library}" in each.message for each in found.problems)
 
 
 def test_an_axis_is_moved_by_blocks() -> None:

@@ -45,7 +45,7 @@ def test_a_twincat_project_is_checked_and_run_with_the_libraries_that_it_uses(pr
     found = scanbench("check", str(project), "--dialect", "twincat")
     assert found.returncode == 0, found
     assert [line for line in found.stdout.splitlines() if "W006" not in line] == [
-        f"{project}/line/POUs/MAIN.TcPOU:3:6: W008 warning: `ADSLOGSTR` needs a device, and is a stub here: `Stub_ADSLOGSTR` is "
+        f"{project}/line/POUs/MAIN.TcPOU:3:6: W008 warning: `ADSLOGSTR` is a stub, without a real body: `Stub_ADSLOGSTR` is "
         f"its result. Set that in the watch table, by a force or by a stimulus, or write a body in {project}/libraries/Tc2_System.st."
     ]
     options = ("--dialect", "twincat", "--scans", "3", "--print", "MAIN.n", "--print", "MAIN.d")

@@ -57,7 +57,7 @@ class Library:
 
     @property
     def stubs(self) -> tuple[str, ...]:
-        """Names of its POUs that need a device."""
+        """Names of its POUs without a real body."""
         return tuple(each.name for each in self.declared if isinstance(each, tree.PouDeclaration) and each.stub)
 
 
@@ -100,8 +100,8 @@ def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Lib
 
 def where_declared(name: str, dialect: DialectName) -> str | None:
     """The library of the dialect that declares this name, perhaps with its own name before it."""
-    plain = name.rpartition(".")[2].upper()
-    return next((each.name for each in catalogue() if dialect in each.dialects and plain in each.names), None)
+    wanted = {name.upper(), name.rpartition(".")[2].upper()}
+    return next((each.name for each in catalogue() if dialect in each.dialects and wanted & each.names), None)
 
 
 def _library(name: str, dialects: tuple[DialectName, ...]) -> Library:
