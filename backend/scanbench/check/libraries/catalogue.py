@@ -22,6 +22,7 @@ FOLDER = "libraries"
 SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "CAA": ("codesys",),
     "FILE": ("codesys",),
+    "Standard64": ("codesys", "twincat"),
     "Tc2_MC2": ("twincat",),
     "Tc2_Math": ("twincat",),
     "Tc2_System": ("twincat",),
