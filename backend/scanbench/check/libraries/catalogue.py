@@ -62,10 +62,14 @@ class Library:
         return tuple(each.name for each in self.declared if isinstance(each, tree.PouDeclaration) and each.stub)
 
 
-@cache
 def catalogue() -> tuple[Library, ...]:
     """All of them, by name."""
-    return tuple(_library(name, dialects) for name, dialects in SHIPPED.items())
+    return tuple(map(_library, SHIPPED))
+
+
+def _of_dialect(dialect: DialectName) -> list[Library]:
+    """Those of a dialect; no other text is read for that."""
+    return [_library(name) for name, dialects in SHIPPED.items() if dialect in dialects]
 
 
 def library_named(name: str) -> Library | None:
@@ -82,7 +86,7 @@ def library_of_file(path: str) -> str | None:
 
 def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Library]:
     """The libraries of the dialect that declare what these programs name and do not have themselves; those that they use as well."""
-    possible = [each for each in catalogue() if dialect in each.dialects]
+    possible = _of_dialect(dialect)
     if not possible:
         return []
     texts = {name: text for name, text in sources.items() if is_program_file(name) and not is_stimulus(name)}
@@ -102,15 +106,16 @@ def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Lib
 def where_declared(name: str, dialect: DialectName) -> str | None:
     """The library of the dialect that declares this name, perhaps with its own name before it."""
     wanted = {name.upper(), name.rpartition(".")[2].upper()}
-    return next((each.name for each in catalogue() if dialect in each.dialects and wanted & each.names), None)
+    return next((each.name for each in _of_dialect(dialect) if wanted & each.names), None)
 
 
-def _library(name: str, dialects: tuple[DialectName, ...]) -> Library:
+@cache
+def _library(name: str) -> Library:
     text = files("scanbench.check").joinpath(f"libraries/{name}.st").read_text("utf-8")
     file, problems = parse_st(Source(f"{FOLDER}/{name}.st", text))
     assert not problems, problems
     about = " ".join(text.partition("(*")[2].partition("*)")[0].split())
-    return Library(name, dialects, text, about, (*file.types, *file.pous), frozenset(_names(file)), _words(text))
+    return Library(name, SHIPPED[name], text, about, (*file.types, *file.pous), frozenset(_names(file)), _words(text))
 
 
 def _words(text: str) -> frozenset[str]:
