@@ -10,6 +10,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.declare.settings import Settings
 from scanbench.check.declare.start_references import bind_start_references
+from scanbench.check.life.whole import Whole
 from scanbench.plcmodel.model import Location, Model
 from scanbench.problems import Span
 from scanbench.program.copies import copies_of
@@ -51,6 +52,8 @@ class Around:
 
     common: list[Pou]
     plant: list[Pou]
+    life: Whole | None = None
+    """What initialises instances."""
 
 
 def assemble(
@@ -81,6 +84,7 @@ def assemble(
     resources = [each.name for each in planner.resources if each.name]
     placing = _Placing(report, pous, align(variables.size))
     common = placing.one_by_one(around.common)
+    life = placing.one_by_one([] if around.life is None else [around.life.pou])
     placing.programs(planned)
     plant = placing.one_by_one(around.plant)
     instances = list(placing.instances.values())
@@ -90,16 +94,28 @@ def assemble(
     if report.checks:
         layout.violations, at = at, align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
     layout.state_size = at
-    run = {each.pou for task in tasks for each in task.programs}
+    if around.life is not None:
+        around.life.write([*instances, *plant])
+    run = {each.pou for each in (*life, *(each for task in tasks for each in task.programs))}
     needed, tasked = _reachable(order, pous, {*around.common, *around.plant, *run}), _reachable(order, pous, run)
     layout.size = _place_frames(needed, at)
     if any(member.copied for pou in needed for member in pou.instance.members.values()):
-        running = [*common, *instances, *plant]
+        running = [*common, *life, *instances, *plant]
         layout.copies = copies_of([(variables, 0), *((each.pou.instance, each.offset) for each in running)])
-    image = _initial_image(layout, declarations, variables, [*common, *instances, *plant])
+    image = _initial_image(layout, declarations, variables, [*common, *life, *instances, *plant])
     traps, checks = tuple(report.traps), tuple(report.checks)
     program = Program(
-        tuple(needed), tasks, interval, traps, layout, image, checks, common=common, plant=plant, tasked=tuple(tasked)
+        tuple(needed),
+        tasks,
+        interval,
+        traps,
+        layout,
+        image,
+        checks,
+        common=common,
+        plant=plant,
+        tasked=tuple(tasked),
+        life=life,
     )
     program = Settings(report, declarations, program, resources).apply(configuration)
     return replace(program, checks=tuple(report.checks), dialect=declarations.dialect.name)

@@ -29,8 +29,10 @@ from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
-from scanbench.check.dialect import IEC, Dialect, dialect_in
+from scanbench.check.dialect import IEC, Allowance, Dialect, dialect_in
 from scanbench.check.folding import folded
+from scanbench.check.life.make import Life
+from scanbench.check.life.whole import Whole, whole_of
 from scanbench.check.order import Order
 from scanbench.check.recursion import allow
 from scanbench.check.stubs import tell_stubs
@@ -193,6 +195,8 @@ class Checker:
     system: System = field(init=False)
     plant: Plant = field(init=False)
     stimuli: Stimuli = field(default_factory=Stimuli)
+    life: Life | None = None
+    """What initialises instances, once it was asked for."""
     declared: Mark = (0, 0, 0, 0, 0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
@@ -250,6 +254,7 @@ class Checker:
     def finish(self, interval_ns: int) -> Program | None:
         """What all bodies together make."""
         self.report.undo(self.declared)
+        whole = self._whole()
         self._check_instances()
         self.stimuli.check(self.report, self.declarations, self.pous, self.globals, self.parsed)
         common = self._common()
@@ -257,10 +262,10 @@ class Checker:
         check_borrowed(self.report, self.pous.dispatchers.values())
         self.plant.check(self.parsed)
         tell_stubs(self.report, self.names.user)
-        order = self._order(common)
+        order = self._order([*common, *([] if whole is None else [whole.pou])])
         self.report.join(order)
         configurations = [each for file in self.parsed for each in file.configurations]
-        around = Around(common, self.plant.programs())
+        around = Around(common, self.plant.programs(), whole)
         return assemble(
             self.report,
             self.declarations,
@@ -306,7 +311,7 @@ class Checker:
             if key in self.declarations.types:  # somebody declared an instance
                 with self.declarations.names.within(Space(declaration.namespace, declaration.using)):
                     self._declare_pou(key, declaration)
-        check_classes(self.pous.classes, self.report)
+        check_classes(self.pous.classes, self.report, self.dialect)
         methods = [each.pou.frame for each in self.pous.classes.methods() if each.pou is not None]
         blocks = [each for each in self.declarations.types.values() if isinstance(each, Record)]
         check_instances(self.pous.classes, [self.globals, *blocks, *methods], self.report)
@@ -416,6 +421,15 @@ class Checker:
             for pou, declaration in [(each.pou, each.declaration) for each in fresh]:
                 self._check(pou, declaration, pou.instance, Space(declaration.namespace, declaration.using), None)
 
+    def _whole(self) -> Whole | None:
+        """What initialises the instances of the program, where the dialect has that."""
+        if Allowance.LIFE not in self.dialect.allows:
+            return None
+        if self.life is None:
+            self.life = Life(self.report, self.declarations, self.pous, self.globals, self._scope)
+            self.life.make()
+        return whole_of(self.life.code, self.pous, self.globals)
+
     def _common(self) -> list[Pou]:
         """The program of common processing."""
         key = next((key for key, each in self.names.library.items() if each.name == COMMON), "")
@@ -439,5 +453,6 @@ class Checker:
     def _order(self, common: list[Pou]) -> list[Pou]:
         methods = [each.pou for each in self.pous.classes.methods() if each.pou is not None]
         allow(self.report, self.pous)
+        methods += [] if self.life is None else self.life.pou_list()
         roots = (*self.pous.functions.values(), *self.pous.blocks.values(), *methods)
         return Order(self.report, self.pous).of([*common, *(pou for pou in roots if not pou.inline)])

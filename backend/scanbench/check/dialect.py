@@ -30,6 +30,7 @@ class Allowance(Enum):
     RETURN_CONDITION = auto()
     BARE_CALLS = auto()
     BLOCK_VARIABLES = auto()
+    LIFE = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +115,11 @@ RULES: dict[Allowance, Rule] = {
         "variables in VAR of a function block read from outside",
         "only inputs and outputs can be used there",
         "`VAR_OUTPUT`",
+    ),
+    Allowance.LIFE: Rule(
+        "`FB_init`, `FB_reinit` and methods with the attribute `call_after_init` that run by themselves",
+        "instances start with the initial values of their variables",
+        "`unit : Unit := (limit := 5)`",
     ),
 }
 

@@ -3,7 +3,8 @@
 One scan, in the order of the design:
 
 1. common processing: `Layout.CLOCK` := `Layout.ORIGIN` + `Layout.SCAN` * interval, without its sign bit;
-   `Layout.BUDGET` := `Layout.BUDGET_LIMIT`; `Layout.INTERVAL` := interval; `Layout.ASKED_COUNT` := 0; then `Program.common`
+   `Layout.BUDGET` := `Layout.BUDGET_LIMIT`; `Layout.INTERVAL` := interval; `Layout.ASKED_COUNT` := 0; then `Program.common`,
+   and `Program.life`
 2. input refresh (`Program.plant`; inputs are also changed from outside, in the seam), then the force table is applied
 3. the user program: every due task in order, every program instance of it in order
 4. the force table is applied again; output refresh

@@ -431,6 +431,9 @@ class Program:
     accesses: tuple["AccessPath", ...] = ()
     common: tuple["ProgramInstance", ...] = ()
     """Phase 1: keeps the model's system words alive (first cycle flag, clock pulses, clock). Made from the model."""
+    life: tuple["ProgramInstance", ...] = ()
+    """Phase 1, after `common`: at most one, which initialises instances that are new (FB_init). It is of the user's program: what
+    it calls is observed and can be halted in."""
     plant: tuple["ProgramInstance", ...] = ()
     """Phase 2: the project's `plant/`: programs and stimuli that drive the inputs, before the forces."""
     tasked: tuple[Pou, ...] = ()
@@ -442,9 +445,9 @@ class Program:
     def instances(self) -> tuple["ProgramInstance", ...]:
         """Every instance of a program: of common processing, of the tasks, of the plant. Blocks that a task runs are none."""
         tasks = (each for task in self.tasks for each in task.programs if each.pou.kind == "program")
-        return (*self.common, *tasks, *self.plant)
+        return (*self.common, *self.life, *tasks, *self.plant)
 
     @property
     def shown(self) -> tuple["ProgramInstance", ...]:
-        """The same without what was made from the model."""
-        return self.instances[len(self.common) :]
+        """The same without what was made from the model, and what initialises instances."""
+        return self.instances[len(self.common) + len(self.life) :]

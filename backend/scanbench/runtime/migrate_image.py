@@ -87,7 +87,9 @@ def migrate(old: Program, old_memory: bytes | bytearray | memoryview, new: Progr
         carrier.record("", old.layout.globals, 0, new.layout.globals, 0)
     _events(old, old_memory, new, new_memory)
     before = {instance.name.upper(): instance for instance in old.instances}
-    made = {instance.name.upper() for instance in new.common}  # from the model: nobody wants to read of it
+    made = {
+        instance.name.upper() for instance in (*new.common, *new.life)
+    }  # from the model: nobody wants to read of it
     for instance in new.instances:
         name = instance.name.upper()
         carrier.change = Change() if name in made else change
@@ -96,7 +98,7 @@ def migrate(old: Program, old_memory: bytes | bytearray | memoryview, new: Progr
             carrier.change.lost.append(Lost(instance.name, NEW))
         else:
             carrier.record(instance.name, known.pou.instance, known.offset, instance.pou.instance, instance.offset)
-    hidden = {instance.name.upper() for instance in old.common}
+    hidden = {instance.name.upper() for instance in (*old.common, *old.life)}
     change.lost += [Lost(each.name, REMOVED) for name, each in before.items() if name not in hidden]
     return change
 

@@ -240,7 +240,7 @@ class Names:
         return part.name
 
     def _common(self, offset: int) -> Part | None:
-        for each in self.program.common:
+        for each in (*self.program.common, *self.program.life):
             if each.offset <= offset < each.offset + each.pou.instance.size:
                 return Part(each.name, each.pou.instance, each.offset)
         return None

@@ -9,7 +9,7 @@ from scanbench.syntax.cursor import NAME, Cursor
 from scanbench.syntax.parse_declaration import ACCESS
 from scanbench.syntax.parse_statement import BLOCK_ENDS
 from scanbench.syntax.parse_type import POU_STARTS
-from scanbench.syntax.pragmas import InOutPragma, has_stub_pragma
+from scanbench.syntax.pragmas import CALL_AFTER_INIT, InOutPragma, after_init, has_stub_pragma
 from scanbench.syntax.source import Stretch
 
 MODIFIERS = frozenset(("ABSTRACT", "FINAL", "OVERRIDE"))
@@ -218,10 +218,13 @@ def _check_kept(c: Cursor, kind: str, sections: Sequence[tree.VariableSection]) 
 
 def member(c: Cursor, owner: str) -> list[tree.PouDeclaration]:
     """A METHOD, ACTION or PROPERTY."""
-    word = c.texts[c.take()].upper()
+    first = c.take()
+    word = c.texts[first].upper()
     if word == "ACTION":
         return [_action(c)]
     access, modifiers = _modifiers(c)
+    if word == "METHOD" and c.pragmas and after_init(c.pragmas, c.end_of(first - 1) if first else 0, c.starts[first]):
+        modifiers += (CALL_AFTER_INIT,)
     name = c.name(f"the name of the {word}")
     result, _, _, _ = _header(c, word, name)
     if word == "METHOD":

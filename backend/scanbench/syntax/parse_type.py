@@ -186,6 +186,7 @@ def _variables(c: Cursor) -> list[tree.Variable]:
     arguments: tuple[tree.Argument, ...] = ()
     if c.is_("(") and isinstance(spec, tree.NamedType):
         arguments = parse_expression.arguments(c, "initial values")
+    elements = _elements(c) if c.is_("[") and isinstance(spec, tree.ArraySpec) else ()
     initial = _initial_of(c, spec) if c.accept(":=") else None
     if c.word() == "REF" and c.texts[c.at + 1] == "=":
         c.at += 2
@@ -196,9 +197,21 @@ def _variables(c: Cursor) -> list[tree.Variable]:
         )
     c.close(";", f"after the declaration of `{c.texts[names[0]]}`")
     return [
-        tree.Variable(c.texts[name], spec, initial, address, c.span_of(name), address_span, arguments, edge)
+        tree.Variable(c.texts[name], spec, initial, address, c.span_of(name), address_span, arguments, edge, elements)
         for name in names
     ]
+
+
+def _elements(c: Cursor) -> tuple[tuple[tree.Argument, ...], ...]:
+    """`[(a := 1), (a := 2)]` after the type of an array: the arguments of each of its blocks."""
+    c.take()
+    found: list[tuple[tree.Argument, ...]] = []
+    while not c.is_("]"):
+        found.append(parse_expression.arguments(c, "arguments of an element"))
+        if not c.accept(","):
+            break
+    c.expect("]", "to close the arguments of the elements")
+    return tuple(found)
 
 
 def _initial_of(c: Cursor, spec: tree.TypeSpec) -> tree.Initial:

@@ -1,5 +1,7 @@
-"""Pragmas that mean something: `{in_out 'value'}` before a FUNCTION_BLOCK or in its head, and `{stub}` in a POU. All others are
-comments."""
+"""Pragmas that mean something; all others are comments.
+
+`{in_out 'value'}` before a FUNCTION_BLOCK or in its head; `{stub}` in a POU; `{attribute 'call_after_init'}` before a METHOD.
+"""
 
 import re
 from collections.abc import Iterable
@@ -8,6 +10,10 @@ from dataclasses import dataclass
 CONVENTIONS = ("reference", "value")
 _IN_OUT = re.compile(r"\{\s*in_out\b\s*(?::=|=)?\s*(.*?)\s*\}", re.IGNORECASE | re.DOTALL)
 _STUB = re.compile(r"\{\s*stub\s*\}", re.IGNORECASE)
+
+_AFTER_INIT = re.compile(r"\{\s*attribute\s+'call_after_init'\s*\}", re.IGNORECASE)
+CALL_AFTER_INIT = "CALL_AFTER_INIT"
+"""Modifier of a method that runs when its instance is initialised."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,3 +40,8 @@ def in_out_pragmas(pragmas: Iterable[tuple[int, str]]) -> list[InOutPragma]:
 def has_stub_pragma(pragmas: Iterable[tuple[int, str]], start: int, end: int) -> bool:
     """Whether the POU between these positions is a stub."""
     return any(start <= at < end and _STUB.fullmatch(text) for at, text in pragmas)
+
+
+def after_init(pragmas: Iterable[tuple[int, str]], start: int, end: int) -> bool:
+    """Whether one between these positions says that a method runs when its instance is initialised."""
+    return any(start <= at < end and _AFTER_INIT.fullmatch(text) for at, text in pragmas)

@@ -249,6 +249,8 @@ class Variable:
     """`inst : FB(a := 1)` of vendors: initial values of an instance."""
     edge: str = ""
     """R or F for an input that is declared with R_EDGE or F_EDGE, else empty."""
+    elements: tuple[tuple["Argument", ...], ...] = ()
+    """`inst : ARRAY[1..2] OF FB[(a := 1), (a := 2)]` of vendors: the arguments of each element, in the order of memory."""
 
 
 @node
@@ -326,7 +328,7 @@ class PouDeclaration:
     """One base of a class or block; any number for an interface."""
     implements: tuple[NamedType, ...] = ()
     modifiers: tuple[str, ...] = ()
-    """ABSTRACT, FINAL, OVERRIDE."""
+    """ABSTRACT, FINAL, OVERRIDE; of a method with the attribute `call_after_init` that too, in upper case."""
     access: str = "PUBLIC"
     namespace: str = ""
     """`A.B`, empty at the top."""

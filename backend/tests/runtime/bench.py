@@ -14,7 +14,10 @@ from scanbench.runtime.programs import EngineFactory, Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.symbols import resolve
 from scanbench.symbols.values import python_value
+from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 
+CODESYS = "// codesys\n"
+"""Begins a source in that dialect."""
 ENGINES: tuple[EngineFactory, ...] = (ReferenceEngine, NativeEngine)
 
 
@@ -25,7 +28,10 @@ def model(name: str = "CJ1M-CPU63") -> Model:
 
 @cache
 def program(source: str, model_name: str = "CJ1M-CPU63") -> Program:
-    checked = check_sources({"main.st": source}, model(model_name))
+    sources = {"main.st": source}
+    if source.startswith(CODESYS):
+        sources[LANGUAGE_FILE] = language_text("codesys")
+    checked = check_sources(sources, model(model_name))
     assert checked.program is not None, checked.problems
     return checked.program
 

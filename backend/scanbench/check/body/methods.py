@@ -9,6 +9,8 @@ from scanbench.check.body.objects import is_open, own_class
 from scanbench.check.body.receivers import Receiver, accessor
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Method
+from scanbench.check.declare.creations import FB_INIT
+from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Expr, Place, Pou, Stmt
 from scanbench.syntax import tree
@@ -21,10 +23,25 @@ def send(body: Body, receiver: Receiver, method: Method, node: tree.Call, eno: P
         raise body.report.reject(
             "T014", f"`{method.name}` is {declaration.access} and cannot be called from here.", node.span
         )
+    _not_implicit(body, receiver, method, node.span)
     callee = _reached(body, receiver, method, node.span)
     place = receiver.place
     wanted = callee.frame.members["THIS"].type
     return invoke(body, node, callee, method.name, replace(place, type=wanted), eno)
+
+
+def _not_implicit(body: Body, receiver: Receiver, method: Method, span: Span) -> None:
+    """Refuses calls of FB_init where it runs by itself: the vendors' tools would initialise the whole instance again."""
+    if Allowance.LIFE not in body.dialect.allows or method.declaration.name.upper() != FB_INIT:
+        return
+    if receiver.above:
+        message = f"`{method.name}` has run already, before this FB_init; leave this call out."
+    else:
+        message = (
+            f"`{method.name}` is called when the instance is initialised, and a call would initialise all of its variables "
+            "again, which is not supported. Put what you need into a method of another name, and call that in both places."
+        )
+    raise body.report.reject("X001", message, span)
 
 
 def _reached(body: Body, receiver: Receiver, method: Method, span: Span) -> Pou:

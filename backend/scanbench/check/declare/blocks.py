@@ -1,10 +1,12 @@
 """PROGRAM, FUNCTION_BLOCK, CLASS and INTERFACE -> the variables of an instance."""
 
+from scanbench.check.declare.creations import MADE, lives
 from scanbench.check.declare.declarations import TYPE_NAMES, Declarations
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import qualified
+from scanbench.check.dialect import Allowance
 from scanbench.program.origin import in_library
-from scanbench.program.types import Kind, Record, Section
+from scanbench.program.types import ULINT, Kind, Member, Record, Section
 from scanbench.syntax import tree
 
 
@@ -13,6 +15,8 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
     role = Kind.INTERFACE if declaration.kind == "interface" else Kind.BLOCK
     record = declared.record(qualified(declaration.namespace, declaration.name), role)
     declared.inherit(record, declaration)
+    if Allowance.LIFE in declared.dialect.allows and lives(declaration) and MADE.upper() not in record.members:
+        record.place(Member(MADE, ULINT, Section.VAR, declaration.span, hidden=True, non_retain=True))
     copied = _copies(declared, declaration)
     for section in declaration.sections:
         kind = Section(section.keyword)

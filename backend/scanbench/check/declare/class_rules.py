@@ -4,20 +4,22 @@ from collections.abc import Iterable
 
 from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Classes, Method
+from scanbench.check.declare.creations import FB_INIT, LIFE_CYCLE
+from scanbench.check.declare.life_rules import check_life_method
+from scanbench.check.dialect import Allowance, Dialect
 from scanbench.problems import Span
 from scanbench.program.types import ArrayType, Member, Record, Section, Type
 
 OPEN_TO = {"PRIVATE": 0, "INTERNAL": 1, "PROTECTED": 1, "PUBLIC": 2}
-LIFE_CYCLE = ("FB_INIT", "FB_REINIT", "FB_EXIT")
 ENABLE = ("EN", "ENO")
 
 
-def check_classes(classes: Classes, report: Report) -> None:
+def check_classes(classes: Classes, report: Report, dialect: Dialect) -> None:
     """Reports everything that a class or method may not be."""
     for each in classes.by_key.values():
         _check_form(each, report)
         for method in each.methods.values():
-            _check_method(method, report)
+            _check_method(method, report, dialect)
         if not each.abstract:
             _check_complete(each, report)
 
@@ -37,10 +39,12 @@ def _check_form(owner: Class, report: Report) -> None:
             report.error("D014", f"The class `{owner.name}` has no body; write a method.", declaration.span)
 
 
-def _check_method(method: Method, report: Report) -> None:
+def _check_method(method: Method, report: Report, dialect: Dialect) -> None:
     declaration, owner = method.declaration, method.owner
     modifiers = set(declaration.modifiers)
-    if declaration.name.upper() in LIFE_CYCLE:
+    if Allowance.LIFE in dialect.allows and owner.kind != "interface":
+        check_life_method(method, report, dialect)
+    elif declaration.name.upper() in LIFE_CYCLE:
         report.error("X001", f"{declaration.name} would never be called: instances start with the initial values of "
                      "their variables; use those, or call a method of another name.", declaration.span)  # fmt: skip
     if {"ABSTRACT", "FINAL"} <= modifiers:
@@ -72,7 +76,8 @@ def _check_method(method: Method, report: Report) -> None:
             "D014", f"`{method.name}` is {declaration.access}, but `{above.name}` is {above.declaration.access}.",
             declaration.span,
         )  # fmt: skip
-    _check_signature(method, above, report, declaration.span)
+    if Allowance.LIFE not in dialect.allows or declaration.name.upper() != FB_INIT:
+        _check_signature(method, above, report, declaration.span)
 
 
 def _check_complete(owner: Class, report: Report) -> None:

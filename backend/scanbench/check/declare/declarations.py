@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from scanbench.check.context import Rejected, Report
+from scanbench.check.declare.creations import Creations
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified
 from scanbench.check.dialect import IEC, Dialect
@@ -68,6 +69,8 @@ class Declarations:
     reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
     symbols: Record = field(default_factory=lambda: Record("", Kind.STRUCT))
     """Variables that the model gives to every program."""
+    creations: Creations = field(default_factory=Creations)
+    """What declarations give to the initialisation of blocks, where the dialect has that."""
     names: Names = field(init=False)
     values: EnumerationValues = field(init=False)
     shells: dict[str, Record] = field(default_factory=dict)

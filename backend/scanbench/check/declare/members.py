@@ -6,8 +6,10 @@ from dataclasses import replace
 from scanbench.check.body.notes import make_note, may_have_note
 from scanbench.check.context import Rejected
 from scanbench.check.declare.addresses import is_relative, locate, place_relative
+from scanbench.check.declare.creations import FB_INIT
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image
+from scanbench.check.dialect import Allowance
 from scanbench.program.types import (
     ELEMENTARY,
     SLOT_BYTES,
@@ -37,7 +39,7 @@ def declare(
     copied: bool = False,
 ) -> Member | None:
     """Adds the variable to its owner, unless its declaration is wrong; `copied` as in `Member`."""
-    if variable.arguments and variable.initial is None:
+    if variable.arguments and variable.initial is None and not _initialises(declared, variable.type):
         variable = _with_arguments(variable)
     declared.owners.append(owner)
     try:
@@ -84,10 +86,41 @@ def _declare(
         if variable.address is not None and not (section is Section.MEMBER and is_relative(variable.address)):
             locate(declared, member, variable)
     _place(declared, owner, member, variable)
+    _created(declared, owner, member, variable)
     if owner.size > MAX_BYTES:
         declared.report.error("D012", f"`{owner.name}` takes more than {MAX_BYTES} bytes.", variable.span)
         owner.members.pop(key)
     return member
+
+
+def _initialises(declared: Declarations, spec: tree.TypeSpec) -> bool:
+    """Whether this is a block with FB_init, its own or that of a base: then that gets the arguments of a declaration."""
+    seen: set[str] = set()
+    while Allowance.LIFE in declared.dialect.allows and isinstance(spec, tree.NamedType):
+        key = declared.find_type(spec.name, spec.span)
+        block = declared.block_trees.get(key or "")
+        if key is None or block is None or key in seen:
+            return False
+        if any(each.name.upper() == FB_INIT for each in block.methods):
+            return True
+        seen.add(key)
+        if not block.extends:
+            return False
+        spec = block.extends[0]
+    return False
+
+
+def _created(declared: Declarations, owner: Record, member: Member, variable: tree.Variable) -> None:
+    """Keeps what the declaration says of the blocks in the variable."""
+    if Allowance.LIFE in declared.dialect.allows:
+        if has_instance(member.type) and member.section is not Section.IN_OUT:
+            given = variable.arguments if _initialises(declared, variable.type) else ()
+            declared.creations.note(owner, member, replace(variable, arguments=given))
+    elif variable.elements:
+        declared.report.error(
+            "D004", "The elements of an array have initial values, but no arguments: `:= [(member := value), ...]`.",
+            variable.span,
+        )  # fmt: skip
 
 
 def _start(declared: Declarations, owner: Record, member: Member, variable: tree.Variable) -> None:

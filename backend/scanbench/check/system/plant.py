@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from scanbench.check.context import Report
 from scanbench.check.declare.scopes import Pous
 from scanbench.problems import Span
+from scanbench.program.origin import is_system
 from scanbench.program.program import Pou
 from scanbench.syntax import tree
 from scanbench.syntax.parse_file import is_stimulus
@@ -63,7 +64,7 @@ class Plant:
                     configuration.span,
                 )  # fmt: skip
         for caller, called in self.pous.uses.items():
-            if caller.inline or self.holds(caller.span):
+            if caller.inline or is_system(caller.span) or self.holds(caller.span):
                 continue
             for callee in called:
                 if not callee.inline and self.holds(callee.span):

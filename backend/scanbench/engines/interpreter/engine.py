@@ -41,6 +41,7 @@ class ReferenceEngine(Engine):
             body = Statements(self, pou).block(pou.body)
             self._bodies[pou] = body if observer is None else observer.body(pou, body)
         self._common = [self._silent(self._program(each)) for each in program.common]
+        self._life = [self._program(each) for each in program.life]
         self._plant = [self._silent(self._program(each)) for each in program.plant]
         self._tasks = [(self._due(task), [self._program(each) for each in task.programs]) for task in program.tasks]
         self._interrupt = threading.Event()
@@ -194,7 +195,7 @@ class ReferenceEngine(Engine):
         memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4] = bytes(4)
         if self._recursive:
             memory[Layout.DEPTH : Layout.DEPTH + 4] = bytes(4)
-        for run in self._common:
+        for run in (*self._common, *self._life):
             run()
         # 2 input refresh: the plant; inputs are also changed in the seam; forces
         for run in self._plant:

@@ -43,7 +43,14 @@ def _scan(unit: Unit, program: Program) -> str:
     if any(pou.recursive for pou in program.pous):
         text.do(f"store i32 0, ptr {_field(text, Layout.DEPTH)}, align 8{unit.module.tag('#depth')}")
     body.unit.flavour.silence(body, True)
-    for instance in (*program.common, *program.plant):
+    for instance in program.common:
+        _program(body, instance)
+    if program.life:
+        body.unit.flavour.silence(body, False)
+        for instance in program.life:
+            _program(body, instance)
+        body.unit.flavour.silence(body, True)
+    for instance in program.plant:
         _program(body, instance)
     body.unit.flavour.silence(body, False)
     _forces(unit, text, FORCE_BEFORE, size)

@@ -1,0 +1,45 @@
+"""Which types have something to initialise besides their bytes."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from scanbench.check.declare.creations import MADE
+from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type
+
+
+@dataclass(slots=True)
+class Needs:
+    """Looks at each type once."""
+
+    _known: dict[int, bool] = field(default_factory=dict)
+    _kept: list[Record] = field(default_factory=list)
+    """So that no other gets the identity of a record that was looked at."""
+
+    def of(self, type: Type) -> bool:
+        """Whether a block with FB_init, or with a method that is called after it, is this or in it."""
+        if isinstance(type, ArrayType):
+            return self.of(type.element)
+        if not isinstance(type, Record) or type.kind not in (Kind.BLOCK, Kind.STRUCT):
+            return False
+        known = self._known.get(id(type))
+        if known is None:
+            self._known[id(type)] = False
+            self._kept.append(type)
+            known = self._known[id(type)] = has_made(type) or any(self.of(each.type) for each in held(type))
+        return known
+
+    def members(self, record: Record) -> list[Member]:
+        """The variables of a record that need it, in order of declaration."""
+        return [each for each in held(record) if self.of(each.type)]
+
+
+def has_made(record: Record) -> bool:
+    """Whether an instance remembers that it is initialised."""
+    return MADE.upper() in record.members
+
+
+def held(record: Record) -> Iterator[Member]:
+    """The variables that are in an instance, and are not only referred to."""
+    for member in record.members.values():
+        if not member.located and not member.bound and member.section is not Section.EXTERNAL:
+            yield member

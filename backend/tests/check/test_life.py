@@ -1,0 +1,73 @@
+"""FB_init and what belongs to it: what is told and what is refused."""
+
+import pytest
+
+from scanbench.check.build import check_sources
+from scanbench.problems import Severity
+from scanbench.syntax.language_file import DialectName, with_dialect
+from tests.caseformat import MODELS
+
+MODEL = MODELS["GENERIC-IEC"]
+INPUTS = "bInitRetains : BOOL; bInCopyCode : BOOL;"
+
+
+def block(inputs: str, more: str = "", head: str = "Unit", attribute: str = "") -> str:
+    return (
+        f"FUNCTION_BLOCK {head}\nVAR level : INT; END_VAR\n{attribute}METHOD FB_init : BOOL\nVAR_INPUT {inputs} END_VAR\n"
+        f"{more}END_METHOD\nEND_FUNCTION_BLOCK\n"
+    )
+
+
+def main(declared: str, body: str = "") -> str:
+    return f"PROGRAM Main\nVAR {declared} END_VAR\n{body}\nEND_PROGRAM\n"
+
+
+def found(text: str, dialect: DialectName = "codesys") -> list[tuple[str, str]]:
+    problems = check_sources(with_dialect({"a.st": text}, dialect), MODEL).problems
+    return [(each.code, each.message) for each in problems if each.severity is Severity.ERROR]
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "said"),
+    [
+        (block("x : INT;") + main("u : Unit;"), "D014", "`bInCopyCode : BOOL`"),
+        (block(INPUTS + "nr : INT;") + main("u : Unit;"), "T004", "`Unit.FB_init` needs `nr`: `Unit(nr := ...)`"),
+        (block(INPUTS + "number : INT;") + main("u : Unit(numbr := 3);"), "T004", "has no input `numbr`. Did you mean `number`?"),
+        (block(INPUTS + "nr : INT;") + main("u : Unit(3, 4);"), "T004", "takes 1 further arguments, not 2"),
+        (block(INPUTS + "nr : INT;") + main("u : ARRAY[1..2] OF Unit[(1)];"), "D004", "has 2 elements, but arguments for 1"),
+        (block(INPUTS + "nr : INT;") + main("u : Unit('a');"), "T002", "`nr"),
+        (block(INPUTS) + main("u : Unit;", "u.FB_init(TRUE, FALSE);"), "X001", "a method of another name"),
+        (
+            block(INPUTS) + block(INPUTS, "SUPER^.FB_init(TRUE, FALSE);\n", "Next EXTENDS Unit").replace("VAR level : INT; END_VAR\n", "") + main("u : Next;"),
+            "X001", "has run already",
+        ),
+        (
+            block(INPUTS + "nr : INT;") + block(INPUTS, "", "Next EXTENDS Unit").replace("VAR level : INT; END_VAR\n", "") + main("u : Next;"),
+            "D014", "`Next.FB_init` needs the input `nr` as well",
+        ),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_told_once(text: str, code: str, said: str) -> None:
+    problems = [each for each in found(text) if "level" not in each[1]]
+    assert [each for each, _ in problems] == [code], problems
+    assert said in problems[0][1]
+
+
+def test_the_strict_language_says_what_it_said_before() -> None:
+    problems = found(block(INPUTS) + main("u : Unit(level := 3);"), "iec")
+    assert [code for code, _ in problems] == ["X001"]
+    assert "would never be called" in problems[0][1]
+
+
+def test_a_method_after_the_initialisation_has_no_inputs() -> None:
+    text = block(
+        INPUTS, "END_METHOD\n{attribute 'call_after_init'}\nMETHOD begin\nVAR_INPUT x : INT; END_VAR\n"
+    ) + main("u : Unit;")
+    assert [code for code, _ in found(text)] == ["D014"]
+
+
+def test_fb_exit_is_told_to_be_called_by_nobody() -> None:
+    text = block("bInCopyCode : BOOL;").replace("FB_init", "FB_exit") + main("u : Unit;")
+    problems = check_sources(with_dialect({"a.st": text}, "twincat"), MODEL).problems
+    assert [each.code for each in problems] == ["W006"]
+    assert "is not called by itself here" in problems[0].message
