@@ -99,24 +99,14 @@ def assemble(
     run = {each.pou for each in (*life, *(each for task in tasks for each in task.programs))}
     needed, tasked = _reachable(order, pous, {*around.common, *around.plant, *run}), _reachable(order, pous, run)
     layout.size = _place_frames(needed, at)
+    running = [*common, *life, *instances, *plant]
     if any(member.copied for pou in needed for member in pou.instance.members.values()):
-        running = [*common, *life, *instances, *plant]
         layout.copies = copies_of([(variables, 0), *((each.pou.instance, each.offset) for each in running)])
-    image = _initial_image(layout, declarations, variables, [*common, *life, *instances, *plant])
-    traps, checks = tuple(report.traps), tuple(report.checks)
+    image = _initial_image(layout, declarations, variables, running)
     program = Program(
-        tuple(needed),
-        tasks,
-        interval,
-        traps,
-        layout,
-        image,
-        checks,
-        common=common,
-        plant=plant,
-        tasked=tuple(tasked),
-        life=life,
-    )
+        tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks),
+        common=common, plant=plant, tasked=tuple(tasked), life=life,
+    )  # fmt: skip
     program = Settings(report, declarations, program, resources).apply(configuration)
     return replace(program, checks=tuple(report.checks), dialect=declarations.dialect.name)
 

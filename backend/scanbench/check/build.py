@@ -9,7 +9,6 @@ import sys
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, Literal, get_args
 
 from scanbench.check.assemble import Around, assemble, place_areas, place_globals
 from scanbench.check.body.bodies import body_of
@@ -22,11 +21,12 @@ from scanbench.check.borrowed import check_borrowed
 from scanbench.check.context import Mark, Rejected, Report
 from scanbench.check.declare.class_rules import check_classes, check_instances
 from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods, key_of
-from scanbench.check.declare.collect import Collector, declare_globals, globals_of
+from scanbench.check.declare.collect import Collector, declare_globals
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.declare import declarations_of
 from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
+from scanbench.check.declare.kept import declare_static, kept_of
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.dialect import IEC, Allowance, Dialect, dialect_in
@@ -34,6 +34,7 @@ from scanbench.check.folding import folded
 from scanbench.check.life.make import Life
 from scanbench.check.life.whole import Whole, whole_of
 from scanbench.check.order import Order
+from scanbench.check.pou_infos import PouInfo, pou_infos
 from scanbench.check.recursion import allow
 from scanbench.check.stubs import tell_stubs
 from scanbench.check.system.plant import Plant, plant_files
@@ -49,7 +50,6 @@ from scanbench.program.origin import in_library, is_system
 from scanbench.program.program import Assign, Base, Const, Expr, Place, Pou, Program
 from scanbench.program.sites import CheckSite
 from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
-from scanbench.public import Public
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
 from scanbench.syntax.language_file import dialect_of, is_language_file
@@ -59,25 +59,6 @@ RECURSION_LIMIT = 20_000
 """Python frames for a deep expression: the parser bounds depth, the checks walk it with a few frames a level."""
 sys.setrecursionlimit(max(sys.getrecursionlimit(), RECURSION_LIMIT))
 ENABLING = re.compile(r"\bENO?\b", re.IGNORECASE)
-
-
-PouInfoKind = Literal[
-    "program", "function_block", "function", "class", "interface", "method", "property", "type", "global"
-]  # fmt: skip
-_POU_KINDS: dict[str, PouInfoKind] = {kind: kind for kind in get_args(PouInfoKind)}
-
-
-@dataclass(frozen=True, slots=True)
-class PouInfo(Public):
-    """What a file declares, for the explorer."""
-
-    PUBLIC: ClassVar = "Pou"
-
-    name: str
-    """In full: with its namespace, and for a method with its class."""
-    kind: PouInfoKind
-    file: str
-    line: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +121,7 @@ def concluded(files: Sequence[Chunked], report: Report, program: Program | None,
     problems.sort(key=lambda each: (each.span.file, each.span.line, each.span.column))
     problems = folded(problems)
     trees = [file.file for file in files]
-    infos = tuple(_infos(trees))
+    infos = tuple(pou_infos(trees))
     if any(problem.severity is Severity.ERROR for problem in problems):
         return Checked(None, tuple(problems), infos)
     checks = tuple(replace(site, span=site.span.plain()) for site in report.checks)
@@ -149,33 +130,6 @@ def concluded(files: Sequence[Chunked], report: Report, program: Program | None,
         traps = tuple(replace(site, span=site.span.plain()) for site in program.traps)
         program = replace(program, traps=traps, checks=checks) if whole else None
     return Checked(program, tuple(problems), infos, checks, tasks)
-
-
-def _infos(parsed: list[tree.File]) -> list[PouInfo]:
-    made = []
-    for file in parsed:
-        for pou in file.pous:
-            name = qualified(pou.namespace, pou.name)
-            made.append(PouInfo(name, _POU_KINDS[pou.kind], file.name, pou.span.line))
-            made += _methods(name, pou)
-        made += [
-            PouInfo(qualified(each.namespace, each.name), "type", file.name, each.span.line) for each in file.types
-        ]
-        for section in (*file.globals, *(each for conf in file.configurations for each in globals_of(conf))):
-            made += [
-                PouInfo(qualified(section.namespace, each.name), "global", file.name, each.span.line)
-                for each in section.variables
-            ]
-    return made
-
-
-def _methods(owner: str, pou: tree.PouDeclaration) -> list[PouInfo]:
-    """Methods and properties; the two halves of a property are one."""
-    made: dict[str, PouInfo] = {}
-    for each in pou.methods:
-        kind: PouInfoKind = "method" if each.kind == "method" else "property"
-        made.setdefault(each.name.upper(), PouInfo(f"{owner}.{each.name}", kind, each.span.file, each.span.line))
-    return list(made.values())
 
 
 @dataclass(slots=True)
@@ -196,7 +150,7 @@ class Checker:
     plant: Plant = field(init=False)
     stimuli: Stimuli = field(default_factory=Stimuli)
     life: Life | None = None
-    """What initialises instances, once it was asked for."""
+    """What initialises instances, where the dialect has that."""
     declared: Mark = (0, 0, 0, 0, 0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
@@ -227,9 +181,13 @@ class Checker:
         self.names.collect(self.parsed)
         self.pous.classes = collect(self.declarations)
         declare_globals(self.parsed, self.globals, self.declarations, self.pous)
+        declare_static(self.declarations, self.globals, self.names.user)
         place_globals(self.model, areas, self.globals)
         self._declare_pous()
         self.declarations.declare_types()
+        if Allowance.LIFE in self.dialect.allows:
+            self.life = Life(self.report, self.declarations, self.pous, self.globals, self._scope)
+            self.pous.life = self.life.declare()
         self.declared = self.report.mark()
 
     def reuse(self, pou: Pou, part: Report, uses: dict[Pou, int]) -> None:
@@ -405,6 +363,8 @@ class Checker:
         visible = Record("GLOBAL", Kind.STRUCT) if pou.inline else self.globals  # the library sees none of them
         scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
         scope.system, scope.who = self._rights(declaration.span)
+        around = self.pous.classes.of(instance)
+        scope.kept = kept_of(declaration, None if around is None else around.declaration, instance, self.globals)
         return scope
 
     def _rights(self, span: Span) -> tuple[tuple[Record, ...], Who]:
@@ -423,10 +383,9 @@ class Checker:
 
     def _whole(self) -> Whole | None:
         """What initialises the instances of the program, where the dialect has that."""
-        if Allowance.LIFE not in self.dialect.allows:
-            return None
         if self.life is None:
-            self.life = Life(self.report, self.declarations, self.pous, self.globals, self._scope)
+            return None
+        if not self.life.made:
             self.life.make()
         return whole_of(self.life.code, self.pous, self.globals)
 

@@ -31,6 +31,8 @@ class Allowance(Enum):
     BARE_CALLS = auto()
     BLOCK_VARIABLES = auto()
     LIFE = auto()
+    KEPT_VARIABLES = auto()
+    BLOCK_TEMPORARIES = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +122,16 @@ RULES: dict[Allowance, Rule] = {
         "`FB_init`, `FB_reinit` and methods with the attribute `call_after_init` that run by themselves",
         "instances start with the initial values of their variables",
         "`unit : Unit := (limit := 5)`",
+    ),
+    Allowance.KEPT_VARIABLES: Rule(
+        "VAR_INST in methods (kept by each instance), VAR_STAT in methods, functions and blocks (one for all)",
+        "a FUNCTION and a METHOD keep nothing between calls",
+        "a VAR of the block, a VAR_GLOBAL",
+    ),
+    Allowance.BLOCK_TEMPORARIES: Rule(
+        "instances of blocks in FUNCTION, METHOD and VAR_TEMP, which are initialised at each call",
+        "an instance keeps its state, so it is declared in the VAR of a block or program",
+        "`VAR unit : Unit; END_VAR` in the block",
     ),
 }
 

@@ -339,8 +339,7 @@ class Return:
 
 @dataclass(frozen=True, slots=True)
 class Blocks:
-    """IL with labels: runs the blocks one after the other; `Jump` goes on at the start of one. Never inside a loop or
-    other Blocks."""
+    """With labels: runs the blocks one after the other; `Jump` goes on at the start of one. Never in a loop or other Blocks."""
 
     blocks: tuple[tuple["Stmt", ...], ...]
     span: Span
@@ -396,8 +395,7 @@ class Pou:
     """It may be called while it runs. Then its caller keeps all that is in its frame before it stores the arguments, and puts
     it back when outputs and result are read."""
     first_trap: int = 0
-    """The numbers of trap sites in the body count from here: `Program.traps[first_trap + number - 1]`. So a body does not
-    change when other POUs get more sites."""
+    """Trap sites in the body count from here (`Program.traps[first_trap + number - 1]`), whatever other POUs have."""
     first_check: int = 0
     """The same for `Program.checks`."""
 
@@ -432,12 +430,11 @@ class Program:
     common: tuple["ProgramInstance", ...] = ()
     """Phase 1: keeps the model's system words alive (first cycle flag, clock pulses, clock). Made from the model."""
     life: tuple["ProgramInstance", ...] = ()
-    """Phase 1, after `common`: at most one, which initialises instances that are new (FB_init). It is of the user's program: what
-    it calls is observed and can be halted in."""
+    """Phase 1, after `common`: at most one, which initialises new instances (FB_init). What it calls is observed like a task."""
     plant: tuple["ProgramInstance", ...] = ()
     """Phase 2: the project's `plant/`: programs and stimuli that drive the inputs, before the forces."""
     tasked: tuple[Pou, ...] = ()
-    """Those of `pous` that the tasks run, themselves or through others; the plant may run them too."""
+    """Those of `pous` that tasks or `life` run, themselves or through others; the plant may run them too."""
     dialect: DialectName = "iec"
     """In which it is written: what people type about it is understood in the same way."""
 

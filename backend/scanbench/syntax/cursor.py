@@ -50,8 +50,6 @@ class Cursor:
         """Namespaces that USING names, here."""
         self._lost = -1
         """Up to this token nothing more is reported: what encloses it was left for nesting too deep."""
-        self.kept: list[Span] = []
-        """Sections VAR_STAT and VAR_INST of the POU that is read."""
 
     def take(self) -> int:
         """The next token; the end is never passed."""

@@ -31,15 +31,14 @@ def section(c: Cursor, list_name: str = "", namespace: str = "") -> tree.Variabl
         c.take()
     variables = parse_type.variables(c)
     end(c, "END_VAR", f"{c.texts[start]} of line {span.line}")
-    keyword = c.texts[start]
+    keyword, kept = c.texts[start], ""
     if keyword == "VAR_GENERIC":
         c.report("X001", "VAR_GENERIC is not supported; use a constant, or ARRAY[*] for in-outs.", span)
         return None
     if keyword in ("VAR_STAT", "VAR_INST"):
         # what a block keeps between calls has no word of its own in the standard
-        keyword = "VAR"
-        c.kept.append(span)
-    return tree.VariableSection(keyword, tuple(qualifiers), variables, span, access, namespace, list_name)
+        keyword, kept = "VAR", keyword
+    return tree.VariableSection(keyword, tuple(qualifiers), variables, span, access, namespace, list_name, kept)
 
 
 def end(c: Cursor, keyword: str, of: str) -> None:

@@ -1,6 +1,5 @@
 """POUs: programs, blocks, functions, classes, interfaces, and their contents."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from scanbench.problems import Span
@@ -53,7 +52,6 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
         where = body.span if isinstance(body, tree.IlBody) else body[0].span
         c.report("S003", f"A {kind} has no statements of its own; put them into a METHOD.", where)
     _pou_end(c, kind, name)
-    _check_kept(c, kind, sections)
     stub = bool(c.pragmas) and has_stub_pragma(c.pragmas, c.starts[first], c.starts[c.at])
     result, extends, implements, more = header
     return tree.PouDeclaration(
@@ -203,16 +201,6 @@ def _pou_end(c: Cursor, kind: str, name: int) -> None:
     c.accept(";")
 
 
-def _check_kept(c: Cursor, kind: str, sections: Sequence[tree.VariableSection]) -> None:
-    """A FUNCTION and a METHOD keep nothing between calls, so VAR_STAT and VAR_INST cannot be had there."""
-    if kind not in ("FUNCTION", "METHOD"):
-        return
-    for section in sections:
-        if section.span in c.kept and "CONSTANT" not in section.qualifiers:
-            message = f"A {kind} keeps no variables; move them into the block or VAR_GLOBAL."
-            c.report("X001", message, section.span)
-
-
 # ---- members --------------------------------------------------------------------------------------------------
 
 
@@ -237,7 +225,6 @@ def _method(
 ) -> tree.PouDeclaration:
     sections = parse_declaration.sections(c)
     body = _whole_body(c)
-    _check_kept(c, "METHOD", sections)
     # in an interface, and where a vendor's export says nothing more, the next declaration ends it
     if not c.accept("END_METHOD") and not (owner == "INTERFACE" and not body):
         _missing(c, "END_METHOD", f"METHOD {c.texts[name]}")

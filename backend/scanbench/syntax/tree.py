@@ -266,6 +266,8 @@ class VariableSection:
     namespace: str = ""
     list_name: str = ""
     """Name of the global variable list (`GVL.x`) that a VAR_GLOBAL came from; its variables are visible without it too."""
+    kept: str = ""
+    """VAR_STAT or VAR_INST, where that was written for VAR."""
 
 
 @node

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.check.build import PouInfo
+from scanbench.check.pou_infos import PouInfo
 from scanbench.check.task_infos import TaskInfo
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors

@@ -9,7 +9,7 @@ from dataclasses import fields
 
 import msgpack  # type: ignore[import-untyped]
 
-from scanbench.check.build import PouInfo
+from scanbench.check.pou_infos import PouInfo
 from scanbench.check.task_infos import TaskInfo, TaskProgram
 from scanbench.debug.assign import Assign
 from scanbench.debug.bound_to import Bound, BoundTo

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import ClassVar, Literal, Protocol
 
-from scanbench.check.build import PouInfo
+from scanbench.check.pou_infos import PouInfo
 from scanbench.check.task_infos import TaskInfo
 from scanbench.debug.breakpoint import Verdict
 from scanbench.faults.arm import ArmedInfo

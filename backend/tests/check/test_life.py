@@ -71,3 +71,20 @@ def test_fb_exit_is_told_to_be_called_by_nobody() -> None:
     problems = check_sources(with_dialect({"a.st": text}, "twincat"), MODEL).problems
     assert [each.code for each in problems] == ["W006"]
     assert "is not called by itself here" in problems[0].message
+
+
+def test_what_a_function_and_a_method_cannot_keep_is_refused_in_the_strict_language() -> None:
+    text = (
+        "FUNCTION f : INT\nVAR_STAT n : INT; END_VAR\nVAR_STAT CONSTANT c : INT := 1; END_VAR\nEND_FUNCTION\n"
+        + main("")
+    )
+    assert found(text, "iec") == [("X001", "A FUNCTION keeps no variables; move them into the block or VAR_GLOBAL.")]
+    text = "CLASS c\nMETHOD m\nVAR_INST n : INT; END_VAR\nEND_METHOD\nEND_CLASS\n" + main("")
+    assert found(text, "iec") == [("X001", "A METHOD keeps no variables; move them into the block or VAR_GLOBAL.")]
+    assert found(text, "codesys") == []
+
+
+def test_a_block_whose_references_have_start_values_lasts_longer_than_a_call() -> None:
+    text = "FUNCTION_BLOCK Inner\nVAR x : INT; p : REF_TO INT := REF(x); END_VAR\nEND_FUNCTION_BLOCK\n"
+    text += "FUNCTION f : INT\nVAR inner : Inner; END_VAR\nEND_FUNCTION\n" + main("")
+    assert [code for code, _ in found(text, "codesys")] == ["D008"]

@@ -57,13 +57,6 @@ END_VAR END_PROGRAM"""
     assert (variables[2].address_span.column, variables[2].address_span.end_column) == (6, 10)  # type: ignore[union-attr]
 
 
-def test_what_a_function_cannot_keep_is_refused() -> None:
-    text = "FUNCTION f : INT\nVAR_STAT n : INT; END_VAR\nVAR_STAT CONSTANT c : INT := 1; END_VAR\nEND_FUNCTION"
-    assert complaints(text) == ["X001 2:1 A FUNCTION keeps no variables; move them into the block or VAR_GLOBAL."]
-    text = "CLASS c\nMETHOD m\nVAR_INST n : INT; END_VAR\nEND_METHOD\nEND_CLASS"
-    assert complaints(text) == ["X001 3:1 A METHOD keeps no variables; move them into the block or VAR_GLOBAL."]
-
-
 def test_bad_declarations_are_skipped_one_by_one() -> None:
     text = "PROGRAM p\nVAR\na INT;\nb : INT;\nc : ;\nd, : INT;\n IF : INT;\nx AT : INT;\ne : INT\nEND_VAR\nx := 1;\nEND_PROGRAM"
     assert [each[:8] for each in complaints(text)] == [

@@ -1,5 +1,6 @@
 """The body of a POU, in ST or IL -> checked statements."""
 
+from dataclasses import replace
 from functools import partial
 
 from scanbench.check.body.by_value import around
@@ -10,9 +11,10 @@ from scanbench.check.body.notes import SUFFIX as NOTE
 from scanbench.check.body.redundant_checks import without_needless
 from scanbench.check.body.statements import block
 from scanbench.check.declare.scopes import decode, place_of
+from scanbench.check.life.start import Writer
 from scanbench.program.program import Assign, Base, SetBytes, Stmt
 from scanbench.program.sites import TrapKind
-from scanbench.program.types import Member, Section, StringType
+from scanbench.program.types import Member, Section, StringType, has_instance
 from scanbench.syntax import tree
 
 
@@ -43,12 +45,15 @@ def _prologue(body: Body) -> list[Stmt]:
         if member.section in (Section.INPUT, Section.IN_OUT) or frame is None or made_up:
             continue
         place = place_of(member, Base.FRAME, frame, 0)
+        if has_instance(member.type):
+            place = replace(place, variable="")  # its variables are known by their own names
         data = member.initial or bytes(member.type.size)
         constant = decode(member.type, data)
         if constant is not None and not isinstance(member.type, StringType):
             made.append(Assign(place, constant, member.span))
         else:
             made.append(SetBytes(place, data, member.span))
+    made += _initialised(body)
     instance = body.scope.instance
     if body.pou is not None and body.pou.kind == "function_block" and instance is not None:
         # what this block wrote to an in-out at an earlier call says nothing of what is bound to it now
@@ -56,3 +61,17 @@ def _prologue(body: Body) -> list[Stmt]:
             if each.section is Section.IN_OUT and each.note is not None:
                 made.append(SetBytes(place_of(each.note, Base.SELF, instance, 0), each.note.initial, each.span))
     return made
+
+
+def _initialised(body: Body) -> list[Stmt]:
+    """FB_init and what belongs to it, of the blocks among the temporaries."""
+    frame, code = body.scope.frame, body.pous.life
+    if frame is None or code is None:
+        return []
+    temporary = (Section.TEMP, Section.VAR)
+    found = [each for each in code.needs.members(frame) if each.section in temporary]
+    if not found:
+        return []
+    return Writer(body, code, lambda member: place_of(member, Base.FRAME, frame, 0), passed_on=False).members(
+        frame, found, True
+    )

@@ -2,6 +2,7 @@
 
 from scanbench.check.declare.creations import MADE, lives
 from scanbench.check.declare.declarations import TYPE_NAMES, Declarations
+from scanbench.check.declare.kept import declare_kept, is_kept
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import qualified
 from scanbench.check.dialect import Allowance
@@ -20,7 +21,7 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
     copied = _copies(declared, declaration)
     for section in declaration.sections:
         kind = Section(section.keyword)
-        if kind in (Section.TEMP, Section.EXTERNAL):
+        if kind in (Section.TEMP, Section.EXTERNAL) or (section.kept == "VAR_STAT" and is_kept(declared, section)):
             continue
         if kind is Section.GLOBAL:
             declared.report.error("D008", "VAR_GLOBAL belongs outside of POUs.", section.span)
@@ -35,6 +36,8 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
                 member.access = section.access if kind is Section.VAR else "PUBLIC"
                 member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
                 member.non_retain = "NON_RETAIN" in section.qualifiers
+    for method in declaration.methods:
+        declare_kept(declared, record, method)
     record.close()
     return record
 

@@ -57,9 +57,6 @@ def _check_method(method: Method, report: Report, dialect: Dialect) -> None:
     if method.abstract and declaration.body:
         what = "belongs to an interface" if owner.kind == "interface" else "is ABSTRACT"
         report.error("D014", f"`{method.name}` {what} and has no body.", declaration.span)
-    for section in declaration.sections:
-        if section.keyword == "VAR_INST":
-            report.error("X001", f"VAR_INST is not supported; declare the variable in `{owner.name}`.", section.span)
     key = method.key
     above = next((found for each in owner.ancestors() if (found := each.methods.get(key))), None)
     if above is None:

@@ -1,10 +1,14 @@
 """Temporaries of blocks, variables of FUNCTIONs and methods -> frames."""
 
+from collections.abc import Iterator
+
 from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.kept import is_kept
 from scanbench.check.declare.members import declare, default_of
 from scanbench.check.declare.names import qualified
-from scanbench.program.types import Kind, Member, Record, Section, has_instance
+from scanbench.check.dialect import RULES, Allowance
+from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type, has_instance
 from scanbench.syntax import tree
 
 CALLED = ("function", "method", "get", "set")
@@ -36,6 +40,11 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
         record.place(Member("THIS", this, Section.IN_OUT, declaration.span, hidden=True))
     for section in declaration.sections:
         kind = Section(section.keyword)
+        if is_kept(declared, section) and (function or section.kept == "VAR_STAT"):
+            continue
+        if section.kept and declaration.kind in ("function", "method") and "CONSTANT" not in section.qualifiers:
+            message = f"A {HOLDERS[declaration.kind]} keeps no variables; move them into the block or VAR_GLOBAL."
+            declared.report.error("X001", message, section.span)
         if kind is Section.EXTERNAL or (not function and kind is not Section.TEMP):
             continue
         if kind is Section.GLOBAL:
@@ -56,10 +65,7 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
                 continue
             member = declare(declared, record, variable, kind, constant)
             if member and kind is not Section.IN_OUT and has_instance(member.type):
-                what = HOLDERS.get(declaration.kind, "VAR_TEMP")
-                declared.report.error(
-                    "D008", f"An instance of {member.type.name} must keep its state; not in a {what}.", member.span
-                )
+                _temporary_block(declared, member, HOLDERS.get(declaration.kind, "VAR_TEMP"))
     if function and declaration.kind != "set" and declaration.result is not None:
         try:
             result = Member(declaration.name, declared.type_of(declaration.result), Section.RESULT, declaration.span)
@@ -70,6 +76,36 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
             declared.broken.add((record.name.upper(), declaration.name.upper()))
     record.close()
     return record
+
+
+def _temporary_block(declared: Declarations, member: Member, where: str) -> None:
+    """An instance that lasts for one call, where the dialect has that; not where its references are to have a start value."""
+    bound = any(owner is part for owner, _, _ in declared.start_references for part in _parts(member.type))
+    if Allowance.BLOCK_TEMPORARIES not in declared.dialect.allows or bound or declared.incomplete:
+        declared.report.error(
+            "D008", f"An instance of {member.type.name} must keep its state; not in a {where}.", member.span
+        )
+        return
+    rule = RULES[Allowance.BLOCK_TEMPORARIES]
+    used = f"`{member.name}` is initialised at each call of this {where}"
+    declared.report.warn(
+        "W006",
+        f"{used}. {declared.dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {rule.instead}.",
+        member.span,
+    )
+
+
+def _parts(type: Type) -> Iterator[Record]:
+    """The records that are in a value of this type."""
+    if isinstance(type, ArrayType):
+        yield from _parts(type.element)
+    elif isinstance(type, Record):
+        yield type
+        if type.base is not None:
+            yield from _parts(type.base)
+        for member in type.members.values():
+            if not member.bound:
+                yield from _parts(member.type)
 
 
 def _open_array(declared: Declarations, record: Record, variable: tree.Variable, output: bool) -> None:

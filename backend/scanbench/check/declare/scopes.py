@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from scanbench.check.declare.classes import Classes
 from scanbench.check.declare.names import Space
+from scanbench.check.life.code import Code
 from scanbench.plcmodel.model import Who
 from scanbench.program.own_variables import SYSTEM
 from scanbench.program.program import Base, Const, Place, Pou, Stmt
@@ -40,6 +41,8 @@ class Scope:
     """The namespaces whose global variables are visible."""
     system: tuple[Record, ...] = ()
     """Variables that every program has: the nearest of all to be hidden."""
+    kept: dict[str, tuple[Member, Base, Record]] = field(default_factory=dict)
+    """VAR_INST and VAR_STAT: what is found under their names."""
     who: Who = "program"
     """With whose rights it writes to areas of the model."""
 
@@ -51,6 +54,8 @@ class Scope:
                 return owner.members[key], Base.SELF, owner
         if self.frame is not None and key in self.frame.members:
             return self.frame.members[key], Base.FRAME, self.frame
+        if key in self.kept:
+            return self.kept[key]
         if self.instance is not None and key in self.instance.members:
             return self.instance.members[key], Base.SELF, self.instance
         if key in self.externals:
@@ -129,6 +134,8 @@ class Pous:
     """Trap site of an unbound THIS, by method."""
     aliases: dict[str, str] = field(default_factory=dict)
     """`LIST.X` to the name that the global variable of a list is kept under."""
+    life: Code | None = None
+    """What initialises instances of blocks, where the dialect has that."""
     uses: dict[Pou, dict[Pou, int]] = field(default_factory=dict)
     """Who calls whom, from how many places."""
 

@@ -21,8 +21,9 @@ from scanbench.check.declare.life_rules import RETAINS as RETAINS_INPUT
 from scanbench.check.declare.life_rules import extra_inputs, inherited_init, is_whole
 from scanbench.check.declare.names import Space
 from scanbench.check.declare.scopes import Pous, Scope, place_of
+from scanbench.check.life.code import Code
 from scanbench.check.life.needs import Needs
-from scanbench.check.life.start import COPY, RETAINS, SYSTEM_INPUTS, Code, Writer, hidden
+from scanbench.check.life.start import COPY, RETAINS, SYSTEM_INPUTS, Writer, hidden
 from scanbench.problems import Span
 from scanbench.program.origin import SYSTEM_FILE
 from scanbench.program.program import Base, Place, Pou, Stmt
@@ -45,25 +46,33 @@ class Life:
     globals: Record
     scope_of: ScopeOf
     code: Code = field(default_factory=lambda: Code(Needs()))
+    made: bool = False
+    """Whether the bodies are there."""
 
-    def make(self) -> Code:
-        """Everything that the program needs, and nothing where it needs none."""
-        needing = [each for each in self.pous.classes.by_key.values() if self._needed(each)]
-        for owner in needing:
+    def declare(self) -> Code:
+        """What each block needs that has something to initialise; the bodies of all POUs may call it."""
+        for owner in self._needing():
             self._declare(owner, "start", self.code.starts, extra_inputs(owner))
             if owner.record is not None and self.code.needs.members(owner.record):
                 self._declare(owner, "change", self.code.changes, [])
-        for owner in needing:
+        return self.code
+
+    def make(self) -> None:
+        """The bodies of all that was declared."""
+        for owner in self._needing():
             self._method(owner, self.code.starts, fresh=True)
             self._method(owner, self.code.changes, fresh=False)
         if self.code.needs.members(self.globals):
             self._globals("start", self.code.starts, fresh=True)
             self._globals("change", self.code.changes, fresh=False)
-        return self.code
+        self.made = True
 
     def pou_list(self) -> list[Pou]:
         """Of all that was made."""
         return [*self.code.starts.values(), *self.code.changes.values()]
+
+    def _needing(self) -> list[Class]:
+        return [each for each in self.pous.classes.by_key.values() if self._needed(each)]
 
     def _needed(self, owner: Class) -> bool:
         return (

@@ -1,7 +1,7 @@
 """The code that initialises the blocks in a variable, or looks which of them are new or changed after a program change."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from scanbench.check.body.arguments import invoke
 from scanbench.check.body.context import Body
@@ -10,15 +10,15 @@ from scanbench.check.declare.classes import Class
 from scanbench.check.declare.creations import FB_REINIT, MADE, Arguments, Creation, is_called
 from scanbench.check.declare.life_rules import extra_inputs, init_of, is_whole
 from scanbench.check.declare.scopes import decode
+from scanbench.check.life.code import Code
 from scanbench.check.life.explicit import Explicit, explicit
-from scanbench.check.life.needs import Needs, has_made
+from scanbench.check.life.needs import has_made
 from scanbench.check.life.numbers import number_of
 from scanbench.problems import Span
 from scanbench.program.program import (
     Assign,
     Compare,
     Const,
-    Expr,
     For,
     If,
     Index,
@@ -43,22 +43,14 @@ def hidden(name: str) -> str:
 
 
 @dataclass(slots=True)
-class Code:
-    """Of one program: a POU for each block that has something to initialise, and one that looks after a program change."""
-
-    needs: Needs
-    starts: dict[str, Pou] = field(default_factory=dict)
-    """By the name of the block, in upper case."""
-    changes: dict[str, Pou] = field(default_factory=dict)
-
-
-@dataclass(slots=True)
 class Writer:
     """Writes the code for what is in one record."""
 
     body: Body
     code: Code
     place_of: Callable[[Member], Place]
+    passed_on: bool = True
+    """Whether the code around has the inputs that are passed on; else it initialises what lasts for one call."""
 
     def members(self, record: Record, members: Sequence[Member], fresh: bool) -> list[Stmt]:
         """For these variables of the record. `fresh`: all of them are new; else each is looked at."""
@@ -102,15 +94,17 @@ class Writer:
     def _values(self, place: Place, values: list[Explicit], data: bytes, span: Span) -> list[Stmt]:
         made: list[Stmt] = []
         for each in values:
-            target = replace(place, type=each.type, offset=place.offset + each.offset)
+            target = replace(place, type=each.type, offset=place.offset + each.offset, variable="")
             part = data[each.offset : each.offset + each.type.size]
             constant = decode(each.type, part) if isinstance(each.type, Elementary) else None
             one: Stmt = SetBytes(target, part, span) if constant is None else Assign(target, constant, span)
-            made.append(If(((self._input(RETAINS, span), (one,)),), (), span) if each.retain else one)
+            made.append(
+                If(((self.body.expression(self._input(RETAINS, span)), (one,)),), (), span) if each.retain else one
+            )
         return made
 
-    def _input(self, name: str, span: Span) -> Expr:
-        return self.body.expression(tree.Name(name, span))
+    def _input(self, name: str, span: Span) -> tree.Expression:
+        return tree.Name(name, span) if self.passed_on else tree.Literal("bool", int(name == RETAINS), None, span)
 
     # ---- what is in a variable --------------------------------------------------------------------------
 
@@ -195,7 +189,7 @@ class Writer:
         return self.body.lookup.inside(self.body, place, type, type.members[MADE.upper()], span)
 
     def _passed_on(self, names: Sequence[str], span: Span) -> list[tree.Argument]:
-        return [tree.Argument(each, False, tree.Name(each, span), span) for each in names]
+        return [tree.Argument(each, False, self._input(each, span), span) for each in names]
 
     def _given(self, owner: Class, arguments: Arguments, span: Span) -> list[tree.Argument]:
         """What a declaration gives to FB_init, by the names of the inputs."""

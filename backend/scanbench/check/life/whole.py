@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from scanbench.check.declare.scopes import Pous, place_of
+from scanbench.check.life.code import Code
 from scanbench.check.life.make import GLOBALS, NOWHERE
 from scanbench.check.life.numbers import joined, number_of
-from scanbench.check.life.start import Code
 from scanbench.program.program import (
     Assign,
     Base,
