@@ -78,9 +78,8 @@ def assemble(
         alone = " What is in plant/ drives the inputs of a program." if around.plant else ""
         report.error("D011", f"There is no PROGRAM, so nothing would run.{alone}", where)
         return None
-    layout = Layout(declarations.model, place_areas(declarations.model))
-    layout.globals = variables
-    layout.symbols = declarations.symbols
+    areas = place_areas(declarations.model)
+    layout = Layout(declarations.model, areas, globals=variables, symbols=declarations.symbols)
     resources = [each.name for each in planner.resources if each.name]
     placing = _Placing(report, pous, align(variables.size))
     common = placing.one_by_one(around.common)
@@ -90,15 +89,12 @@ def assemble(
     instances = list(placing.instances.values())
     wiring = Wiring(report, declarations, pous, variables, instances, resources)
     tasks, interval = _tasks(planned, placing, wiring, interval_ns)
-    at = align(placing.at)
-    if report.checks:
-        layout.violations, at = at, align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
-    layout.state_size = at
+    layout.state_size = _place_violations(report, layout, align(placing.at))
     if around.life is not None:
         around.life.write([*instances, *plant])
     run = {each.pou for each in (*life, *(each for task in tasks for each in task.programs))}
     needed, tasked = _reachable(order, pous, {*around.common, *around.plant, *run}), _reachable(order, pous, run)
-    layout.size = _place_frames(needed, at)
+    layout.size = _place_frames(needed, layout.state_size)
     running = [*common, *life, *instances, *plant]
     if any(member.copied for pou in needed for member in pou.instance.members.values()):
         layout.copies = copies_of([(variables, 0), *((each.pou.instance, each.offset) for each in running)])
@@ -107,8 +103,16 @@ def assemble(
         tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks),
         common=common, plant=plant, tasked=tuple(tasked), life=life,
     )  # fmt: skip
-    program = Settings(report, declarations, program, resources).apply(configuration)
-    return replace(program, checks=tuple(report.checks), dialect=declarations.dialect.name)
+    settings = Settings(report, declarations, program, resources)
+    return replace(settings.apply(configuration), checks=tuple(report.checks), dialect=declarations.dialect.name)
+
+
+def _place_violations(report: Report, layout: Layout, at: int) -> int:
+    """Gives the list of violations its place, where the program has subrange checks; the byte after the state."""
+    if not report.checks:
+        return at
+    layout.violations = at
+    return align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
 
 
 def _tasks(

@@ -33,6 +33,10 @@ class Allowance(Enum):
     LIFE = auto()
     KEPT_VARIABLES = auto()
     BLOCK_TEMPORARIES = auto()
+    VENDOR_OPERATORS = auto()
+    VENDOR_TYPES = auto()
+    FINAL_INTERFACES = auto()
+    LABELS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +136,26 @@ RULES: dict[Allowance, Rule] = {
         "instances of blocks in FUNCTION, METHOD and VAR_TEMP, which are initialised at each call",
         "an instance keeps its state, so it is declared in the VAR of a block or program",
         "`VAR unit : Unit; END_VAR` in the block",
+    ),
+    Allowance.VENDOR_OPERATORS: Rule(
+        "`__POUNAME()`, `__QUERYINTERFACE`, `__QUERYPOINTER`, `XSIZEOF`, `SIZEOF(POINTER TO INT)`",
+        "there are no such operators",
+        "`?=`, `SIZEOF(x)`",
+    ),
+    Allowance.VENDOR_TYPES: Rule(
+        "XINT, UXINT, XWORD (with `__` before them or not) and PVOID, as types of 64 bits",
+        "there are no such types",
+        "LINT, ULINT, LWORD, POINTER TO",
+    ),
+    Allowance.FINAL_INTERFACES: Rule(
+        "FINAL before a method or property of an INTERFACE, which means nothing there",
+        "nothing can override what is FINAL",
+        "`METHOD start` without FINAL",
+    ),
+    Allowance.LABELS: Rule(
+        "labels and `JMP label;` among the statements of a POU",
+        "there are no jumps in Structured Text",
+        "IF and loops",
     ),
 }
 

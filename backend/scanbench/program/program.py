@@ -347,8 +347,8 @@ class Blocks:
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """Goes on at block `target` of the Blocks around; it is in a block itself or in an If there. A jump to its own
-    or an earlier block takes one from the loop budget."""
+    """Goes on at block `target` of the Blocks around, also out of what is in its block. A jump to its own or an earlier block
+    takes one from the loop budget."""
 
     target: int
     back: bool

@@ -25,11 +25,8 @@ REFUSED = {
     "__CATCH": "check before you compute; a trap stops the PLC",
     "__NEW": "memory that is allocated while the program runs",
     "__DELETE": "memory that is allocated while the program runs",
-    "__QUERYINTERFACE": "use `?=`",
-    "__QUERYPOINTER": "use `?=`",
     "__VARINFO": "there is no information about variables at run time",
     "__CURRENTTASK": "there is no information about tasks at run time",
-    "__POUNAME": "there is no information about POUs at run time",
     "__POSITION": "there is no information about positions at run time",
 }
 FOREIGN = {
@@ -41,6 +38,7 @@ FOREIGN = {
 }
 """Operators of other languages that are read as two of ours."""
 MAX_CHAIN = 1000
+SIZES = frozenset("SIZEOF XSIZEOF".split())
 
 
 def expression(c: Cursor, weakest: int = 0) -> tree.Expression:
@@ -170,7 +168,24 @@ def _member(c: Cursor, base: tree.Expression) -> tree.Expression:
 
 def _call(c: Cursor, callee: tree.Expression) -> tree.Call:
     _refuse(c, callee)
+    if isinstance(callee, tree.Name) and callee.name.upper() in SIZES and (of_pointer := _pointer_type(c)) is not None:
+        return tree.Call(callee, (of_pointer,), _through(c, callee))
     return tree.Call(callee, arguments(c, "call"), _through(c, callee))
+
+
+def _pointer_type(c: Cursor) -> tree.Argument | None:
+    """`(POINTER TO type)` of vendors, where a size is asked for."""
+    if c.word(1) not in ("POINTER", "REFERENCE") or c.texts[c.at + 2] != "TO":
+        return None
+    c.take()
+    start = c.at
+    while c.word() in ("POINTER", "REFERENCE") and c.texts[c.at + 1] == "TO":
+        c.at += 2
+    c.qualified("a type")
+    span = c.span_from(start)
+    what = "call"
+    c.expect(")", f"to close the {what}")
+    return tree.Argument(None, False, tree.Name("POINTER TO", span), span)
 
 
 def _through(c: Cursor, first: tree.Expression) -> Span:

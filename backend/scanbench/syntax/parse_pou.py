@@ -260,6 +260,8 @@ def _property(
         sections = parse_declaration.sections(c)
         kind = "get" if word == "PROPERTY_GET" else "set"
         found.append(_declared(c, kind, name, result, sections, _whole_body(c), access, modifiers))
+    if word == "PROPERTY":
+        _variables_of_property(c, name)
     while word == "PROPERTY" and (part := _part(c)):
         c.take()
         own_access, _ = _modifiers(c)
@@ -278,6 +280,14 @@ def _property(
         _missing(c, "END_PROPERTY", what)
     c.accept(";")
     return found
+
+
+def _variables_of_property(c: Cursor, name: int) -> None:
+    """An empty `VAR END_VAR`, which one vendor's tool writes; no documentation tells what variables there would be."""
+    for section in parse_declaration.sections(c):
+        if section.variables:
+            message = f"Variables of PROPERTY {c.texts[name]} are not supported; declare them after GET or SET."
+            c.report("X001", message, section.span)
 
 
 def _part(c: Cursor) -> str:

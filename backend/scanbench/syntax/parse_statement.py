@@ -19,7 +19,6 @@ DECLARATIONS = frozenset(
 OPERATORS_WITH_NAME = ("S", "R", "REF")
 CHART = "write the steps of the chart (SFC) as a CASE"
 REFUSED = {
-    "JMP": "use IF and loops",
     "GOTO": "use IF and loops",
     "__TRY": "check before you compute; a trap stops the PLC",
     "TRY": "check before you compute; a trap stops the PLC",
@@ -92,6 +91,12 @@ def _simple(c: Cursor, name: bool) -> tree.Statement:
             c.take()
             c.close(";", "after CONTINUE")
             return tree.ContinueStatement(c.span_of(start))
+        if word == "JMP" and c.kinds[start + 1] is NAME and c.texts[start + 2] == ";":
+            c.at += 3
+            return tree.JumpStatement(c.texts[start + 1], c.span_of(start))
+        if c.texts[start + 1] == ":":
+            c.at += 2
+            return tree.LabelStatement(c.texts[start], c.span_of(start))
         _refused(c, word)
     target = expression(c)
     if c.accept(":="):
@@ -135,11 +140,6 @@ def _refused(c: Cursor, word: str) -> None:
     latched = c.word(1) in OPERATORS_WITH_NAME and c.texts[c.at + 2] == "="
     if word in REFUSED and (word[0] == "_" or (c.texts[c.at + 1] not in (";", "?=", "=", "^") and not latched)):
         c.report("X001", f"{word} is not supported; {REFUSED[word]}.", c.here())
-        raise Unexpected
-    if c.texts[c.at + 1] == ":":
-        message = f"`{c.texts[c.at]}:` is a label to jump to, which is not supported; use IF and loops."
-        c.report("X001", message, c.span_of(c.at))
-        c.at += 2
         raise Unexpected
 
 

@@ -520,7 +520,23 @@ class ReturnStatement:
     condition: Expression | None = None
 
 
+@node
+class LabelStatement:
+    """`name:`, where a jump leads to."""
+
+    name: str
+    span: Span
+
+
+@node
+class JumpStatement:
+    """`JMP name;`"""
+
+    name: str
+    span: Span
+
+
 Statement = (
     Assignment | ExpressionStatement | IfStatement | CaseStatement | ForStatement | WhileStatement
-    | RepeatStatement | ExitStatement | ContinueStatement | ReturnStatement
+    | RepeatStatement | ExitStatement | ContinueStatement | ReturnStatement | LabelStatement | JumpStatement
 )  # fmt: skip

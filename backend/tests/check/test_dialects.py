@@ -65,6 +65,10 @@ USES = [
     (Allowance.ARGUMENT_NAMES, "s := LEFT(IN := s, SIZE := 3);", "LEFT(L := ...)"),
     (Allowance.CHAINED_ASSIGNMENT, "i := j := 5;", "j := 5; i := j;"),
     (Allowance.RETURN_CONDITION, "RETURN(ok);", "IF ok THEN RETURN; END_IF"),
+    (Allowance.VENDOR_OPERATORS, "s := __POUNAME();", "'Main'"),
+    (Allowance.VENDOR_OPERATORS, "i := XSIZEOF(d);", "SIZEOF(...)"),
+    (Allowance.VENDOR_OPERATORS, "i := SIZEOF(POINTER TO INT);", "`8`"),
+    (Allowance.LABELS, "again: i := i + 1; IF i < j THEN JMP again; END_IF", "IF and loops"),
     (Allowance.BLOCK_VARIABLES, "i := unit.level;", "VAR_OUTPUT"),
 ]
 """What the strict language refuses, and a dialect allows; and what the warning says to write."""
@@ -130,7 +134,10 @@ def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refuse
         assert [each.code for each in found if each.severity is Severity.ERROR] == [code]
 
 
-APART = {Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES}
+APART = {
+    Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES, Allowance.VENDOR_TYPES,
+    Allowance.FINAL_INTERFACES,
+}  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 
 

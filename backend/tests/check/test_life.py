@@ -88,3 +88,21 @@ def test_a_block_whose_references_have_start_values_lasts_longer_than_a_call() -
     text = "FUNCTION_BLOCK Inner\nVAR x : INT; p : REF_TO INT := REF(x); END_VAR\nEND_FUNCTION_BLOCK\n"
     text += "FUNCTION f : INT\nVAR inner : Inner; END_VAR\nEND_FUNCTION\n" + main("")
     assert [code for code, _ in found(text, "codesys")] == ["D008"]
+
+
+@pytest.mark.parametrize(
+    ("body", "dialect", "code", "said"),
+    [
+        ("JMP there;", "iec", "X001", "JMP is not supported; use IF and loops."),
+        ("there: n := 1;", "iec", "X001", "`there:` is a label to jump to, which is not supported; use IF and loops."),
+        ("JMP there;", "codesys", "T001", "There is no label `there` to jump to"),
+        ("IF n > 1 THEN there: n := 1; END_IF JMP there;", "twincat", "X001", "The label `there` is inside of an IF"),
+        ("there: n := 1; there: n := 2;", "twincat", "D001", "`there` is declared already"),
+        ("n := __QUERYINTERFACE(n);", "twincat", "T004", "takes two arguments"),
+        ("n := __QUERYINTERFACE(n, n);", "iec", "X001", "`__QUERYINTERFACE` is not supported: use `?=`."),
+    ],
+)
+def test_jumps_and_operators_that_are_refused(body: str, dialect: DialectName, code: str, said: str) -> None:
+    problems = found(main("n : INT;", body), dialect)
+    assert problems[0][0] == code, problems
+    assert said in problems[0][1]

@@ -34,8 +34,6 @@ def test_statement(text: str, shown: str | None) -> None:
 
 
 REFUSED = [
-    ("JMP there;", "X001 2:1 JMP is not supported; use IF and loops."),
-    ("there: x := 1;", "X001 2:1 `there:` is a label to jump to, which is not supported; use IF and loops."),
     ("GOTO there;", "X001 2:1 GOTO is not supported; use IF and loops."),
     ("REGION Some name\n", "X001 2:1 REGION is not supported; remove it, and its END_REGION."),
     (

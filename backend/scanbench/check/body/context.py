@@ -101,6 +101,10 @@ class Body:
     """Control variables of the FOR loops around."""
     loops: int = 0
     """Loops around."""
+    labels: dict[str, int] = field(default_factory=dict)
+    """Blocks of statements that begin with a label, by its name in upper case."""
+    block: int = 0
+    """The number of the block that is being checked."""
     peeked: list[Span] = field(default_factory=list)
     """Variables of blocks that can be read from outside by the dialect only; nobody writes them there."""
     wide: dict[int, tuple[Expr, Expr]] = field(default_factory=dict)

@@ -1,6 +1,7 @@
 """Calls whose argument is not a value but a variable, an array or a type: REF, SIZEOF, UPPER_BOUND, SUBRANGE_ERROR and others."""
 
 from scanbench.check.body import fold
+from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.elements import array_bounds
@@ -8,11 +9,13 @@ from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.references import reference_type
 from scanbench.check.body.subrange_checks import as_written
 from scanbench.check.body.targets import note_written, writable
+from scanbench.check.body.vendor_forms import POINTER_TO, WHY, vendor_form
+from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.program.program import Base, Const, Expr, Load, RefOf, Violates
 from scanbench.program.shown import shown
 from scanbench.program.sites import CheckSite
-from scanbench.program.types import BOOL, DINT, LINT, NULL, UDINT, ArrayType, OpenArray, Reference, Subrange
+from scanbench.program.types import BOOL, DINT, LINT, NULL, SLOT_BYTES, UDINT, ArrayType, OpenArray, Reference, Subrange
 from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
 
@@ -88,12 +91,18 @@ def refer(body: Body, node: tree.Expression, pointer: bool = False) -> RefOf:
     return RefOf(place, reference_type(place.type, pointer))
 
 
-def _size_of(body: Body, node: tree.Call) -> Expr:
-    """`SIZEOF(variable or type)`, in bytes."""
+def _size_of(body: Body, node: tree.Call, name: str) -> Expr:
+    """`SIZEOF(variable or type)`, in bytes; of vendors also `XSIZEOF`, and of a `POINTER TO type`."""
+    if name == "XSIZEOF":
+        used(body, Allowance.VENDOR_OPERATORS, node.span, "`XSIZEOF` is SIZEOF", "`SIZEOF(...)`")
     values = [argument.value for argument in node.arguments if argument.value is not None]
     if len(values) != 1 or len(node.arguments) != 1:
         raise body.report.reject("T004", "`SIZEOF` takes one variable or type.", node.span)
     value = values[0]
+    if isinstance(value, tree.Name) and value.name == POINTER_TO:
+        if not allowed(body, Allowance.VENDOR_OPERATORS, node.span, "This is the size of a pointer", f"`{SLOT_BYTES}`"):
+            raise body.report.reject("T004", "`SIZEOF` takes one variable or type.", node.span)
+        return Const(ANY_INT, SLOT_BYTES)
     if isinstance(value, tree.Name) and body.scope.find(value.name) is None:
         return Const(ANY_INT, body.declarations.named(value.name, value.span).size)
     place, _ = body.place(value)
@@ -122,14 +131,17 @@ def form(body: Body, node: tree.Call) -> Expr | None:
     if not isinstance(node.callee, tree.Name):
         return None
     name = node.callee.name.upper()
-    if name not in FORMS or name in body.pous.functions or body.scope.find(name) is not None:
+    if name in WHY:
+        return vendor_form(body, node, name)
+    known = name in FORMS or (name == "XSIZEOF" and may(body, Allowance.VENDOR_OPERATORS))
+    if not known or name in body.pous.functions or body.scope.find(name) is not None:
         return None
     body.report.use(node.callee.span, name, Symbol("function", "", name))
     match name:
         case "REF" | "ADR":
             return _reference_to(body, node, name)
-        case "SIZEOF":
-            return _size_of(body, node)
+        case "SIZEOF" | "XSIZEOF":
+            return _size_of(body, node, name)
         case "LOWER_BOUND" | "UPPER_BOUND":
             return _bound_of(body, node, name == "UPPER_BOUND")
         case "__ISVALIDREF":

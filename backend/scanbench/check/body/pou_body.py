@@ -7,12 +7,13 @@ from scanbench.check.body.by_value import around
 from scanbench.check.body.context import Body
 from scanbench.check.body.edges import edges
 from scanbench.check.body.il import InstructionList
+from scanbench.check.body.jumps import parted
 from scanbench.check.body.notes import SUFFIX as NOTE
 from scanbench.check.body.redundant_checks import without_needless
 from scanbench.check.body.statements import block
 from scanbench.check.declare.scopes import decode, place_of
 from scanbench.check.life.start import Writer
-from scanbench.program.program import Assign, Base, SetBytes, Stmt
+from scanbench.program.program import Assign, Base, Blocks, SetBytes, Stmt
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Section, StringType, has_instance
 from scanbench.syntax import tree
@@ -24,12 +25,22 @@ def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody) -> t
     prologue, checks = _prologue(body), len(body.report.checks)
     if body.pou is not None and body.pou.kind != "function":
         prologue += edges(body.pou.instance)
-    made = InstructionList(body, written).statements() if isinstance(written, tree.IlBody) else block(body, written)
+    made = InstructionList(body, written).statements() if isinstance(written, tree.IlBody) else _text(body, written)
     if len(body.report.checks) > checks:
         made = without_needless(body.report, tuple(made))
     if body.pou is not None and body.pou.kind == "function_block":
         made = around(body.pou.instance, tuple(made), partial(_not_connected, body))
     return (*prologue, *made)
+
+
+def _text(body: Body, written: tuple[tree.Statement, ...]) -> tuple[Stmt, ...]:
+    """Structured Text; with labels, one `Blocks`."""
+    parts = parted(body, written)
+    made = []
+    for number, part in enumerate(parts):
+        body.block = number
+        made.append(block(body, part))
+    return made[0] if len(made) == 1 else (Blocks(tuple(made), written[0].span),)
 
 
 def _not_connected(body: Body, member: Member) -> int:

@@ -10,6 +10,7 @@ from scanbench.check.body.bare import bare_call
 from scanbench.check.body.calls import call_statement
 from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
+from scanbench.check.body.jumps import jump
 from scanbench.check.body.lenient import unsigned
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.body.unreached import never_chosen, unreached
@@ -23,6 +24,7 @@ from scanbench.program.program import (
     Expr,
     For,
     If,
+    Jump,
     Limit,
     Place,
     Repeat,
@@ -85,6 +87,8 @@ def statement(body: Body, node: tree.Statement) -> Stmt | None:
             return Continue(span)
         case tree.ReturnStatement():
             return _return(body, node)
+        case tree.LabelStatement() | tree.JumpStatement():
+            return jump(body, node)
 
 
 def _return(body: Body, node: tree.ReturnStatement) -> Stmt:
@@ -258,7 +262,7 @@ def _leaves(statements: tuple[Stmt, ...], outer: bool) -> bool:
             case Exit():
                 if outer:
                     return True
-            case Return():
+            case Return() | Jump():
                 return True
             case If(branches, orelse):
                 if any(_leaves(inner, outer) for _, inner in branches) or _leaves(orelse, outer):

@@ -7,6 +7,7 @@ from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
+from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.program.program import Pou
 from scanbench.program.types import UDINT, Kind, Member, Record, Reference, Section
@@ -200,6 +201,10 @@ def collect(declarations: Declarations) -> Classes:
 def _link(owner: Class, classes: Classes, declarations: Declarations) -> None:
     declaration = owner.declaration
     extends = [(parent, "EXTENDS") for parent in declaration.extends]
+    if (
+        Allowance.VENDOR_OPERATORS in declarations.dialect.allows
+    ):  # what asks for an interface needs no base for it here
+        extends = [(parent, word) for parent, word in extends if parent.name.upper() != "__SYSTEM.IQUERYINTERFACE"]
     for named, keyword in [*extends, *((parent, "IMPLEMENTS") for parent in declaration.implements)]:
         try:
             parent = _parent(named, keyword, owner, classes, declarations)

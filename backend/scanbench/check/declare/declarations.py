@@ -9,6 +9,7 @@ from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.creations import Creations
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified
+from scanbench.check.declare.vendor_types import vendor_type
 from scanbench.check.dialect import IEC, Dialect
 from scanbench.check.libraries.catalogue import where_declared
 from scanbench.check.uses import Symbol
@@ -97,7 +98,11 @@ class Declarations:
         key = name.upper()
         if key in TYPE_NAMES:
             return TYPE_NAMES[key]
-        key = self.find_type(name, span) or key
+        found = self.find_type(name, span)
+        vendor = None if found is not None else vendor_type(self.report, self.dialect, name, span)
+        if vendor is not None:
+            return vendor
+        key = found or key
         self._note(name, key, span)
         if key in self.types:
             return self.types[key]

@@ -235,8 +235,8 @@ class Statements(Expressions):
                 end = body(instance)
                 if end == EXIT:
                     return GO_ON
-                if end == RETURN:
-                    return RETURN
+                if end >= RETURN:
+                    return end
                 if not condition(instance):
                     return GO_ON
 
@@ -251,8 +251,8 @@ class Statements(Expressions):
                 end = body(instance)
                 if end == EXIT:
                     return GO_ON
-                if end == RETURN:
-                    return RETURN
+                if end >= RETURN:
+                    return end
                 if until(instance):
                     return GO_ON
 
@@ -284,8 +284,8 @@ class Statements(Expressions):
                 how = body(instance)
                 if how == EXIT:
                     return GO_ON
-                if how == RETURN:
-                    return RETURN
+                if how >= RETURN:
+                    return how
                 counter += by
             store(instance, min(max(wrap(counter), low), high))
             return GO_ON

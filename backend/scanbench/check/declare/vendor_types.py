@@ -1,0 +1,30 @@
+"""Base types of vendors, as they are on a controller of 64 bits."""
+
+from scanbench.check.context import Report
+from scanbench.check.dialect import RULES, Allowance, Dialect
+from scanbench.problems import Span
+from scanbench.program.types import BYTE, LINT, LWORD, SLOT_BYTES, ULINT, Elementary, Kind, Reference
+
+VENDOR_TYPES: dict[str, Elementary] = {
+    "XINT": LINT,
+    "__XINT": LINT,
+    "UXINT": ULINT,
+    "__UXINT": ULINT,
+    "XWORD": LWORD,
+    "__XWORD": LWORD,
+    "PVOID": Reference("POINTER TO BYTE", Kind.REF, SLOT_BYTES, BYTE, pointer=True),
+}
+
+
+def vendor_type(report: Report, dialect: Dialect, name: str, span: Span) -> Elementary | None:
+    """The type of this name, where the dialect has it."""
+    made = VENDOR_TYPES.get(name.upper())
+    if made is None or Allowance.VENDOR_TYPES not in dialect.allows:
+        return None
+    rule, used = RULES[Allowance.VENDOR_TYPES], f"`{name}` is {made.name} on a controller of 64 bits"
+    report.warn(
+        "W006",
+        f"{used}. {dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: `{made.name}`.",
+        span,
+    )
+    return made
