@@ -5,19 +5,22 @@ from pathlib import Path
 
 import pytest
 
+from scanbench.check.build import check_sources
+from scanbench.check.incremental import Checks
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.frames import frame_name
 from scanbench.recording.replay_file import replay_file
 from scanbench.runtime.command import Entry
-from scanbench.runtime.programs import EngineFactory
+from scanbench.runtime.programs import EngineFactory, Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
+from scanbench.syntax.language_file import with_dialect
 from scanbench.wire.codec import ENTRIES
 from tests.debug.test_walks import ENGINES as DEBUG_ENGINES
 from tests.debug.walking import MakeDebug, Walker
 from tests.recording.recorded import of_file
-from tests.runtime.bench import CODESYS, ENGINES, change, plc, program, value
+from tests.runtime.bench import CODESYS, ENGINES, change, model, plc, program, value
 
 LIFE = f"""{CODESYS}FUNCTION_BLOCK Unit
 VAR inits, changes, given : INT; new, moved : BOOL; END_VAR
@@ -128,3 +131,18 @@ def test_a_halt_inside_of_fb_init_and_back_shows_what_forward_showed(make: MakeD
     walker.close()
     again = replay_file(tmp_path / "a.run", of_file, ENTRIES, scan)
     assert (again.scan, again.hash) == (scan, state)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_check_of_an_edit_makes_the_same_program(engine: EngineFactory) -> None:
+    sources = with_dialect({"main.st": LIFE}, "codesys")
+    edited = {**sources, "main.st": LIFE.replace("n := n + 1;", "n := n + 2;")}
+    checks = Checks()
+    checks.check(sources, model(), 10_000_000)
+    images = []
+    for made in (checks.check(edited, model(), 10_000_000), check_sources(edited, model())):
+        assert made.program is not None
+        resource = Resource(Loaded.make(made.program, engine))
+        resource.run(3)
+        images.append(bytes(resource.state))
+    assert images[0] == images[1]
