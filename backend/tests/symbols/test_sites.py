@@ -19,7 +19,7 @@ from tests.caseformat import MODELS, Case, project_of, read_cases
 CASES = Path(__file__).parent.parent / "cases"
 STATEMENTS = (
     tree.Assignment, tree.ExpressionStatement, tree.IfStatement, tree.CaseStatement, tree.ForStatement, tree.WhileStatement,
-    tree.RepeatStatement, tree.ExitStatement, tree.ContinueStatement, tree.ReturnStatement,
+    tree.RepeatStatement, tree.ExitStatement, tree.ContinueStatement, tree.ReturnStatement, tree.JumpStatement,
 )  # fmt: skip
 MODEL: Model = MODELS["GENERIC-IEC"]
 Start = tuple[str, int, int]

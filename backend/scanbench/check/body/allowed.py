@@ -1,11 +1,8 @@
 """What only the dialect of the project allows: each use is told with W006, and says how a strict program writes the same."""
 
 from scanbench.check.body.context import Body
-from scanbench.check.dialect import RULES, Allowance
+from scanbench.check.dialect import Allowance, said
 from scanbench.problems import Span
-
-MORE = ""
-"""Where `folding.py` adds how many more places there are: part of the sentence, so that it is translated with it."""
 
 
 def may(body: Body, allowance: Allowance) -> bool:
@@ -15,12 +12,7 @@ def may(body: Body, allowance: Allowance) -> bool:
 
 def used(body: Body, allowance: Allowance, span: Span, what: str, instead: str = "") -> None:
     """Tells that something was used which only the dialect allows. `what` is it, `instead` the strict way to write it."""
-    rule = RULES[allowance]
-    body.report.warn(
-        "W006",
-        f"{what}. {body.dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {instead or rule.instead}.{MORE}",
-        span,
-    )
+    body.report.warn("W006", said(body.dialect, allowance, what, instead), span)
 
 
 def allowed(body: Body, allowance: Allowance, span: Span, what: str, instead: str = "") -> bool:

@@ -6,7 +6,7 @@ from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Classes, Method
 from scanbench.check.declare.creations import FB_INIT, LIFE_CYCLE
 from scanbench.check.declare.life_rules import check_life_method
-from scanbench.check.dialect import RULES, Allowance, Dialect
+from scanbench.check.dialect import Allowance, Dialect, said
 from scanbench.problems import Span
 from scanbench.program.types import ArrayType, Member, Record, Section, Type
 
@@ -65,13 +65,8 @@ def _check_method(method: Method, report: Report, dialect: Dialect) -> None:
             report.error("D014", f"`{method.name}` has nothing to OVERRIDE.{hint}", declaration.span)
         return
     if "FINAL" in above.declaration.modifiers and above.owner.kind == "interface" and in_interfaces(dialect):
-        rule = RULES[Allowance.FINAL_INTERFACES]
-        report.warn(
-            "W006",
-            f"`{above.name}` is FINAL, but of an INTERFACE. {dialect.title} allows this; in IEC 61131-3 {rule.strict}. "
-            f"The strict way: {rule.instead}.",
-            above.declaration.span,
-        )
+        used = f"`{above.name}` is FINAL, but of an INTERFACE"
+        report.warn("W006", said(dialect, Allowance.FINAL_INTERFACES, used), above.declaration.span)
     elif "FINAL" in above.declaration.modifiers:
         report.error("D014", f"`{above.name}` is FINAL and cannot be overridden.", declaration.span)
     if above.declaration.access == "PRIVATE":

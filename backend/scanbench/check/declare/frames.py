@@ -7,7 +7,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.kept import is_kept
 from scanbench.check.declare.members import declare, default_of
 from scanbench.check.declare.names import qualified
-from scanbench.check.dialect import RULES, Allowance
+from scanbench.check.dialect import Allowance, said
 from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type, has_instance
 from scanbench.syntax import tree
 
@@ -86,13 +86,8 @@ def _temporary_block(declared: Declarations, member: Member, where: str) -> None
             "D008", f"An instance of {member.type.name} must keep its state; not in a {where}.", member.span
         )
         return
-    rule = RULES[Allowance.BLOCK_TEMPORARIES]
     used = f"`{member.name}` is initialised at each call of this {where}"
-    declared.report.warn(
-        "W006",
-        f"{used}. {declared.dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {rule.instead}.",
-        member.span,
-    )
+    declared.report.warn("W006", said(declared.dialect, Allowance.BLOCK_TEMPORARIES, used), member.span)
 
 
 def _parts(type: Type) -> Iterator[Record]:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import Space, qualified
-from scanbench.check.dialect import RULES, Allowance
+from scanbench.check.dialect import Allowance, said
 from scanbench.program.program import Base
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
@@ -62,13 +62,8 @@ def _name(method: tree.PouDeclaration, variable: tree.Variable) -> str:
 
 
 def _tell(declared: Declarations, section: tree.VariableSection) -> None:
-    rule = RULES[Allowance.KEPT_VARIABLES]
     used = f"{section.kept} keeps its variables between calls"
-    declared.report.warn(
-        "W006",
-        f"{used}. {declared.dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {rule.instead}.",
-        section.span,
-    )
+    declared.report.warn("W006", said(declared.dialect, Allowance.KEPT_VARIABLES, used), section.span)
 
 
 def kept_of(

@@ -3,7 +3,7 @@
 from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Method
 from scanbench.check.declare.creations import FB_EXIT, FB_INIT, inputs_of, is_called
-from scanbench.check.dialect import RULES, Allowance, Dialect
+from scanbench.check.dialect import MORE, Allowance, Dialect, said
 from scanbench.syntax import tree
 
 RETAINS, COPY = "BINITRETAINS", "BINCOPYCODE"
@@ -14,23 +14,19 @@ GIVEN = (RETAINS, COPY)
 def check_life_method(method: Method, report: Report, dialect: Dialect) -> None:
     """Tells of a method that runs by itself, and what is wrong with its inputs."""
     declaration = method.declaration
-    name, what, rule = declaration.name.upper(), f"`{method.name}`", RULES[Allowance.LIFE]
+    name, what = declaration.name.upper(), f"`{method.name}`"
     if name == FB_EXIT:
         report.warn(
             "W006",
             f"{what} is not called by itself here: nothing outside of the program is to be released, and a restart or a program "
-            "change replaces the whole memory. Call it yourself where it has to run.",
+            f"change replaces the whole memory. Call it yourself where it has to run.{MORE}",
             declaration.span,
         )
         return
     if not is_called(declaration):
         return
     used = f"{what} is called when an instance is initialised"
-    report.warn(
-        "W006",
-        f"{used}. {dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {rule.instead}.",
-        declaration.span,
-    )
+    report.warn("W006", said(dialect, Allowance.LIFE, used), declaration.span)
     names = {each.name.upper() for _, each in inputs_of(declaration)}
     if name == FB_INIT:
         _check_inputs(method, names, report)

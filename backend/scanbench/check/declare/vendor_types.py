@@ -1,7 +1,7 @@
 """Base types of vendors, as they are on a controller of 64 bits."""
 
 from scanbench.check.context import Report
-from scanbench.check.dialect import RULES, Allowance, Dialect
+from scanbench.check.dialect import Allowance, Dialect, said
 from scanbench.problems import Span
 from scanbench.program.types import BYTE, LINT, LWORD, SLOT_BYTES, ULINT, Elementary, Kind, Reference
 
@@ -21,10 +21,6 @@ def vendor_type(report: Report, dialect: Dialect, name: str, span: Span) -> Elem
     made = VENDOR_TYPES.get(name.upper())
     if made is None or Allowance.VENDOR_TYPES not in dialect.allows:
         return None
-    rule, used = RULES[Allowance.VENDOR_TYPES], f"`{name}` is {made.name} on a controller of 64 bits"
-    report.warn(
-        "W006",
-        f"{used}. {dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: `{made.name}`.",
-        span,
-    )
+    used = f"`{name}` is {made.name} on a controller of 64 bits"
+    report.warn("W006", said(dialect, Allowance.VENDOR_TYPES, used, f"`{made.name}`"), span)
     return made
