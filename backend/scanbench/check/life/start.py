@@ -13,7 +13,6 @@ from scanbench.check.declare.scopes import decode
 from scanbench.check.life.code import Code
 from scanbench.check.life.explicit import Explicit, explicit
 from scanbench.check.life.needs import has_made
-from scanbench.check.life.numbers import number_of
 from scanbench.problems import Span
 from scanbench.program.program import (
     Assign,
@@ -167,8 +166,8 @@ class Writer:
         again = (
             [] if reinit is None or reinit.pou is None or reinit.abstract else self._call(reinit.pou, place, (), span)
         )
-        changed = [*again, Assign(made, Const(ULINT, number_of(type)), span)]
-        differs = Compare("ne", BOOL, Load(made), Const(ULINT, number_of(type)))
+        changed = [*again, Assign(made, Const(ULINT, self.code.numbers.of(type)), span)]
+        differs = Compare("ne", BOOL, Load(made), Const(ULINT, self.code.numbers.of(type)))
         known: list[Stmt] = [*looks, If(((differs, tuple(changed)),), (), span)]
         is_new = Compare("eq", BOOL, Load(made), Const(ULINT, 0))
         new = [*self.start(place, type, owner, arguments, span), *self._after(place, type, span)]
@@ -182,7 +181,7 @@ class Writer:
         given = [*self._passed_on(SYSTEM_INPUTS, span), *self._given(owner, arguments, span)]
         made = self._call(callee, place, given, span)
         if has_made(type):
-            made.append(Assign(self._made(place, type, span), Const(ULINT, number_of(type)), span))
+            made.append(Assign(self._made(place, type, span), Const(ULINT, self.code.numbers.of(type)), span))
         return made
 
     def _made(self, place: Place, type: Record, span: Span) -> Place:

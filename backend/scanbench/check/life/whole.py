@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from scanbench.check.declare.scopes import Pous, place_of
 from scanbench.check.life.code import Code
 from scanbench.check.life.make import GLOBALS, NOWHERE
-from scanbench.check.life.numbers import joined, number_of
+from scanbench.check.life.numbers import joined
 from scanbench.program.program import (
     Assign,
     Base,
@@ -42,8 +42,8 @@ class Whole:
 
     def write(self, instances: Sequence[ProgramInstance]) -> None:
         """Its body, when all instances have their places: global variables come first, then the programs."""
-        parts = [f"{each.name} {number_of(each.pou.instance)}" for each in instances]
-        number = joined([str(number_of(self.globals)), *parts])
+        parts = [f"{each.name} {self.code.numbers.of(each.pou.instance)}" for each in instances]
+        number = joined([str(self.code.numbers.of(self.globals)), *parts])
         version, kept = (self._place(name) for name in ("version", "kept"))
         first = Unary("not", BOOL, Load(kept))
         off: Expr = Const(BOOL, 0)
