@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.check.build import check_sources
+from scanbench.check.build import check_sources, program_files
 from scanbench.check.incremental import Checks
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
@@ -27,7 +27,7 @@ Start = tuple[str, int, int]
 
 
 def sources(case: Case) -> dict[str, str]:
-    return {"case.st": case.source, **case.files}
+    return program_files(project_of(case))
 
 
 def written(node: object, used: set[str]) -> Iterator[tree.Statement | tree.IlInstruction]:
