@@ -19,6 +19,7 @@ from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
+from scanbench.web.compressed import compressed
 from scanbench.web.headers import NoStore
 from scanbench.web.invalid import said
 from scanbench.web.operations import Api, operation_id
@@ -85,7 +86,7 @@ def create_app(config: Config) -> ASGIApp:
     app = bare_app()
     app.router.lifespan_context = lifespan
     app.add_middleware(Guard, gate=config.gate)
-    return NoStore(Spoken(app))  # Starlette answers to a bug outside of what is added to it
+    return NoStore(compressed(Spoken(app)))  # Starlette answers to a bug outside of what is added to it
 
 
 def bare_app() -> FastAPI:

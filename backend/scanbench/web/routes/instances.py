@@ -15,6 +15,7 @@ from scanbench.symbols.rack import INPUT, OUTPUT
 from scanbench.web import messages as wire
 from scanbench.web import messages_values, translate
 from scanbench.web.auth import user_of
+from scanbench.web.compressed import AS_IT_IS
 from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
@@ -87,8 +88,9 @@ async def on_export(bench: Bench, request: Request, instance: Id, scan: Scan | N
     name = f"{bench.session(instance).name}.scanrun"
     path = await bench.export(instance, scan, user_of(request).name)
     return FileResponse(
-        path, media_type="application/octet-stream", filename=name, background=BackgroundTask(path.unlink)
-    )
+        path, media_type="application/octet-stream", filename=name, headers=AS_IT_IS,
+        background=BackgroundTask(path.unlink),
+    )  # fmt: skip
 
 
 @router.post("/instances/import", status_code=201)
