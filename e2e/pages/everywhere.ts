@@ -1,6 +1,7 @@
 /** Every panel and page, in each language. */
 import { expect, type Locator, type Page } from '@playwright/test';
 import type { Ide } from './ide';
+import { toFront } from './tabs';
 
 export const LANGUAGES = ['en', 'ja'] as const;
 
@@ -29,6 +30,53 @@ export const DEVICE_PAGES = {
   en: ['Edit what hardware is fitted', "Show the PLC's own errors"],
   ja: ['実装ハードウェアを編集', 'PLC自身の異常を表示'],
 };
+
+const HELP = { en: 'Contents of the help', ja: 'ヘルプの目次' };
+const PICKER = {
+  en: ['Project and instance', 'Compare runs…'],
+  ja: ['プロジェクトとインスタンス', '実行を比較…'],
+} as const;
+
+/** All pages, each with what opens it. */
+export function pagesOf(ide: Ide, language: (typeof LANGUAGES)[number]): { name: string; open: () => Promise<void> }[] {
+  const { page } = ide;
+  const [picker, compare] = PICKER[language];
+  return [
+    ...[...PAGES[language], ...DEVICE_PAGES[language], HELP[language]].map((name) => ({
+      name,
+      open: () => run(page, name),
+    })),
+    {
+      name: compare,
+      open: async () => {
+        await page.getByRole('button', { name: picker }).click();
+        await page.getByRole('menuitem', { name: compare }).click();
+        await expect(page.locator('[data-pane=compare]')).toBeVisible();
+      },
+    },
+    {
+      name: 'Operation.panel.json',
+      open: async () => {
+        await page.keyboard.press('Control+P');
+        await page.getByRole('dialog').getByRole('combobox').fill('Operation');
+        await page
+          .getByRole('option', { name: /^Operation/ })
+          .first()
+          .click();
+        await expect(page.locator('[data-pane=operator]')).toBeVisible();
+      },
+    },
+    {
+      name: 'calls',
+      open: async () => {
+        await toFront(page.getByRole('tab', { name: /^Main[.]st/ }));
+        await ide.goToPane('editor');
+        await page.keyboard.press('Shift+Alt+H');
+        await expect(page.locator('[data-pane=calls]')).toBeVisible();
+      },
+    },
+  ];
+}
 
 /** As if it had been chosen in the menu, whose words are different ones in each language. */
 export async function prefer({ page, top }: Ide, prefs: { language: string; theme: string }): Promise<void> {

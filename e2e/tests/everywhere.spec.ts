@@ -1,7 +1,7 @@
 import AxeBuilder from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, test } from '../fixtures/test';
-import { DEVICE_PAGES, eachPanel, LANGUAGES, PAGES, prefer, run } from '../pages/everywhere';
+import { eachPanel, LANGUAGES, pagesOf, prefer } from '../pages/everywhere';
 import type { Ide } from '../pages/ide';
 
 const THEMES = ['dark', 'light', 'contrast'];
@@ -20,9 +20,9 @@ for (const language of LANGUAGES) {
           expect.soft(await findings(mika.page, theme !== THEMES[0]), panel).toEqual([]);
         };
         await eachPanel(mika.page, look);
-        for (const page of PAGES[language]) {
-          await run(mika.page, page);
-          await look(page);
+        for (const { name, open } of pagesOf(mika, language)) {
+          await open();
+          await look(name);
         }
       });
     }
@@ -51,9 +51,9 @@ for (const language of LANGUAGES) {
       reached.add(await mika.focusedPane());
     }
     expect(reached.size).toBe(panes);
-    for (const page of [...PAGES[language], ...DEVICE_PAGES[language]]) {
-      await run(mika.page, page);
-      expect.soft(await sideways(), page).toBeLessThanOrEqual(0);
+    for (const { name, open } of pagesOf(mika, language)) {
+      await open();
+      expect.soft(await sideways(), name).toBeLessThanOrEqual(0);
     }
   });
 }
