@@ -133,3 +133,25 @@ for (const { name, texts, delay, formatting } of [
     }).toPass();
   });
 }
+
+test('lines typed without blanks are indented by their blocks, and the keywords of a block are marked', {
+  tag: '@nightly',
+}, async ({ openAs, server }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const { keyboard } = mika.page;
+  const main = mika.editor('Main.st');
+  await main.replaceWith('PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\n  n := n + 1;');
+  await keyboard.type(
+    '\nIF n > 2 THEN\nn := 0;\n\nELSE\nCASE n OF\n1:\nn := 2;\nEND_CASE;\nelsewhere := 1;\nEND_IF;\nEND_PROGRAM\n',
+  );
+  await expect(main.stored(server)).resolves.toBe(
+    'PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\n  n := n + 1;\n  IF n > 2 THEN\n    n := 0;\n\n  ELSE\n    CASE n OF\n      1:\n        n := 2;\n' +
+      '    END_CASE;\n    elsewhere := 1;\n  END_IF;\nEND_PROGRAM\n',
+  );
+  await main
+    .line('END_IF')
+    .first()
+    .click({ position: { x: 20, y: 8 } });
+  await expect(main.region.locator('.wordHighlightText')).toHaveCount(3);
+});

@@ -70,6 +70,8 @@ function paint(): void {
       "editorSuggestWidget.focusHighlightForeground": token("accent"),
       "editorSuggestWidget.selectedBackground": token("accent-soft"),
       "editorSuggestWidget.selectedForeground": token("text"),
+      "editorCodeLens.foreground": token("code-comment"),
+      "editorLink.activeForeground": token("accent"),
       "editorInlayHint.foreground": token("code-comment"),
       "editorInlayHint.background": "#00000000",
       "editorError.foreground": token("severity-error"),
@@ -169,7 +171,7 @@ export const options: editor.IStandaloneEditorConstructionOptions = {
   wordBasedSuggestions: "off",
   quickSuggestions: { other: true, comments: false, strings: false },
   acceptSuggestionOnCommitCharacter: false,
-  // The editor inserts only what is typed: it completes, closes and indents nothing unless somebody asks for it (`tab.ts`).
+  // The editor inserts only what is typed: it completes and closes nothing unless somebody asks for it. `indent.ts` indents.
   suggest: { selectionMode: "never" },
   autoClosingBrackets: "never",
   autoClosingQuotes: "never",

@@ -1,0 +1,41 @@
+/** The indentation that a line has by the lines above it: after Enter, and where it ends a block. */
+
+/** The text of a line, which counts from 1. */
+export type LineOf = (line: number) => string;
+
+/** What the layout puts one level deeper than the line itself; the body of a POU begins where its sections do. */
+const OPENS =
+  /(\b(THEN|DO|ELSE|REPEAT|STRUCT|UNION|TYPE)|^\s*CASE\b.*\bOF|^\s*VAR(_\w+)?\b(?!.*\bEND_VAR\b).*|:)\s*$|^\s*(NAMESPACE|CONFIGURATION|RESOURCE|INTERFACE)\b(?!.*\bEND_)/i;
+const ENDS = /^\s*(?:END_(\w+)|(ELSE|ELSIF)|(UNTIL))(?!\w)/i;
+
+export const blanksOf = (text: string) => /^[ \t]*/.exec(text)?.[0] ?? "";
+
+/** A line without its comments and strings, as far as they are in this line. */
+const codeOf = (text: string) => text.replace(/\(\*.*?(\*\)|$)|\/\/.*$|'(\$.|[^'$])*('|$)/g, "");
+
+/** For a new line: that of the one above which has text, one level deeper if that begins something. */
+export function indentAfter(lineOf: LineOf, line: number, unit: string): string {
+  for (let above = line - 1; above > 0; above -= 1) {
+    const text = lineOf(above);
+    if (text.trim() !== "") return blanksOf(text) + (OPENS.test(codeOf(text)) ? unit : "");
+  }
+  return "";
+}
+
+/** That of the line whose block this line ends or goes on with; null where it does neither, or nothing is open. */
+export function indentOfOpener(lineOf: LineOf, line: number): string | null {
+  const [, end, branch, until] = ENDS.exec(lineOf(line)) ?? [];
+  const words = end ? [end] : branch ? (/^ELSE$/i.test(branch) ? ["IF", "CASE"] : ["IF"]) : until ? ["REPEAT"] : [];
+  if (words.length === 0) return null;
+  const closes = new RegExp(`\\bEND_(${words.join("|")})\\b`, "i");
+  const opens = new RegExp(`(^|:)\\s*(${words.join("|")}${end?.toUpperCase() === "VAR" ? "(_\\w+)?" : ""})\\b`, "i");
+  let inner = 0;
+  for (let above = line - 1; above > 0; above -= 1) {
+    const code = codeOf(lineOf(above));
+    const closed = closes.test(code);
+    const opened = opens.test(code);
+    if (opened && !closed && inner === 0) return blanksOf(lineOf(above));
+    if (closed !== opened) inner += closed ? 1 : -1;
+  }
+  return null;
+}
