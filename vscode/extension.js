@@ -7,6 +7,20 @@ const LANGUAGES = ['iec61131', 'st', 'structured-text', '61131-3-st'];
 
 let client;
 
+/** A command that shows the places which the language server counted, with its arguments: a document and a position. */
+const lists = (command, method, more) =>
+  vscode.commands.registerCommand(command, async (uri, position) => {
+    const found = await client.sendRequest(method, { textDocument: { uri }, position, ...more });
+    const { asPosition, asLocation } = client.protocol2CodeConverter;
+    const places = found.map(asLocation);
+    await vscode.commands.executeCommand(
+      'editor.action.showReferences',
+      vscode.Uri.parse(uri),
+      asPosition(position),
+      places,
+    );
+  });
+
 exports.activate = async (context) => {
   context.subscriptions.push(
     vscode.debug.registerDebugAdapterDescriptorFactory('scanbench', {
@@ -19,7 +33,14 @@ exports.activate = async (context) => {
     'scanbench',
     'Scanbench',
     { command: setting('command'), args: ['lsp'] },
-    { documentSelector: LANGUAGES.map((language) => ({ scheme: 'file', language })) },
+    {
+      documentSelector: LANGUAGES.map((language) => ({ scheme: 'file', language })),
+      initializationOptions: { lists: true, embeddedChecks: setting('embeddedChecks') === true },
+    },
+  );
+  context.subscriptions.push(
+    lists('scanbench.showInstances', 'scanbench/instances', {}),
+    lists('scanbench.showReferences', 'textDocument/references', { context: { includeDeclaration: false } }),
   );
   try {
     await client.start();

@@ -99,6 +99,7 @@ async def measured(folder: Path) -> dict[str, dict[str, float]]:
         "kinds of names": lambda: client.text_document_semantic_tokens_range_async(
             types.SemanticTokensRangeParams(doc, screen)
         ),
+        "numbers above a screen": lambda: numbers(client, doc, screen),
         "symbols of the file": lambda: client.text_document_document_symbol_async(types.DocumentSymbolParams(doc)),
         "formatting": lambda: client.text_document_formatting_async(
             types.DocumentFormattingParams(doc, types.FormattingOptions(2, True))
@@ -113,6 +114,14 @@ async def measured(folder: Path) -> dict[str, dict[str, float]]:
     await client.shutdown_session()
     await client.stop()  # type: ignore[no-untyped-call]  # pygls
     return found
+
+
+async def numbers(client: LanguageClient, doc: types.TextDocumentIdentifier, screen: types.Range) -> None:
+    """Lists the lenses of a document, and counts those that are on the screen, as an editor does."""
+    found = await client.text_document_code_lens_async(types.CodeLensParams(doc)) or []
+    seen = [each for each in found if screen.start.line <= each.range.start.line < screen.end.line]
+    for each in seen:
+        await client.code_lens_resolve_async(each)
 
 
 def memory(pid: int) -> float:

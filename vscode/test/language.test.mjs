@@ -44,3 +44,26 @@ test('a command that cannot be started is told with what to do', async () => {
   await extension.activate({ subscriptions: [] });
   assert.match(shown.at(-1), /could not be started with \/nowhere\/scanbench lsp\. Set scanbench\.command/);
 });
+
+test('the number above a block lists what it counts', async () => {
+  const { extension, opened, providers, commands, executed, firstProblems, Uri } = load({
+    command: COMMAND,
+    languageServer: true,
+  });
+  await extension.activate({ subscriptions: [] });
+  const text =
+    'FUNCTION_BLOCK Adder\nVAR_INPUT by : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Adding\nVAR a, b : Adder; END_VAR\na(by := 1;\nEND_PROGRAM\n';
+  const document = { uri: Uri.file(join(HERE, 'lens.st')), languageId: 'iec61131', version: 1, getText: () => text };
+  const first = firstProblems();
+  opened.fire(document);
+  await first;
+  const token = { isCancellationRequested: false, onCancellationRequested: () => ({ dispose() {} }) };
+  const [, lens] = await providers.lenses.provideCodeLenses(document, token);
+  const { command } = await providers.lenses.resolveCodeLens(lens, token);
+  assert.equal(`${command.title} ${command.command}`, 'at least 1 reference scanbench.showReferences');
+  await commands[command.command](...command.arguments);
+  const [name, uri, position, places] = executed.at(-1);
+  assert.deepEqual([name, String(uri), position.line], ['editor.action.showReferences', String(document.uri), 0]);
+  assert.equal(places.length, 1);
+  await extension.deactivate();
+});

@@ -56,6 +56,18 @@ class Place {
   }
 }
 
+class Range {
+  constructor(line, character, endLine, endCharacter) {
+    Object.assign(this, { start: new Place(line, character), end: new Place(endLine, endCharacter) });
+  }
+}
+
+class CodeLens {
+  constructor(range) {
+    this.range = range;
+  }
+}
+
 /** Loads the extension into such a VS Code. `settings` are those of Scanbench. */
 exports.load = (settings) => {
   const opened = new EventEmitter();
@@ -63,12 +75,16 @@ exports.load = (settings) => {
   const found = new EventEmitter();
   const shown = [];
   const started = [];
+  const commands = {};
+  const executed = [];
   const vscode = anything({
     version: '1.85.0',
     Disposable,
     EventEmitter,
     Uri,
     Position: Place,
+    Range,
+    CodeLens,
     DebugAdapterExecutable: class {
       constructor(command, args) {
         Object.assign(this, { command, args });
@@ -80,6 +96,13 @@ exports.load = (settings) => {
       dispose() {}
     },
     env: anything({ language: 'en', appName: 'test' }),
+    commands: anything({
+      registerCommand: (name, run) => {
+        commands[name] = run;
+        return new Disposable();
+      },
+      executeCommand: async (...what) => executed.push(what),
+    }),
     debug: anything({ registerDebugAdapterDescriptorFactory: (type, factory) => started.push([type, factory]) }),
     workspace: anything({
       workspaceFolders: undefined,
@@ -96,6 +119,10 @@ exports.load = (settings) => {
         clear() {},
         dispose() {},
       }),
+      registerCodeLensProvider: (_, provider) => {
+        providers.lenses = provider;
+        return new Disposable();
+      },
       registerHoverProvider: (_, provider) => {
         providers.hover = provider;
         return new Disposable();
@@ -117,5 +144,5 @@ exports.load = (settings) => {
   const extension = require('../extension.js');
   const once = () =>
     new Promise((resolve) => found.event(({ uri, problems }) => problems?.length && resolve({ uri, problems })));
-  return { extension, opened, providers, shown, started, Uri, Place, firstProblems: once };
+  return { extension, opened, providers, commands, executed, shown, started, Uri, Place, firstProblems: once };
 };

@@ -245,6 +245,21 @@ def test_arguments_show_their_parameters(folder: Path) -> None:
     conversation(folder, talk)
 
 
+def test_checks_of_subranges_are_hints_where_a_client_wants_them(folder: Path) -> None:
+    async def talk(client: LanguageClient) -> list[types.InlayHint]:
+        text = MAIN.replace("total : INT", "total : INT(0..200)").replace("total > 100", "total > 200")
+        doc = opened(client, folder / "main.st", text)
+        whole = types.Range(types.Position(0, 0), types.Position(99, 0))
+        return list(await client.text_document_inlay_hint_async(types.InlayHintParams(doc, whole)) or [])
+
+    assert conversation(folder, talk) == []
+    found = conversation(folder, talk, locale="ja", wanted={"embeddedChecks": True})
+    assert [(each.label, each.position.line, each.tooltip) for each in found[:2]] == [
+        ("⊂ 0..200", 6, "実行時に検査: `total` は 0..200"),
+        ("✓ 0..200", 6, "`total` の検査は不要: 7 行でチェック付きで代入済み"),
+    ]
+
+
 def test_names_are_told_by_their_kind(folder: Path) -> None:
     async def talk(client: LanguageClient) -> None:
         text = MAIN.replace("total > 100", "total > LEN('𝒳')")
@@ -282,18 +297,34 @@ def test_callers_and_what_is_called(folder: Path) -> None:
     conversation(folder, talk)
 
 
-def test_a_pou_says_how_often_it_is_named(folder: Path) -> None:
-    async def talk(client: LanguageClient) -> None:
+def test_a_block_says_how_many_instances_it_has_and_how_often_it_is_named(folder: Path) -> None:
+    async def talk(client: LanguageClient) -> list[types.Command]:
         doc = opened(client, folder / "inc.st")
         found = await client.text_document_code_lens_async(types.CodeLensParams(doc))
         assert found is not None
-        (lens,) = found
-        assert (lens.range.start, lens.command) == (position(BLOCK, "Inc"), None)
-        told = await client.code_lens_resolve_async(lens)
-        assert told.command is not None
-        assert told.command.title == "1 reference"
+        assert [(each.range.start, each.command) for each in found] == [(position(BLOCK, "Inc"), None)] * 2
+        told = [(await client.code_lens_resolve_async(each)).command for each in found]
+        return [each for each in told if each is not None]
 
-    conversation(folder, talk)
+    assert [(each.title, each.command) for each in conversation(folder, talk)] == [
+        ("1 instance", ""),
+        ("1 reference", ""),
+    ]
+    where = ((folder / "inc.st").as_uri(), {"line": 1, "character": 15})
+    lists = conversation(folder, talk, locale="ja", wanted={"lists": True})
+    assert [(each.title, each.command, each.arguments) for each in lists] == [
+        ("インスタンス 1 個", "scanbench.showInstances", where), ("参照 1 件", "scanbench.showReferences", where),
+    ]  # fmt: skip
+
+    async def listed(client: LanguageClient) -> list[tuple[str, int]]:
+        place = {"textDocument": {"uri": (folder / "inc.st").as_uri()}, "position": where[1]}
+        asked = client.protocol.send_request_async("scanbench/instances", place)  # type: ignore[no-untyped-call]  # pygls
+        found = await asked
+        return [(Path(each["uri"]).name, each["range"]["start"]["line"]) for each in found]
+
+    assert conversation(folder, listed) == [("main.st", 2)]
+    (folder / "main.st").write_text(MAIN.replace("inc(by := 2);", "inc(by := ;"), "utf-8")
+    assert [each.title for each in conversation(folder, talk)] == ["instances not known", "at least 1 reference"]
 
 
 def test_cross_references_and_what_nobody_reads_are_requests_of_our_own(folder: Path) -> None:

@@ -17,6 +17,7 @@ import {
   toggleChecks,
   toggleFormatOnType,
   toggleInline,
+  toggleLenses,
 } from "../store/page/prefs";
 import { openTour } from "../store/page/tour";
 import { showInstances } from "../store/plc/instances";
@@ -72,6 +73,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "versions.open", run: () => void openVersions() },
     { label: "command.inline", run: toggleInline },
     { label: "command.checks", run: toggleChecks },
+    { label: "command.lenses", run: toggleLenses },
     { label: "command.formatontype", run: toggleFormatOnType },
   ],
   run: [

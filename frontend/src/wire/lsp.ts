@@ -91,8 +91,8 @@ export class LspClient {
 
   private async initialize(socket: WebSocket): Promise<void> {
     const capabilities = { textDocument: { completion: { completionItem: { snippetSupport: true } } } };
-    // The line above the text says in which statement the caret is.
-    const initializationOptions = { statements: true };
+    // The line above the text says in which statement the caret is; a number above a declaration lists what it counts.
+    const initializationOptions = { statements: true, lists: true };
     const asked = { processId: null, rootUri: null, capabilities, initializationOptions };
     const said = await this.ask("initialize", asked).catch(() => null);
     if (said === null || socket !== this.socket) return;

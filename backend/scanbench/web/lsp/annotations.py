@@ -1,16 +1,14 @@
-"""What an editor shows in a text without being asked: names of parameters, what kind of thing each name means, and
-how often each POU is named."""
+"""What an editor shows in a text without being asked: names of parameters, and what kind of thing each name means."""
 
 from collections.abc import Iterator
 from typing import get_args
 
 from lsprotocol import types
 
+from scanbench.language.embedded import embedded
 from scanbench.language.hints import hints
-from scanbench.language.navigate import references
 from scanbench.language.reading import Reading
 from scanbench.language.tokens import Modifier, Token, TokenKind, tokens
-from scanbench.web.lsp.calls import symbol_in
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.positions import Positions
 
@@ -29,13 +27,20 @@ def register(language: Language) -> None:
         if found is None:
             return []
         reading, positions, file, start, end = found
-        return [
+        names = [
             types.InlayHint(
                 position=positions.theirs(file, each.position), label=f"{each.name}:",
                 kind=types.InlayHintKind.Parameter, padding_right=True,
             )
             for each in hints(reading, file, start, end)
         ]  # fmt: skip
+        checks = embedded(reading, file, start, end) if language.checks else []
+        return names + [
+            types.InlayHint(
+                position=positions.theirs(file, each.position), label=each.label, tooltip=each.about, padding_left=True
+            )
+            for each in checks
+        ]
 
     @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, types.SemanticTokensLegend(list(KINDS), list(MODIFIERS)))
     def semantic_tokens_range(params: types.SemanticTokensRangeParams) -> types.SemanticTokens | None:
@@ -44,28 +49,6 @@ def register(language: Language) -> None:
             return None
         reading, positions, file, start, end = found
         return types.SemanticTokens(list(_numbers(positions, file, tokens(reading, file, start, end))))
-
-    @server.feature(types.TEXT_DOCUMENT_CODE_LENS, types.CodeLensOptions(resolve_provider=True))
-    def code_lens(params: types.CodeLensParams) -> list[types.CodeLens]:
-        found = language.file(params.text_document.uri)
-        if found is None:
-            return []
-        reading, file = found
-        positions = language.positions(reading)
-        return [
-            types.CodeLens(positions.span(each.span), data=list(each.symbol))
-            for each in reading.declared_in(file)
-            if each.symbol.kind == "pou"
-        ]
-
-    @server.feature(types.CODE_LENS_RESOLVE)
-    def resolve(lens: types.CodeLens) -> types.CodeLens:
-        symbol = symbol_in(lens.data)
-        if language.project is not None and symbol is not None:
-            count = len(references(language.project.reading, symbol, declaration=False))
-            # An empty command only shows its title, which every client can.
-            lens.command = types.Command(f"{count} reference{'' if count == 1 else 's'}", "")
-        return lens
 
 
 def _numbers(positions: Positions, file: str, found: list[Token]) -> Iterator[int]:

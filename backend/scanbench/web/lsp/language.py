@@ -14,7 +14,7 @@ from pygls.lsp.server import LanguageServer
 from scanbench.language.index import Occurrence
 from scanbench.language.navigate import named_at
 from scanbench.language.reading import Reading
-from scanbench.web.lsp.options import STATEMENTS
+from scanbench.web.lsp.options import CHECKS, LISTS, STATEMENTS
 from scanbench.web.lsp.positions import Positions
 from scanbench.web.lsp.problems import diagnostics
 from scanbench.web.lsp.project import LspProject, Saved
@@ -50,6 +50,10 @@ class Language:
     """The language that the client's reader reads."""
     statements: bool = False
     """Whether the client wants statements among the symbols of a document, which most would only list."""
+    checks: bool = False
+    """Whether the client wants to see where subranges are checked."""
+    lists: bool = False
+    """Whether the client lists what is counted above a declaration, when somebody clicks the number."""
     _timer: asyncio.TimerHandle | None = None
     _told: set[str] = field(default_factory=set)
     """URIs of files with problems."""
@@ -88,7 +92,10 @@ class Language:
     def begin(self, params: types.InitializeParams) -> None:
         """Reads the project."""
         wanted = params.initialization_options
-        self.statements = isinstance(wanted, Mapping) and wanted.get(STATEMENTS) is True
+        if isinstance(wanted, Mapping):
+            self.statements = wanted.get(STATEMENTS) is True
+            self.checks = wanted.get(CHECKS) is True
+            self.lists = wanted.get(LISTS) is True
         self.project = LspProject(self.saved_of(params))
 
     def changed(self, uri: str) -> None:

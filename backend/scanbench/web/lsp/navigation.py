@@ -8,6 +8,7 @@ from scanbench.check.uses import Symbol
 from scanbench.language.declared import Declared
 from scanbench.language.describe import Description, describe
 from scanbench.language.index import Occurrence
+from scanbench.language.matching import keywords_at
 from scanbench.language.navigate import definitions, implementations, references, type_definitions
 from scanbench.language.reading import Reading
 from scanbench.translation.inside import paragraphs
@@ -47,8 +48,15 @@ def register(language: Language) -> None:
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
     def highlight(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
         asked, found = _named(language, params)
-        if asked is None or found is None:
+        if asked is None:
             return []
+        if found is None:
+            return [
+                types.DocumentHighlight(
+                    asked.positions.between(asked.file, start, end), types.DocumentHighlightKind.Text
+                )
+                for start, end in keywords_at(asked.reading, asked.file, asked.position)
+            ]
         return [
             types.DocumentHighlight(
                 asked.positions.occurrence(each),

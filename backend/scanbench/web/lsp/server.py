@@ -15,7 +15,7 @@ from scanbench.server.from_disk import PROJECT_FILE
 from scanbench.syntax.language_file import LANGUAGE_FILE
 from scanbench.syntax.parse_file import ENDINGS
 from scanbench.translation.inside import Path, at_paths, wanted
-from scanbench.web.lsp import annotations, calls, completion, crossing, mending, navigation, outline, renaming
+from scanbench.web.lsp import annotations, calls, completion, crossing, lenses, mending, navigation, outline, renaming
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.project import Saved, Told
 
@@ -36,12 +36,14 @@ _SENTENCES: tuple[Path, ...] = (
     ("params", "message"),
     ("params", "diagnostics", "*", "message"),
     ("result", "*", "title"),
+    ("result", "*", "tooltip"),
     ("result", "*", "diagnostics", "*", "message"),
     ("result", "title"),
+    ("result", "command", "title"),
     ("result", "diagnostics", "*", "message"),
     ("result", "items", "*", "message"),
 )
-"""Where our messages have a sentence: refusals, problems, titles of what mends them. What a name means is said where it is described."""
+"""Where our messages have a sentence: refusals, problems, titles of what mends them, numbers above declarations, what a hint explains. What a name means is said where it is described."""
 
 
 class _Protocol(LanguageServerProtocol):
@@ -104,7 +106,7 @@ def make_server(saved_of: Callable[[types.InitializeParams], Saved]) -> Language
             language.project.saved.files = dict(params.files)
             language.refreshed()
 
-    for room in (navigation, crossing, completion, outline, renaming, mending, annotations, calls):
+    for room in (navigation, crossing, completion, outline, renaming, mending, annotations, lenses, calls):
         room.register(language)
     return server
 

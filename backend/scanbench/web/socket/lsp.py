@@ -14,7 +14,7 @@ from scanbench.jobs.channel import connect
 from scanbench.server.workbench import Workbench
 from scanbench.store.records import NotFound
 from scanbench.web.framing import BadFrame, Framing, framed
-from scanbench.web.lsp.options import STATEMENTS
+from scanbench.web.lsp.options import LISTS, STATEMENTS
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import SocketBench
 
@@ -69,7 +69,7 @@ async def on_lsp(bench: SocketBench, socket: WebSocket, project: Id) -> None:
 def _wanted(params: dict[str, Any]) -> dict[str, object]:
     """What a browser may choose: the project is not of its choice."""
     theirs = params.get("initializationOptions")
-    return {STATEMENTS: True} if isinstance(theirs, dict) and theirs.get(STATEMENTS) is True else {}
+    return {each: True for each in (STATEMENTS, LISTS) if isinstance(theirs, dict) and theirs.get(each) is True}
 
 
 class Deadline:

@@ -13,6 +13,8 @@ interface Prefs {
   checks: boolean;
   /** Show live values at the ends of the lines in the editor. */
   inline: boolean;
+  /** Show above declarations how many instances and references they have. */
+  lenses: boolean;
   /** Put finished lines into their layout while somebody types. */
   formatOnType: boolean;
 }
@@ -31,6 +33,7 @@ function initial(): Prefs {
     language: languages.find((language) => language === kept.language) ?? systemLanguage(),
     checks: kept.checks ?? false,
     inline: kept.inline ?? true,
+    lenses: kept.lenses ?? false,
     formatOnType: kept.formatOnType ?? false,
   };
 }
@@ -75,6 +78,10 @@ export function toggleChecks(): void {
 
 export function toggleInline(): void {
   usePrefs.setState(({ inline }) => ({ inline: !inline }));
+}
+
+export function toggleLenses(): void {
+  usePrefs.setState(({ lenses }) => ({ lenses: !lenses }));
 }
 
 export function toggleFormatOnType(): void {

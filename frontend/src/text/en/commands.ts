@@ -6,6 +6,7 @@ export const commands = {
   "command.checks": "Show or hide embedded checks",
   "command.editor": "Editor: {what}",
   "command.formatontype": "Format while typing: on or off",
+  "command.lenses": "Numbers of instances and references: show or hide",
   "command.forward": "Go forward",
   "command.goto": "Go to a file or name",
   "command.inline": "Show or hide inline values",

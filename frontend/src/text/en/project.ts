@@ -112,6 +112,7 @@ export const project = {
   "draft.refused.unkept": "This browser cannot keep it: copy it before you close the page.",
   "editor.firstsuggestion": "Accept the first suggestion",
   "editor.formatontype": "Format while typing",
+  "editor.lenses": "Show numbers of instances and references",
   "editor.indent": "Indent the line like its block",
   "editor.of": "Editor, {path}",
   "editor.refused": "{path} cannot be shown: {message}",

@@ -6,6 +6,7 @@ export const commands = {
   "command.checks": "埋め込みチェックの表示・非表示",
   "command.editor": "エディタ: {what}",
   "command.formatontype": "入力中の整形のオン・オフ",
+  "command.lenses": "インスタンスと参照の数の表示・非表示",
   "command.forward": "次の場所へ進む",
   "command.goto": "ファイルまたは名前へ移動",
   "command.inline": "インライン値の表示・非表示",

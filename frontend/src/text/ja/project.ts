@@ -113,6 +113,7 @@ export const project: Record<keyof typeof english, string> = {
   "draft.refused.unkept": "このブラウザには保持できません。ページを閉じる前にコピーしてください。",
   "editor.firstsuggestion": "最初の候補を挿入",
   "editor.formatontype": "入力中に整形",
+  "editor.lenses": "インスタンスと参照の数を表示",
   "editor.indent": "ブロックに合わせて字下げ",
   "editor.of": "エディタ {path}",
   "editor.refused": "{path} を表示できません: {message}",

@@ -3,6 +3,7 @@ import { createPortal } from "react-dom";
 import { pouAt } from "../../../logic/plc/sourceLines";
 import { editBreakpoint, useDebug } from "../../../store/debug/debug";
 import { useNavigation } from "../../../store/page/navigate";
+import { usePrefs } from "../../../store/page/prefs";
 import { build, save, useDocuments } from "../../../store/project/documents";
 import { shownText } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
@@ -23,8 +24,10 @@ import { lineMenu } from "./gutterMenu";
 import { markHalt } from "./halt";
 import "./hints";
 import "./hover";
+import { indentTyped } from "./indent";
 import { showInlineValues } from "./inlineValues";
 import "./layout";
+import { showLenses } from "./lenses";
 import { modelOf, pastModel } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import "./navigation";
@@ -56,6 +59,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     const ran = past === null ? null : pastModel(path, past);
     const code = editor.create(host.current, {
       ...options,
+      codeLens: usePrefs.getState().lenses,
       fontFamily: monospaceFont(),
       model: ran ?? modelOf(path, document?.text ?? ""),
       readOnly: ran !== null,
@@ -97,7 +101,9 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     const unmarkHalt = markHalt(code, path);
     const unmarkCoverage = markCoverage(code, path);
     const hideValues = showInlineValues(code, path);
+    const noLenses = showLenses(code);
     const hideOthers = ran === null ? showOthers(code, path) : null;
+    const noIndent = ran === null ? indentTyped(code) : null;
     const noLayout = ran === null ? formatTyped(code, path) : null;
     const stop = useNavigation.subscribe(({ place }) => go(code, path, place));
     go(code, path, useNavigation.getState().place);
@@ -108,7 +114,9 @@ export default function CodeView({ path, past }: { path: string; past: string | 
       unmarkHalt();
       unmarkCoverage();
       hideValues();
+      noLenses();
       hideOthers?.();
+      noIndent?.();
       noLayout?.();
       noDrag();
       noCommands();

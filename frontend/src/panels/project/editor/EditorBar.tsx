@@ -3,7 +3,7 @@ import { pouAt } from "../../../logic/plc/sourceLines";
 import { builtNote, changeNote } from "../../../logic/project/change";
 import { rollBack } from "../../../store/debug/run";
 import { showPanel } from "../../../store/page/navigate";
-import { toggleChecks, toggleFormatOnType, usePrefs } from "../../../store/page/prefs";
+import { toggleChecks, toggleFormatOnType, toggleLenses, usePrefs } from "../../../store/page/prefs";
 import { useBench } from "../../../store/plc/bench";
 import { useForbidden, useLost, usePlc } from "../../../store/plc/plc";
 import { build, isDirty, save, useDocuments } from "../../../store/project/documents";
@@ -107,13 +107,14 @@ function useLooked(path: string, cursor: Cursor | null): number {
 function More({ path, pou }: { path: string; pou: Pou | undefined }) {
   const note = useChangeNote();
   const forbidden = useForbidden("change");
-  const { checks, formatOnType } = usePrefs();
+  const { checks, formatOnType, lenses } = usePrefs();
   const running = useBench((bench) => bench.instance !== null);
   const items = (): MenuItem[] => [
     ...(running && pou && canVerify(pou)
       ? [{ label: t("verify.range.menu"), icon: "differs" as const, onSelect: () => verifyHere(path) }]
       : []),
     { label: t("checks.show"), checked: checks, onSelect: toggleChecks },
+    { label: t("editor.lenses"), checked: lenses, onSelect: toggleLenses },
     { label: t("editor.formatontype"), checked: formatOnType, onSelect: toggleFormatOnType },
     ...(note === ""
       ? []
