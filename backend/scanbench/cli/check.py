@@ -8,6 +8,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources, program_files
+from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources, usage
 from scanbench.faults.reaction.required_rules import problems_of
 from scanbench.problems import Severity
@@ -55,10 +56,15 @@ def check(
             typer.echo(f"{problem.span}: {problem.code} {severity}{problem.message}")
         others = len(problems) - errors
         note = f" ({others} warning{'s' * (others != 1)})" if others else ""
-        typer.echo(f"{errors} error{'s' * (errors != 1)}{note} in {len(sources.texts)} file(s)", err=True)
+        typer.echo(f"{errors} error{'s' * (errors != 1)}{note} in {_count(sources.texts)} file(s)", err=True)
         if errors:
             _tell_dialect(sources.texts)
     raise typer.Exit(1 if errors else 0)
+
+
+def _count(texts: Mapping[str, str]) -> int:
+    """The files of the program, without the libraries that are added to it."""
+    return sum(library_of_file(name) is None for name in program_files(texts))
 
 
 def _tell_dialect(texts: Mapping[str, str]) -> None:

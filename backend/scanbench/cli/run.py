@@ -133,6 +133,9 @@ def _compiled(
     checked = check_sources(sources.texts, model, interval_ns)
     problems = [problem_json(problem) for problem in checked.problems]
     if checked.program is not None:
+        for problem in checked.problems:
+            if problem.code == "W008" and not as_json:  # its results are nobody's but the user's
+                typer.echo(f"scanbench: {problem}", err=True)
         return checked.program, problems
     if as_json:
         typer.echo(nothing_ran(problems))

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from scanbench.check.libraries.catalogue import library_of_file
+from scanbench.check.libraries.catalogue import NO_CODE, library_of_file
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax import tree
 from scanbench.syntax.constructs import count_constructs
@@ -45,6 +45,8 @@ class _Unit:
     is_pou: bool
     stub: bool = False
     wrong: bool = False
+    own: frozenset[str] = frozenset()
+    """Its variables, in upper case: such a word in its text is no use of anything else."""
     words: set[str] = field(default_factory=set)
     """All words in its text, in upper case."""
 
@@ -136,7 +138,7 @@ def report_files(texts: Mapping[str, str], problems: Sequence[Problem]) -> list[
 
 def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]:
     """What a file declares, in order, with the errors that are in the lines of each."""
-    made = [_Unit(each.span.line, (each.name.upper(),), True, each.stub) for each in file.pous]
+    made = [_Unit(each.span.line, (each.name.upper(),), True, each.stub, own=_variables(each)) for each in file.pous]
     made += [_Unit(each.span.line, (each.name.upper(),), is_pou=False) for each in file.types]
     for section in file.globals:
         made.append(_Unit(section.span.line, tuple(each.name.upper() for each in section.variables), is_pou=False))
@@ -148,8 +150,13 @@ def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]
             made[at].wrong = True
     lines = text.split("\n")
     for each, end in zip(made, [*begins[1:], len(lines) + 1], strict=True):
-        each.words = {word.upper() for word in WORD.findall("\n".join(lines[each.line - 1 : end - 1]))}
+        code = NO_CODE.sub(" ", "\n".join(lines[each.line - 1 : end - 1]))
+        each.words = {word.upper() for word in WORD.findall(code)} - each.own
     return made
+
+
+def _variables(pou: tree.PouDeclaration) -> frozenset[str]:
+    return frozenset(each.name.upper() for section in pou.sections for each in section.variables)
 
 
 def _reached(units: Sequence[_Unit], first: Sequence[_Unit]) -> set[int]:
@@ -182,7 +189,7 @@ def report_lines(report: ProgramReport) -> list[str]:
         )
     if whole.pous:
         lines += ["", *pou_lines(whole)]
-    if whole.refused or whole.errors:
+    if report.causes:
         lines.append("a program runs when none of its files has an error")
     if report.missing:
         lines += ["", f"missing libraries: {', '.join(report.missing)}"]

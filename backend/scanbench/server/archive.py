@@ -201,7 +201,7 @@ def _twincat_projects(archive: zipfile.ZipFile, files: Mapping[str, zipfile.ZipI
 def _compiled(projects: Mapping[str, TwinCatProject], files: Collection[str]) -> tuple[set[str] | None, list[str]]:
     """The files that a TwinCAT project compiles, whose names Windows does not tell apart by capitals, and those that are missing;
     None where there is none."""
-    if not projects:
+    if not any(project.compiled for project in projects.values()):
         return None, []
     wanted = [path for project in projects.values() for path in project.compiled]
     known = {path.lower(): path for path in files}

@@ -53,7 +53,7 @@ def left_out(paths: Collection[str], projects: Mapping[str, TwinCatProject]) -> 
         for path, project in projects.items()
         for each in project.compiled
     }
-    folders = [posixpath.dirname(path) for path in projects]
+    folders = [posixpath.dirname(path) for path, project in projects.items() if project.compiled]
     below = [f"{folder}/" if folder else "" for folder in folders]
     return {
         path

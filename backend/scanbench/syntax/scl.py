@@ -21,6 +21,9 @@ _BLOCKS = {"ORGANIZATION_BLOCK": "PROGRAM", "END_ORGANIZATION_BLOCK": "END_PROGR
 _PREFIXES = {"B": "BYTE", "W": "WORD", "DW": "DWORD", "LW": "LWORD", "L": "DINT"}
 _INSTRUCTIONS = frozenset(("TON", "TOF", "TP", "CTU", "CTD", "CTUD"))
 """Called as `#timer.TON(...)`, where the instance itself is called."""
+_CYCLIC = frozenset(("MAIN", "OB1", "MAIN_OB1"))
+"""Names of the organization block that runs in every cycle; its TITLE says the same."""
+_CYCLE = "(Cycle)"
 _NO_NAME = re.compile(r"\W")
 
 
@@ -52,11 +55,18 @@ class _Writer:
         self._source = source
         self._in, self._out = tokens, Tokens([], [], [], tokens.pragmas)
         self._at = 0
+        self._locals: set[str] = set()
+        """Names that are declared in this block, or written with `#`, in upper case."""
+        self._globals: list[tuple[str, int]] = []
+        """Names in quotes in its statements, and where."""
+        self._declares = False
+        """Between VAR and END_VAR."""
 
     def write(self) -> Tokens:
         """All of them, closed."""
         while not self._ended():
             self._one()
+        self._tell_both()
         for _ in range(AHEAD):
             self._put(Lex.END, "", self._in.starts[self._at])
         return self._out
@@ -64,6 +74,7 @@ class _Writer:
     def _one(self) -> None:
         word = self._word()
         if word in _OPENS:
+            self._tell_both()
             self._block(word)
         elif word in _BLOCKS:
             self._put(Lex.KEYWORD, _BLOCKS[word], self._in.starts[self._at])
@@ -85,7 +96,15 @@ class _Writer:
             self._data_block(start)
             return
         self._put(Lex.KEYWORD, _BLOCKS.get(word, word), start)
+        name, at = self._in.texts[self._at].strip('"'), self._in.starts[self._at]
         self._copy()
+        self._globals.clear()
+        if word == "ORGANIZATION_BLOCK" and name.upper() not in _CYCLIC and not self._is_cyclic():
+            self._refuse(
+                f"`{name}` is started by an event (restart, interrupt, time); only the organization block of the cycle is read, "
+                "Main or one with the TITLE `... (Cycle)`. Call what it does from there, or declare a task for it.",
+                at,
+            )
         if word == "FUNCTION" and self._word() == ":" and self._word(1) == "VOID":
             self._at += 2
         elif word == "FUNCTION" and self._word() == ":":
@@ -98,12 +117,25 @@ class _Writer:
     def _data_block(self, start: int) -> None:
         """A global variable: of a structure that is written there, or of a block or type; with its start values."""
         self._put(Lex.KEYWORD, "VAR_GLOBAL", start)
-        self._copy()
+        named = self._at
+        self._at += 1
         self._skip_settings()
+        if self._word().startswith("VAR") and self._word(1) == "RETAIN":
+            self._put(Lex.NAME, "RETAIN", self._in.starts[self._at])
+        after, self._at = self._at, named
+        self._copy()
+        self._at = after
         self._put(Lex.OPERATOR, ":", self._in.starts[self._at])
         if self._word() in ("VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"):
+            retained = {self._word(1) == "RETAIN"}
             self._put(Lex.KEYWORD, "STRUCT", self._in.starts[self._at])
             while self._word().startswith("VAR"):
+                retained.add(self._word(1) == "RETAIN")
+                if len(retained) > 1:
+                    self._refuse(
+                        "A DATA_BLOCK is kept over a restart as a whole or not at all here. Write two of them.",
+                        self._in.starts[self._at],
+                    )
                 self._at += 2 if self._word(1) in ("RETAIN", "NON_RETAIN") else 1
                 while not self._ended() and self._word() != "END_VAR":
                     self._copy()
@@ -140,9 +172,10 @@ class _Writer:
                 self._at += 1
                 continue
             if self._word(1) != ":=":
-                span = self._source.span(self._in.starts[self._at], self._in.starts[self._at] + 1)
-                message = "A start value of a DATA_BLOCK is read as `member := value;`. Write others where the member is declared."
-                self.problems.append(Problem("X001", message, span))
+                self._refuse(
+                    "A start value of a DATA_BLOCK is read as `member := value;`. Write others where the member is declared.",
+                    self._in.starts[self._at],
+                )
                 while not self._ended() and self._word() not in (";", "END_DATA_BLOCK"):
                     self._at += 1
                 continue
@@ -162,14 +195,40 @@ class _Writer:
         kind, text, at = self._in.kinds[self._at], self._in.texts[self._at], self._in.starts[self._at]
         self._at += 1
         if text == "#":
+            self._locals.add(name_of(self._in.texts[self._at].strip('"')).upper())
             return
+        if kind is Lex.KEYWORD and text.startswith(("VAR", "END_VAR")):
+            self._declares = text != "END_VAR"
+        elif self._declares and self._word() == ":":
+            self._locals.add(name_of(text.strip('"')).upper())
         if kind is Lex.STRING and text.startswith('"'):
-            self._put(Lex.NAME, name_of(text[1:-1]), at + 1)
+            name = name_of(text[1:-1])
+            if not self._declares and self._in.texts[self._at - 2] != "#":
+                self._globals.append((name, at))
+            self._put(Lex.NAME, name, at + 1)
         elif kind is Lex.TYPED:
             prefix, hash, value = text.partition("#")
             self._put(kind, _PREFIXES.get(prefix.upper(), prefix) + hash + value, at)
         else:
             self._put(kind, text, at)
+
+    def _tell_both(self) -> None:
+        """Refuses what is the name of something global and of something in the block: the quotes and `#` tell them apart in SCL only."""
+        for name, at in self._globals:
+            if name.upper() in self._locals:
+                self._refuse(
+                    f'`"{name}"` is global, and `#{name}` is declared in this block: they are one name here. Rename one of them.',
+                    at,
+                )
+        self._globals, self._locals, self._declares = [], set(), False
+
+    def _is_cyclic(self) -> bool:
+        """Whether the TITLE in the head of this organization block says that it runs in every cycle."""
+        end = self._in.starts[min(self._at + 8, len(self._in.starts) - 1)]
+        return _CYCLE in self._source.text[self._in.starts[self._at - 1] : end]
+
+    def _refuse(self, message: str, at: int) -> None:
+        self.problems.append(Problem("X001", message, self._source.span(at, at + 1)))
 
     def _put(self, kind: Lex, text: str, at: int) -> None:
         self._out.kinds.append(kind)

@@ -165,3 +165,8 @@ def test_a_name_of_a_library_that_the_project_does_not_have_is_told_with_the_lib
     assert libraries == ["Tc2_System", "Tc2_System", True], found
     strict = check_sources({"Main.st": text}, MODEL).problems
     assert not any("library" in each.message for each in strict)
+
+
+def test_a_prefix_does_not_reach_a_variable_of_the_pou() -> None:
+    found = check("PROGRAM Main VAR lr, a : LREAL; END_VAR a := Tc2_Math.lr + Tc2_Math.FRAC(2.5); END_PROGRAM")
+    assert [each[:4] for each in said(found)] == ["T001"]

@@ -39,7 +39,7 @@ def test_a_name_between_quotes_becomes_one_of_the_standard(quoted: str, name: st
 
 def test_half_a_text_is_read_to_its_end() -> None:
     text = 'TYPE "U"\nVERSION : 0.1\nSTRUCT\n a : Int;\nEND_STRUCT;\nEND_TYPE\nDATA_BLOCK "D"\n"U"\nBEGIN\n a := 1;\nEND_DATA_BLOCK\n'
-    text += 'ORGANIZATION_BLOCK "M"\nTITLE = "x"\nVAR_TEMP\n i : Int;\nEND_VAR\nBEGIN\nREGION a\n #i := 1;\nEND_REGION\nEND_ORGANIZATION_BLOCK\n'
+    text += 'ORGANIZATION_BLOCK "Main"\nTITLE = "x"\nVAR_TEMP\n i : Int;\nEND_VAR\nBEGIN\nREGION a\n #i := 1;\nEND_REGION\nEND_ORGANIZATION_BLOCK\n'
     for end in range(len(text)):
         parse_scl(Source("a.scl", text[:end]))
     assert problems(text) == []
@@ -49,3 +49,28 @@ def test_it_is_not_laid_out_and_tells_its_dialect() -> None:
     assert formatted("a.scl", "FUNCTION F : Void\nEND_FUNCTION\n") is None
     assert guess_dialect({"a.scl": ""}) == "siemens"
     assert guess_dialect({"a.st": ""}, ["Thumbs.db"]) == "iec"
+
+
+def test_a_name_that_is_global_and_of_the_block_is_refused_and_not_mixed_up() -> None:
+    block = (
+        'FUNCTION_BLOCK "F"\nVAR\n  Speed : Int;\n  a : Int;\nEND_VAR\nBEGIN\n  #a := "Speed".v;\nEND_FUNCTION_BLOCK\n'
+    )
+    data = 'DATA_BLOCK "Speed"\nSTRUCT\n  v : Int;\nEND_STRUCT;\nEND_DATA_BLOCK\n'
+    assert "7:9 X001" in [each[:8] for each in problems(block + data)]
+    result = 'FUNCTION "G" : Int\nVAR_INPUT\n  a : Int;\nEND_VAR\nBEGIN\n  "G" := #a;\nEND_FUNCTION\n'
+    assert problems(result) == []
+
+
+def test_an_organization_block_of_an_event_does_not_run_in_every_cycle() -> None:
+    text = 'ORGANIZATION_BLOCK "Startup"\nTITLE = "Complete Restart"\nBEGIN\nEND_ORGANIZATION_BLOCK\n'
+    assert [each[:9] for each in problems(text)] == ["1:20 X001"]
+    cyclic = 'ORGANIZATION_BLOCK "Second"\nTITLE = "Main Program Sweep (Cycle)"\nBEGIN\nEND_ORGANIZATION_BLOCK\n'
+    assert problems(cyclic) == []
+
+
+def test_a_data_block_is_kept_over_a_restart_as_it_says() -> None:
+    text = 'DATA_BLOCK "D"\nVAR RETAIN\n  x : Int;\nEND_VAR\nBEGIN\n x := 1;\nEND_DATA_BLOCK\n'
+    file, found = parse_scl(Source("a.scl", text))
+    assert (file.globals[0].qualifiers, found) == (("RETAIN",), [])
+    mixed = text.replace("BEGIN", "VAR\n  y : Int;\nEND_VAR\nBEGIN")
+    assert [each.code for each in parse_scl(Source("a.scl", mixed))[1]] == ["X001"]

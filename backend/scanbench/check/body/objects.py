@@ -71,13 +71,16 @@ def _qualified_variable(body: Body, node: tree.MemberOf) -> str | None:
     path = dotted(node)
     if path is None or body.scope.find(path.split(".")[0]) is not None:
         return None
-    for name in (path, body.declarations.names.plain(path)):
-        alias = body.pous.aliases.get(name.upper())
-        if alias is not None:
-            return alias
-        if body.scope.find(name) is not None:
-            return name
-    return None
+    alias = body.pous.aliases.get(path.upper())
+    if alias is not None:
+        return alias
+    if body.scope.find(path) is not None:
+        return path
+    plain = body.declarations.names.plain(path)
+    alias = body.pous.aliases.get(plain.upper())
+    found = None if plain == path or alias is not None else body.scope.find(plain)
+    # a library has global variables: a variable of the POU with the same name is not meant
+    return plain if found is not None and found[2] is body.scope.globals else alias
 
 
 def _own_member(body: Body, node: tree.MemberOf, word: str) -> Found | None:

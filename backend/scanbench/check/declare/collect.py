@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from typing import TypedDict
 
 from scanbench.check.context import Report
 from scanbench.check.declare.declarations import Declarations
@@ -15,6 +16,11 @@ from scanbench.program.types import ELEMENTARY, Record, Section
 from scanbench.syntax import tree
 
 ENABLE = (("EN", "VAR_INPUT"), ("ENO", "VAR_OUTPUT"))
+
+
+class _Place(TypedDict):
+    namespace: str
+    using: tuple[str, ...]
 
 
 @dataclass(slots=True)
@@ -39,7 +45,9 @@ class Collector:
     def collect(self, parsed: list[tree.File]) -> None:
         """All names of types and POUs."""
         internal = self.declarations.names.internal
-        for file in sorted(parsed, key=lambda each: library_of_file(each.name) is not None):
+        libraries = [each for each in parsed if library_of_file(each.name) is not None]
+        own = [each for each in parsed if library_of_file(each.name) is None]
+        for file in (*own, *(_apart(each, _declared(own)) for each in libraries)):
             internal |= {space.upper(): space.upper().rpartition(".")[0] for space in file.internal}
             for declaration in file.types:
                 key = self._first(declaration.namespace, declaration.name, declaration.span)
@@ -103,6 +111,25 @@ class Collector:
         return pou
 
 
+def _declared(files: list[tree.File]) -> set[str]:
+    """Names at the top, in upper case."""
+    types = (each.name.upper() for file in files for each in file.types if not each.namespace)
+    return {*types, *(each.name.upper() for file in files for each in file.pous if not each.namespace)}
+
+
+def _apart(file: tree.File, hidden: set[str]) -> tree.File:
+    """A library in which what the project declares as well is in the namespace `LIBRARY`: the library itself goes on using its own."""
+    if hidden.isdisjoint(_declared([file])):
+        return file
+    types = [replace(each, **_hidden(each, hidden)) for each in file.types]
+    return replace(file, types=types, pous=[replace(each, **_hidden(each, hidden)) for each in file.pous])
+
+
+def _hidden(each: tree.PouDeclaration | tree.TypeDeclaration, hidden: set[str]) -> _Place:
+    inside = each.name.upper() in hidden and not each.namespace
+    return {"namespace": LIBRARY if inside else each.namespace, "using": (*each.using, LIBRARY)}
+
+
 def _names(node: object) -> Iterator[str]:
     """Every plain name in a body, in upper case."""
     if isinstance(node, tree.Name):
@@ -137,7 +164,8 @@ def declare_globals(parsed: list[tree.File], variables: Record, declarations: De
         for section in sections:
             if ("CONSTANT" in section.qualifiers) != constant:
                 continue
-            with declarations.names.within(Space(section.namespace)):
+            using = (LIBRARY,) if library_of_file(section.span.file) else ()
+            with declarations.names.within(Space(section.namespace, using)):
                 for variable in section.variables:
                     kept.declare(variables, section, variable, constant)
 

@@ -61,6 +61,9 @@ class Names:
 
         plain = self.plain(key)
         if plain != key and not known(key):
+            hidden = f"{LIBRARY}.{plain}"  # the project declares it as well, and names the library because of that
+            if known(hidden):
+                return hidden
             key = plain
         if not self.space.namespace and not self.space.using and not self.internal:
             return key if known(key) else None

@@ -33,7 +33,7 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
 """Each name, and the dialects that it is written in."""
 _WORD = re.compile(r"\b[A-Z_]\w*")
 _IN_NAMESPACE = re.compile(r"\b(?=([A-Z_]\w*\.[A-Z_]\w*))")
-_NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)
+NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +120,7 @@ def _library(name: str) -> Library:
 
 def _words(text: str) -> frozenset[str]:
     """The words of a text outside of comments and literals."""
-    code = _NO_CODE.sub(" ", text).upper()
+    code = NO_CODE.sub(" ", text).upper()
     return frozenset(_WORD.findall(code)) | frozenset(_IN_NAMESPACE.findall(code))
 
 
