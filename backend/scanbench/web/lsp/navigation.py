@@ -47,24 +47,7 @@ def register(language: Language) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
     def highlight(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
-        asked, found = _named(language, params)
-        if asked is None:
-            return []
-        if found is None:
-            return [
-                types.DocumentHighlight(
-                    asked.positions.between(asked.file, start, end), types.DocumentHighlightKind.Text
-                )
-                for start, end in keywords_at(asked.reading, asked.file, asked.position)
-            ]
-        return [
-            types.DocumentHighlight(
-                asked.positions.occurrence(each),
-                types.DocumentHighlightKind.Write if each.written else types.DocumentHighlightKind.Read,
-            )
-            for each in references(asked.reading, found.symbol, declaration=True)
-            if each.span.file == asked.file
-        ]
+        return highlights(language, params)
 
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     def hover(params: types.HoverParams) -> types.Hover | None:
@@ -95,6 +78,26 @@ def declarations(language: Language, params: Where, look: Look) -> list[types.Lo
         types.Location(language.uri(each.span.file), asked.positions.span(each.span))
         for each in look(asked.reading, found.symbol)
         if each.span.file in asked.reading.files
+    ]
+
+
+def highlights(language: Language, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
+    """All uses of a name in the file, or the keywords of the block of which one is there."""
+    asked, found = _named(language, params)
+    if asked is None:
+        return []
+    if found is None:
+        return [
+            types.DocumentHighlight(asked.positions.between(asked.file, start, end), types.DocumentHighlightKind.Text)
+            for start, end in keywords_at(asked.reading, asked.file, asked.position)
+        ]
+    return [
+        types.DocumentHighlight(
+            asked.positions.occurrence(each),
+            types.DocumentHighlightKind.Write if each.written else types.DocumentHighlightKind.Read,
+        )
+        for each in references(asked.reading, found.symbol, declaration=True)
+        if each.span.file == asked.file
     ]
 
 
