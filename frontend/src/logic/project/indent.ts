@@ -1,7 +1,7 @@
 /** The indentation that a line has by the lines above it: after Enter, and where it ends a block. */
 
 /** The text of a line, which counts from 1. */
-export type LineOf = (line: number) => string;
+type LineOf = (line: number) => string;
 
 /** What the layout puts one level deeper than the line itself; the body of a POU begins where its sections do. */
 const OPENS =
