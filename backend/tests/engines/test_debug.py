@@ -631,12 +631,8 @@ def test_engines_agree_on_random_programs() -> None:
     assert statements > 20 * PROGRAMS
 
 
-NOT_EQUAL = {"life"}
-"""A known defect: inside of FB_init the engines do not show the same callers, as what calls it was written by nobody."""
-
-
 @nightly
-@pytest.mark.parametrize("topic", some(sorted({path.stem for path in CASES.glob("*.case")} - NOT_EQUAL), 3, 0))
+@pytest.mark.parametrize("topic", some(sorted(path.stem for path in CASES.glob("*.case")), 3, 0))
 def test_engines_agree_on_all_cases(topic: str) -> None:
     for case in read_cases(CASES / f"{topic}.case"):
         told: dict[str, Told] = {}

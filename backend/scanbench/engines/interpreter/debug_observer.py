@@ -61,8 +61,10 @@ class DebugObserver(ReferenceObserver):
 
     def frames(self) -> tuple[Frame, ...]:
         """Innermost first."""
-        site, found = self._site if self._site is not None else self._innermost, []
+        site, found = self._site if self._site is not None else self._innermost, list[Frame]()
         for pou, instance, caller in reversed(self._frames):
+            if site is None and found:
+                site = self.sites.bodies[pou][0]  # it begins, and calls what initialises a block: its first one is next
             if site is not None:
                 found.append(frame_of(pou, instance, site, self.memory))
             site = caller
