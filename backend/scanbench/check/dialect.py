@@ -194,11 +194,9 @@ def dialect_in(sources: Mapping[str, str]) -> Dialect:
     return replace(dialect, prefixes=dialect.prefixes | {each.upper() for each in named}) if named else dialect
 
 
-MORE = ""
-"""Where `folding.py` adds how many more places there are: part of the sentence, so that it is translated with it."""
-
-
 def said(dialect: Dialect, allowance: Allowance, what: str, instead: str = "") -> str:
     """The warning of something that only the dialect allows. `what` is it, `instead` the strict way to write it."""
     rule = RULES[allowance]
-    return f"{what}. {dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {instead or rule.instead}.{MORE}"
+    return (
+        f"{what}. {dialect.title} allows this; in IEC 61131-3 {rule.strict}. The strict way: {instead or rule.instead}."
+    )

@@ -9,7 +9,8 @@ import typer
 
 from scanbench.check.build import check_sources, program_files
 from scanbench.check.libraries.catalogue import library_of_file
-from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources, usage
+from scanbench.cli.inputs import DIALECT_HELP, find_model, problem_json, read_sources
+from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.faults.reaction.required_rules import problems_of
 from scanbench.problems import Severity
 from scanbench.reports.program_page import program_page
@@ -35,13 +36,15 @@ def check(
     html: Path | None = typer.Option(None, metavar="FILE", help="Write that report as a page."),
 ) -> None:
     """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
+    if html is not None:
+        must_be_writable(html)
     sources = read_sources(paths, dialect)
     checked = check_sources(sources.texts, find_model(model, sources))
     problems = (*checked.problems, *problems_of(checked.program, sources.texts))
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
     told = program_report(program_files(sources.texts), problems, sources.missing) if report or html else None
     if html is not None and told is not None:
-        _write(html, program_page(told, ", ".join(path.name or str(path) for path in paths)))
+        write_text(html, program_page(told, ", ".join(path.name or str(path) for path in paths)))
     if report and told is not None:
         if format is Format.JSON:
             typer.echo(json.dumps({**report_json(told), "errors": errors}, ensure_ascii=False))
@@ -74,10 +77,3 @@ def _tell_dialect(texts: Mapping[str, str]) -> None:
         typer.echo(
             f"scanbench: this looks like {likely}: with --dialect {likely}, what it allows is no error", err=True
         )
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        path.write_text(text, "utf-8")
-    except OSError as error:
-        usage(f"{path} cannot be written: {error.strerror or error}")

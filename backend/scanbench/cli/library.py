@@ -6,6 +6,7 @@ import typer
 
 from scanbench.check.libraries.catalogue import Library, catalogue, library_named
 from scanbench.cli.inputs import usage
+from scanbench.cli.outputs import write_text
 from scanbench.syntax import tree
 
 library = typer.Typer(
@@ -38,7 +39,7 @@ def show(
     if text:
         typer.echo(found.text, nl=False)
         return
-    typer.echo(found.about)
+    typer.echo(f"{found.about} From {found.source}")
     for each in found.declared:
         kind = "type" if isinstance(each, tree.TypeDeclaration) else each.kind.replace("_", " ")
         stub = "  stub" if each.name in found.stubs else ""
@@ -59,9 +60,9 @@ def add(
         usage(f"{path} is there already: remove it first, if what is changed in it is not needed")
     try:
         path.parent.mkdir(exist_ok=True)
-        path.write_text(found.text, "utf-8")
     except OSError as error:
-        usage(f"{path} cannot be written: {error.strerror or error}")
+        usage(f"{path.parent} cannot be made: {error.strerror}")
+    write_text(path, found.text)
     typer.echo(str(path))
 
 

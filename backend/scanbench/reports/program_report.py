@@ -89,19 +89,20 @@ def program_report(
     texts: Mapping[str, str], problems: Sequence[Problem], missing: Collection[str] = ()
 ) -> ProgramReport:
     """The report of a program with these texts, in which its check found these problems. `missing` are libraries without a text."""
-    files = report_files(texts, problems)
+    trees = {name: parse_file(Source(name, text))[0] for name, text in texts.items()}
+    files = _files(trees, texts, problems)
     errors = [each for each in problems if each.severity is Severity.ERROR]
     return ProgramReport(
         tuple(files),
-        _causes(errors, texts),
+        _causes(errors, trees),
         tuple(sorted(library for name in texts if (library := library_of_file(name)))),
         tuple(missing),
         tuple(each for each in problems if each.code == STUB),
     )
 
 
-def _causes(errors: Sequence[Problem], texts: Mapping[str, str]) -> tuple[Cause, ...]:
-    begins = {name: [each.span.line for each in parse_file(Source(name, text))[0].pous] for name, text in texts.items()}
+def _causes(errors: Sequence[Problem], trees: Mapping[str, tree.File]) -> tuple[Cause, ...]:
+    begins = {name: [each.span.line for each in file.pous] for name, file in trees.items()}
     same: dict[tuple[str, str], list[Problem]] = {}
     for each in errors:
         same.setdefault((each.code, _NAMED.sub("`_`", each.message)), []).append(each)
@@ -113,9 +114,8 @@ def _causes(errors: Sequence[Problem], texts: Mapping[str, str]) -> tuple[Cause,
     return tuple(sorted(made, key=lambda each: (-each.pous, -len(each.places), each.code, each.message)))
 
 
-def report_files(texts: Mapping[str, str], problems: Sequence[Problem]) -> list[FileReport]:
+def _files(files: Mapping[str, tree.File], texts: Mapping[str, str], problems: Sequence[Problem]) -> list[FileReport]:
     """A report of every file, by the problems that its check found."""
-    files = {name: parse_file(Source(name, text))[0] for name, text in texts.items()}
     errors = [each for each in problems if each.severity is Severity.ERROR]
     units = {name: _units(file, texts[name], errors) for name, file in files.items()}
     every = [each for own in units.values() for each in own]

@@ -171,7 +171,8 @@ class Projects:
     async def from_archive(self, name: str, model: str, archive: Archive, author: str) -> ProjectRow:
         """A project with the files of an archive, which are not built yet."""
         guessed = {} if archive.dialect == STRICT else {LANGUAGE_FILE: language_text(archive.dialect)}
-        texts = completed({**guessed, **archive.files}, archive.twincat) | archive.panels
+        programs = await asyncio.to_thread(completed, {**guessed, **archive.files}, archive.twincat)
+        texts = programs | archive.panels
         for path in texts:
             _check_path(path)
         for path, text in archive.panels.items():

@@ -39,7 +39,8 @@ class ProjectLibrary(Wire):
     """A library of a vendor, for the programs of a project."""
 
     name: str
-    about: str = Field(description="what it is, and where it is documented")
+    about: str = Field(description="what it is")
+    source: str = Field(description="address of its documentation")
     declared: int = Field(description="types, functions and blocks")
     stubs: int = Field(description="of these, POUs that need a device")
     path: str = Field(description="of its text in a project")

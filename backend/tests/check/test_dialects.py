@@ -239,6 +239,8 @@ def test_the_first_uses_of_a_rule_in_a_file_are_told_and_the_others_counted() ->
     text = f"PROGRAM Main\nVAR w : WORD; i : INT; d : DINT; END_VAR\n{lines}i := d;\nEND_PROGRAM\n"
     found = check_sources(with_dialect({"a.st": text}, "codesys"), MODEL)
     assert found.program is not None
-    assert [each.span.line for each in found.problems] == [3, 4, 5, 6, 7, 12]
-    assert found.problems[4].message.endswith("The same rule is not kept at 4 more places in this file.")
-    assert "more place" not in found.problems[5].message
+    assert [each.span.line for each in found.problems] == [3, 4, 5, 6, 7, 8, 12]
+    assert found.problems[5].message.startswith(
+        "The same in 4 more places of this file, from here on: in IEC 61131-3 a bit"
+    )
+    assert "more place" not in found.problems[6].message

@@ -57,17 +57,17 @@ def test_every_pou_that_is_no_stub_has_a_case() -> None:
 @pytest.mark.parametrize("library", catalogue(), ids=lambda each: each.name)
 def test_every_library_says_what_it_is_and_where_it_is_documented(library: Library) -> None:
     assert library.about.startswith(f"{library.name} of ")
-    assert "https://" in library.about
+    assert library.source.startswith("https://")
     assert library_named(library.name.upper()) is library
     assert library_of_file(library.path) == library.name
 
 
 @pytest.mark.parametrize("library", catalogue(), ids=lambda each: each.name)
 def test_the_page_has_a_row_for_every_library(library: Library) -> None:
-    what, _, address = library.about.partition(": ")[2].partition(". ")
+    what = library.about.partition(": ")[2].partition(". ")[0].removesuffix(".")
     dialects = ", ".join(f"`{each}`" for each in library.dialects)
     pous = sum(isinstance(each, PouDeclaration) for each in library.declared)
-    row = f"| [`{library.name}`]({address.split()[-1]}) | {dialects} | {what} | {pous} | {len(library.stubs)} |"
+    row = f"| [`{library.name}`]({library.source}) | {dialects} | {what} | {pous} | {len(library.stubs)} |"
     assert row in PAGE.read_text("utf-8").splitlines()
 
 

@@ -56,6 +56,11 @@ def test_a_twincat_project_is_checked_and_run_with_the_libraries_that_it_uses(pr
 def test_the_report_says_which_libraries_are_missing(project: Path) -> None:
     found = scanbench("check", str(project / "line"), "--dialect", "twincat", "--report")
     assert "Parts" in found.stdout.partition("missing libraries")[2]
+    page = project / "report.html"
+    scanbench("check", str(project / "line"), "--dialect", "twincat", "--html", str(page))
+    assert "Missing, so that their names are not known: Parts." in page.read_text()
+    nowhere = scanbench("check", str(project / "line"), "--html", str(project / "no" / "report.html"))
+    assert (nowhere.returncode, "cannot be written" in nowhere.stderr) == (2, True)
 
 
 def test_libraries_are_listed_shown_and_added(tmp_path: Path) -> None:

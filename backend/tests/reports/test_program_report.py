@@ -2,7 +2,7 @@
 
 from scanbench.check.build import check_sources
 from scanbench.reports.program_page import program_page
-from scanbench.reports.program_report import ProgramReport, program_report, report_files, report_json, report_lines
+from scanbench.reports.program_report import ProgramReport, program_report, report_json, report_lines
 from tests.caseformat import MODELS
 
 TEXTS = {
@@ -32,11 +32,11 @@ def files_of(report: ProgramReport) -> list[dict[str, object]]:
 
 def test_pous_with_errors_are_counted_apart_from_constructs() -> None:
     checked = check_sources(TEXTS, MODELS["GENERIC-IEC"])
-    reports = report_files(TEXTS, checked.problems)
+    report = program_report(TEXTS, checked.problems, ["Parts"])
+    reports = report.files
     assert [(each.name, each.pous, each.clean) for each in reports] == [("Types.st", 0, 0), ("Main.st", 3, 1)]
     assert [each.errors for each in reports] == [1, 2]
     assert sum(each.refused.total() for each in reports) == 1
-    report = program_report(TEXTS, checked.problems, ["Parts"])
     lines = report_lines(report)
     assert "1 of 3 POUs (33.3 %) have no error of their own" in lines
     assert "1 of 3 POUs (33.3 %) run: neither they nor what they use has an error" in lines
@@ -63,9 +63,9 @@ f := 1;
 END_FUNCTION_BLOCK
 """,
     }
-    reports = report_files(texts, check_sources(texts, MODELS["GENERIC-IEC"]).problems)
-    assert [(each.name, each.pous, each.run) for each in reports] == [("Types.st", 0, 0), ("Blocks.st", 3, 1)]
     report = program_report(texts, check_sources(texts, MODELS["GENERIC-IEC"]).problems)
+    reports = report.files
+    assert [(each.name, each.pous, each.run) for each in reports] == [("Types.st", 0, 0), ("Blocks.st", 3, 1)]
     assert [each["pous_that_run"] for each in files_of(report)] == [0, 1]
 
 

@@ -5942,7 +5942,7 @@ export interface components {
         ProjectLibrary: {
             /**
              * About
-             * @description what it is, and where it is documented
+             * @description what it is
              */
             about: string;
             /**
@@ -5962,6 +5962,11 @@ export interface components {
              * @description of its text in a project
              */
             path: string;
+            /**
+             * Source
+             * @description address of its documentation
+             */
+            source: string;
             /**
              * Stubs
              * @description of these, POUs that need a device

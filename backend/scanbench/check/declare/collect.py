@@ -47,7 +47,8 @@ class Collector:
         internal = self.declarations.names.internal
         libraries = [each for each in parsed if library_of_file(each.name) is not None]
         own = [each for each in parsed if library_of_file(each.name) is None]
-        for file in (*own, *(_apart(each, _declared(own)) for each in libraries)):
+        taken = _declared(own) if libraries else set()
+        for file in (*own, *(_apart(each, taken) for each in libraries)):
             internal |= {space.upper(): space.upper().rpartition(".")[0] for space in file.internal}
             for declaration in file.types:
                 key = self._first(declaration.namespace, declaration.name, declaration.span)

@@ -3,7 +3,7 @@
 from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Method
 from scanbench.check.declare.creations import FB_EXIT, FB_INIT, inputs_of, is_called
-from scanbench.check.dialect import MORE, Allowance, Dialect, said
+from scanbench.check.dialect import Allowance, Dialect, said
 from scanbench.syntax import tree
 
 RETAINS, COPY = "BINITRETAINS", "BINCOPYCODE"
@@ -19,7 +19,7 @@ def check_life_method(method: Method, report: Report, dialect: Dialect) -> None:
         report.warn(
             "W006",
             f"{what} is not called by itself here: nothing outside of the program is to be released, and a restart or a program "
-            f"change replaces the whole memory. Call it yourself where it has to run.{MORE}",
+            f"change replaces the whole memory. Call it yourself where it has to run.",
             declaration.span,
         )
         return

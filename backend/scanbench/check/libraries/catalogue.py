@@ -44,7 +44,9 @@ class Library:
     dialects: tuple[DialectName, ...]
     text: str
     about: str
-    """What it is, in a sentence: the comment that its text begins with."""
+    """What it is, in a sentence."""
+    source: str
+    """The address of its documentation; both are in the comment that its text begins with."""
     declared: tuple[tree.PouDeclaration | tree.TypeDeclaration, ...]
     names: frozenset[str]
     """All that it declares, in upper case; what is in a namespace with its name in front."""
@@ -114,8 +116,10 @@ def _library(name: str) -> Library:
     text = files("scanbench.check").joinpath(f"libraries/{name}.st").read_text("utf-8")
     file, problems = parse_st(Source(f"{FOLDER}/{name}.st", text))
     assert not problems, problems
-    about = " ".join(text.partition("(*")[2].partition("*)")[0].split())
-    return Library(name, SHIPPED[name], text, about, (*file.types, *file.pous), frozenset(_names(file)), _words(text))
+    about, _, source = " ".join(text.partition("(*")[2].partition("*)")[0].split()).partition(" From ")
+    return Library(
+        name, SHIPPED[name], text, about, source, (*file.types, *file.pous), frozenset(_names(file)), _words(text)
+    )
 
 
 def _words(text: str) -> frozenset[str]:

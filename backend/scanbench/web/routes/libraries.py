@@ -39,6 +39,7 @@ def _library(each: Offered) -> ProjectLibrary:
     return ProjectLibrary(
         name=library.name,
         about=library.about,
+        source=library.source,
         declared=len(library.declared),
         stubs=len(library.stubs),
         path=library.path,

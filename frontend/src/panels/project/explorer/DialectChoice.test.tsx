@@ -50,7 +50,8 @@ test("a change that is refused is taken back, and the reason is told", async () 
 test("a library that the programs use is added as a file, and then shown", async () => {
   const library = {
     name: "Util",
-    about: "Util of CODESYS: bits. From https://x",
+    about: "Util of CODESYS: bits.",
+    source: "https://x",
     declared: 8,
     stubs: 0,
     path: "libraries/Util.st",

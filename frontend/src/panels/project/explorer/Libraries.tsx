@@ -53,15 +53,14 @@ export function Libraries({ project, onClose }: { project: number; onClose: () =
 }
 
 function Row({ library, onAdd, onShow }: { library: ProjectLibrary; onAdd: () => void; onShow: () => void }) {
-  const { name, added, used, declared, stubs } = library;
-  const [about = "", source = ""] = library.about.split(" From ");
+  const { name, about, source, added, used, declared, stubs } = library;
   return (
     <li>
       <div className="grow">
         <b>{name}</b>
         {used && <span className="st warning">{t("libraries.used")}</span>}
         <p>
-          {about.replace(/^.*?: /, "")}{" "}
+          {about}{" "}
           <span className="faint">
             {t("libraries.count", { declared: `${declared}`, stubs: `${stubs}` })}{" "}
             <a className="link" href={source} target="_blank" rel="noreferrer">
