@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.jobs import client
-from scanbench.jobs.client import DIED, SLOW, Gone, Job, SharedJob, alone
+from scanbench.jobs.client import DIED, SLOW, Gone, Job, SharedJob
 from scanbench.wire.host import Sources
 from scanbench.wire.jobs import FindReaction, JobDone, Reacted, RunSweep
 from scanbench.wire.refused import Refused
@@ -22,22 +22,28 @@ async def ignored(part: object) -> None:
     pass
 
 
+async def silent(job: client.Job) -> None:
+    """Its process is there, and stopped: it says nothing from now on."""
+    await job._begun.wait()
+    os.kill(*job.pids, signal.SIGSTOP)
+
+
 def test_a_process_that_says_nothing_is_ended(tmp_path: Path) -> None:
     async def story() -> None:
         ended = asyncio.Event()
         job = Job(tmp_path, ended.set)
+        await silent(job)
         with pytest.raises(Gone, match=SLOW[:20]):
             await job.ask(question(tmp_path), Reacted, seconds=0.0)
         await ended.wait()
         assert job.gone
         with pytest.raises(Gone, match=DIED):
             await job.ask(question(tmp_path), Reacted)
-        with pytest.raises(
-            Gone, match=DIED
-        ):  # one that tells how far it is may take its time, and is a fault when it does not
-            await alone(
-                tmp_path, lambda ref: RunSweep(ref, Sources("", {}, 1, 1), (), (), 1, ()), JobDone, ignored, 0.0
-            )
+        long = Job(tmp_path)  # one that tells how far it is may take its time, and is a fault when it does not
+        await silent(long)
+        with pytest.raises(Gone, match=DIED):
+            await long.ask(lambda ref: RunSweep(ref, Sources("", {}, 1, 1), (), (), 1, ()), JobDone, 0.0, ignored)
+        await long.end()
 
     asyncio.run(story())
 
