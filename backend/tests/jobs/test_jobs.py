@@ -25,7 +25,8 @@ async def ignored(part: object) -> None:
 async def silent(job: client.Job) -> None:
     """Its process is there, and stopped: it says nothing from now on."""
     await job._begun.wait()
-    os.kill(*job.pids, signal.SIGSTOP)
+    (pid,) = job.pids
+    os.kill(pid, signal.SIGSTOP)
 
 
 def test_a_process_that_says_nothing_is_ended(tmp_path: Path) -> None:
