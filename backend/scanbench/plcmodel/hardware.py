@@ -23,6 +23,8 @@ class Fitted:
     rack: int | None = None
     slot: int | None = None
     name: str = ""
+    words: tuple[str, ...] = ()
+    """The words of inputs and outputs that lead to the terminals of the unit, as `Model.word_text` writes them."""
 
 
 def fitted_instances(fitted: tuple[Fitted, ...] | None, error: ErrorEntry) -> tuple[Details, ...] | None:

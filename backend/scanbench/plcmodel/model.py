@@ -315,6 +315,11 @@ class Model:
         """The vendor's notation of a place."""
         return address.write(area, self.iec_maps, byte, bit, bits)
 
+    def word_text(self, area: Area, byte: int) -> str:
+        """The vendor's notation of a word; of an area that counts bits that of its first bit: `D100`, `0`, `X20`."""
+        bits = area.unit == "bit"
+        return self.format(area, byte, 0 if bits else None, 1 if bits else 16)
+
     def range_text(self, words: WordRange) -> tuple[str, str]:
         """First and last address of a range, in the vendor's notation: `D0`, `D99`; `X0`, `X63F` where bits count."""
         area, bits = words.area, words.area.unit == "bit"

@@ -13,7 +13,7 @@ from scanbench.plcmodel.reading import nearest
 from scanbench.problems import Problem, Span
 
 FORMAT = 1
-_FIELDS = ("kind", "number", "rack", "slot", "name")
+_FIELDS = ("kind", "number", "rack", "slot", "words", "name")
 _PLACED = ("basic-io-unit", "special-io-unit", "cpu-bus-unit")
 """Units that are in a slot; of a special or bus unit it may be left out."""
 _LONGEST = 100
@@ -91,6 +91,7 @@ class _Reader:
             return ()
         found: dict[tuple[str, int | None, int | None, int | None], int] = {}
         places: dict[tuple[int, int], int] = {}
+        words: dict[str, int] = {}
         fitted = []
         for index, each in enumerate(told["fitted"]):
             line = self._lines[index] if index < len(self._lines) else 1
@@ -110,6 +111,10 @@ class _Reader:
                         f"rack {one.rack}, slot {one.slot} is taken by line {places[place]}: one unit goes into a slot",
                     )
                 places.setdefault(place, line)
+            for word in one.words:
+                if word in words:
+                    self._say(line, f"word {word} belongs to line {words[word]} already: a word leads to one unit")
+                words.setdefault(word, line)
             fitted.append(one)
         return tuple(fitted)
 
@@ -136,8 +141,38 @@ class _Reader:
                 self._say(line, f"{field} is {value!r}, and has to be a whole number")
                 return None
             numbers[field] = value
-        one = Fitted(kind, numbers["number"], numbers["rack"], numbers["slot"], name)
+        words = self._words(kind, told.get("words", ""), line)
+        if words is None:
+            return None
+        one = Fitted(kind, numbers["number"], numbers["rack"], numbers["slot"], name, words)
         return one if self._fits(one, line) else None
+
+    def _words(self, kind: str, told: object, line: int) -> tuple[str, ...] | None:
+        """The words of a unit, as the model writes them; None where the text is wrong."""
+        if not isinstance(told, str):
+            self._say(line, "words is a text with the addresses of the unit's words, and commas between them")
+            return None
+        texts = [each.strip() for each in told.split(",") if each.strip()]
+        if texts and kind not in _PLACED:
+            self._say(line, f"a {kind} has no words of inputs and outputs")
+            return None
+        found = [self._word(text, line) for text in texts]
+        return None if None in found else tuple(each for each in found if each is not None)
+
+    def _word(self, text: str, line: int) -> str | None:
+        place = self._model.locate(text)
+        if place is None:
+            self._say(line, self._model.why_not(text))
+            return None
+        for each in self._model.iec_maps:
+            if (
+                each.letter in "IQ"
+                and each.area == place.area
+                and each.first <= place.byte // 2 < each.first + each.words
+            ):
+                return self._model.word_text(place.area, place.byte // 2 * 2)
+        self._say(line, f"{text} is no word of inputs or outputs of the {self._model.name}")
+        return None
 
     def _no_kind(self, kind: object) -> str:
         known = [each for each in self._ranges if each != "slot"]
@@ -198,7 +233,7 @@ def write_hardware(fitted: tuple[Fitted, ...]) -> str:
     """The text of a configuration: an item a line, in the order of kinds, racks and numbers, so that it can be compared."""
     lines = []
     for each in sorted(fitted, key=lambda one: (one.kind, one.rack or 0, one.slot or 0, one.number or 0)):
-        told = {field: value for field in _FIELDS if (value := getattr(each, field)) not in (None, "")}
+        told = {field: value for field in _FIELDS if (value := _told(each, field)) not in (None, "")}
         lines.append(f"    {json.dumps(told, ensure_ascii=False)}")
     items = ",\n".join(lines)
     return (
@@ -206,3 +241,7 @@ def write_hardware(fitted: tuple[Fitted, ...]) -> str:
         if lines
         else f'{{\n  "version": {FORMAT},\n  "fitted": []\n}}\n'
     )
+
+
+def _told(one: Fitted, field: str) -> object:
+    return ", ".join(one.words) if field == "words" else getattr(one, field)

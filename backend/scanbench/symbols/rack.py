@@ -43,8 +43,7 @@ def _word(program: Program, each: IecMap, word: int, side: str, known: dict[int,
     start = program.layout.areas[each.area.name]
     model, byte = program.layout.model, 2 * word
     here = [symbol for at in (byte, byte + 1) for symbol in known.get(start + at, ())]
-    title = model.format(each.area, byte, 0, 1) if each.area.unit == "bit" else model.format(each.area, byte, None, 16)
-    whole = address(program, title)
+    whole = address(program, model.word_text(each.area, byte))
     if whole is None:
         return
     yield replace(whole, section=side)

@@ -27,6 +27,17 @@ class Channel(Wire):
     address: str = Field(description="in the vendor's notation; of areas that count bits that of its first bit")
     side: Literal["input", "output"]
     terminals: list[SymbolInfo] = Field(description="its bits, or the variables in it that are larger than a bit")
+    unit: "ChannelUnit | None" = Field(default=None, description="the unit that hardware.json says it leads to")
+
+
+class ChannelUnit(Wire):
+    """A unit of the project's hardware, of which words of inputs and outputs are."""
+
+    kind: str
+    number: int | None
+    rack: int | None
+    slot: int | None
+    name: str = Field(description="what hardware.json calls it; empty: it does not say")
 
 
 class MemoryWord(Wire):

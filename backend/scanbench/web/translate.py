@@ -3,6 +3,7 @@
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.plcmodel.facts import share
+from scanbench.plcmodel.hardware import Fitted
 from scanbench.plcmodel.read_hardware import ranges
 from scanbench.problems import Problem
 from scanbench.program.sites import CheckSite
@@ -15,6 +16,7 @@ from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
 from scanbench.web import (
     messages_models,
+    messages_values,
     translate_debug,
     translate_errors,
     translate_sweeps,
@@ -239,6 +241,13 @@ def model_info(model: plc.Model) -> messages_models.ModelInfo:
             for kind, (low, high) in ranges(model).items()
         ],
         catalogue=translate_errors.groups(model.catalogue, translate_errors.facts_by_error(model)),
+    )
+
+
+def channel_unit(fitted: Fitted) -> messages_values.ChannelUnit:
+    """The unit that words of inputs and outputs lead to."""
+    return messages_values.ChannelUnit(
+        kind=fitted.kind, number=fitted.number, rack=fitted.rack, slot=fitted.slot, name=fitted.name
     )
 
 

@@ -35,6 +35,15 @@ def test_the_golden_file_is_read_and_written_as_it_is() -> None:
     assert fitted()[5] == Fitted("special-io-unit", 3, 0, 2, "Analog inputs")
 
 
+def test_words_of_a_unit_are_kept_as_the_model_writes_them() -> None:
+    text = '{"version": 1, "fitted": [{"kind": "basic-io-unit", "rack": 0, "slot": 1, "words": "CIO 0,  cio1", "name": "In"}]}'
+    found, problems = read_hardware(model("CJ1M-CPU13"), text)
+    assert problems == []
+    assert found is not None
+    assert found[0].words == ("CIO0", "CIO1")
+    assert '"words": "CIO0, CIO1", "name": "In"' in write_hardware(found)
+
+
 def test_the_errors_of_what_is_fitted() -> None:
     known, problems = extended(model("CJ1M-CPU13"), {"hardware.json": GOLDEN})
     assert problems == []
@@ -97,7 +106,12 @@ def test_a_board_is_fitted_or_not() -> None:
         ('{"kind": "basic-io-unit", "rack": 0, "slot": 1},\n{"kind": "cpu-bus-unit", "number": 1, "rack": 0, "slot": 1}', 4, "is taken by line 3"),
         ('{"kind": "cpu-bus-unit"}', 3, "a cpu-bus-unit needs a number: 0 to 15"),
         ('{"kind": "cpu-bus-unit", "number": "1"}', 3, "number is '1', and has to be a whole number"),
-        ('{"kind": "fal", "number": 1, "text": ""}', 3, "text is unknown; there are kind, number, rack, slot, name"),
+        ('{"kind": "fal", "number": 1, "text": ""}', 3, "text is unknown; there are kind, number, rack, slot, words, name"),
+        ('{"kind": "fal", "number": 1, "words": "0"}', 3, "a fal has no words of inputs and outputs"),
+        ('{"kind": "cpu-bus-unit", "number": 1, "words": 0}', 3, "words is a text with the addresses"),
+        ('{"kind": "cpu-bus-unit", "number": 1, "words": "CIO 0, D100"}', 3, "D100 is no word of inputs or outputs of the CJ1M-CPU13"),
+        ('{"kind": "cpu-bus-unit", "number": 1, "words": "Z9"}', 3, "'Z9' is not an address of this model"),
+        ('{"kind": "cpu-bus-unit", "number": 1, "words": "CIO 0"},\n{"kind": "cpu-bus-unit", "number": 2, "words": "CIO 1, CIO0"}', 4, "belongs to line 3 already"),
         ('{"kind": "fal", "number": 1, "rack": 1}', 3, "a fal is in no slot"),
         ("{", 4, "this is no JSON text"),
         (f'{{"kind": "fal", "number": {"9" * 5000}}}', 3, "a number is too long"),

@@ -213,9 +213,13 @@ def test_an_operator_panel_is_a_file_of_the_project_and_no_part_of_its_program(s
 
 
 def test_the_terminals_of_a_plc(server: Server) -> None:
-    instance = server.instance(
+    project = server.project(
         "rack", "CJ1M-CPU63", main="PROGRAM Main\nVAR start AT CIO 0.03 : BOOL; END_VAR\nEND_PROGRAM\n"
     )
+    hardware = '{"version": 1, "fitted": [{"kind": "basic-io-unit", "rack": 0, "slot": 2, "words": "CIO 0", "name": "Photo eyes"}]}'
+    server.http.put(f"/api/projects/{project}/files/hardware.json", json={"text": hardware, "version": 0})
+    instance = server.http.post("/api/instances", json={"project": project, "name": "rack"}).json()["id"]
+    server.made.append(instance)
     channels = server.http.get(f"/api/instances/{instance}/rack").json()
     assert [(each["address"], each["side"], len(each["terminals"])) for each in channels] == [
         ("CIO0", "input", 16),
@@ -225,6 +229,8 @@ def test_the_terminals_of_a_plc(server: Server) -> None:
         ("CIO0.02", "CIO0.02"),
         ("Main.start", "CIO0.03"),
     ]
+    unit = {"kind": "basic-io-unit", "number": None, "rack": 0, "slot": 2, "name": "Photo eyes"}
+    assert [each["unit"] for each in channels] == [unit, None]
 
 
 def test_the_numbers_that_a_program_raises_errors_with_are_found_when_asked_for(server: Server) -> None:

@@ -854,8 +854,9 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit
-         * @description The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit.
+         * The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit, with the units that `hardware.json` says they lead to
+         * @description The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit, with the
+         *     units that `hardware.json` says they lead to.
          */
         get: operations["list_instance_rack"];
         put?: never;
@@ -3170,6 +3171,27 @@ export interface components {
              * @description its bits, or the variables in it that are larger than a bit
              */
             terminals: components["schemas"]["Symbol"][];
+            /** @description the unit that hardware.json says it leads to */
+            unit?: components["schemas"]["ChannelUnit"] | null;
+        };
+        /**
+         * ChannelUnit
+         * @description A unit of the project's hardware, of which words of inputs and outputs are.
+         */
+        ChannelUnit: {
+            /** Kind */
+            kind: string;
+            /**
+             * Name
+             * @description what hardware.json calls it; empty: it does not say
+             */
+            name: string;
+            /** Number */
+            number: number | null;
+            /** Rack */
+            rack: number | null;
+            /** Slot */
+            slot: number | null;
         };
         /**
          * CheckRequest

@@ -25,6 +25,7 @@ export type CoveredFile = Shapes["CoveredFile"];
 export type CoveredSite = Shapes["CoveredSite"];
 export type ChangeInstance = Shapes["ChangeInstance"];
 export type Channel = Shapes["Channel"];
+export type ChannelUnit = Shapes["ChannelUnit"];
 export type DeviceDetail = Shapes["DeviceDetail"];
 export type DeviceError = Shapes["DeviceError"];
 export type DeviceErrors = Shapes["DeviceErrors"];

@@ -150,14 +150,20 @@ async def on_instances_of(bench: Bench, instance: Id, pou: str) -> tuple[SymbolI
 
 @router.get("/instances/{instance}/rack")
 async def on_rack(bench: Bench, instance: Id) -> list[messages_values.Channel]:
-    """The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit."""
-    found = await bench.session(instance).instance.look_up("terminals", "")
+    """The words of inputs and outputs in which the running program declares a variable, at most 32 of each, bit by bit, with the
+    units that `hardware.json` says they lead to."""
+    session = bench.session(instance)
+    found = await session.instance.look_up("terminals", "")
+    units = {word: translate.channel_unit(each) for each in session.model.fitted or () for word in each.words}
     channels: list[messages_values.Channel] = []
     for symbol in found.symbols:
         if symbol.section in (INPUT, OUTPUT):
             channels.append(
                 messages_values.Channel(
-                    address=symbol.path, side="input" if symbol.section == INPUT else "output", terminals=[]
+                    address=symbol.path,
+                    side="input" if symbol.section == INPUT else "output",
+                    terminals=[],
+                    unit=units.get(symbol.path),
                 )
             )
         else:

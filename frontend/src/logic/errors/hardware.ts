@@ -5,7 +5,7 @@ import type { HardwareKind } from "../../wire/types";
 export const HARDWARE = "hardware.json";
 export const NO_HARDWARE = '{\n  "version": 1,\n  "fitted": []\n}\n';
 
-const FIELDS = ["kind", "number", "rack", "slot", "name"] as const;
+const FIELDS = ["kind", "number", "rack", "slot", "words", "name"] as const;
 export type HardwareField = (typeof FIELDS)[number];
 export type FittedItem = Partial<Record<Exclude<HardwareField, "kind">, string | number>> & { kind: string };
 

@@ -1,6 +1,7 @@
 /** All inputs and outputs at once, made from the model and the program: to operate what has no panel yet. */
 import { useEffect } from "react";
 import { splitPath } from "../../logic/format/paths";
+import { byUnit } from "../../logic/operator/rack";
 import { forgetRefusal, operate, useRefused } from "../../store/operator/operate";
 import { loadRack, useRack } from "../../store/operator/rack";
 import { useBench } from "../../store/plc/bench";
@@ -9,7 +10,7 @@ import { useForcedAt } from "../../store/watch/forces";
 import { t } from "../../text";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
-import type { Channel, PlcSymbol } from "../../wire/types";
+import type { Channel, ChannelUnit, PlcSymbol } from "../../wire/types";
 import { NumberField } from "./OperatedElement";
 import "./operator.css";
 import { useReading } from "./useReading";
@@ -33,13 +34,37 @@ export function RackPage() {
         </p>
       )}
       {channels?.length === 0 && <Empty title={t("rack.none")} about={t("rack.none.about")} ways={[]} />}
-      <div className="oprack">
-        {channels?.map((channel) => (
-          <ChannelCard key={channel.address} channel={channel} />
+      <div className="opracks">
+        {byUnit(channels ?? []).map(({ unit, channels: own }) => (
+          <Unit
+            key={own[0]?.address}
+            unit={unit}
+            channels={own}
+            alone={channels?.every((each) => !each.unit) ?? true}
+          />
         ))}
       </div>
     </section>
   );
+}
+
+/** The words of one unit, below its place and name; without hardware.json, or where it names no words, all words together. */
+function Unit({ unit, channels, alone }: { unit: ChannelUnit | null; channels: readonly Channel[]; alone: boolean }) {
+  const cards = channels.map((channel) => <ChannelCard key={channel.address} channel={channel} />);
+  if (alone) return <div className="oprack">{cards}</div>;
+  const title = unit ? nameOfUnit(unit) : t("rack.unit.none");
+  return (
+    <section aria-label={title}>
+      <h2 className="opplace">{title}</h2>
+      <div className="oprack">{cards}</div>
+    </section>
+  );
+}
+
+function nameOfUnit({ rack, slot, number, kind, name }: ChannelUnit): string {
+  const place = rack === null || slot === null ? null : t("rack.unit.place", { rack, slot });
+  const unit = name === "" ? `${kind}${number === null ? "" : ` ${number}`}` : name;
+  return place === null ? unit : `${place}: ${unit}`;
 }
 
 function ChannelCard({ channel: { address, side, terminals } }: { channel: Channel }) {

@@ -17,6 +17,9 @@ export const hardware = {
   "hardware.field.rack": "Rack",
   "hardware.field.slot": "Slot",
   "hardware.field.text": "Text",
+  "hardware.field.words": "I/O words",
+  "hardware.field.words.hint":
+    "The words of inputs and outputs that lead to this unit, with commas between them. The page Inputs and outputs names the unit then.",
   "hardware.full": "There are all {count} of them already",
   "hardware.kind.basic-io-unit": "Basic I/O Units",
   "hardware.kind.communications-port": "Communications ports",

@@ -86,4 +86,6 @@ export const operator = {
   "rack.title": "Inputs and outputs",
   "rack.toggle": "Switch {path}",
   "rack.trouble": "The inputs and outputs could not be read: {message}",
+  "rack.unit.none": "No unit in hardware.json",
+  "rack.unit.place": "Rack {rack}, slot {slot}",
 };

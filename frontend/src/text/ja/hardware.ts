@@ -19,6 +19,9 @@ export const hardware: Record<keyof typeof english, string> = {
   "hardware.field.rack": "ラック",
   "hardware.field.slot": "スロット",
   "hardware.field.text": "文章",
+  "hardware.field.words": "入出力ワード",
+  "hardware.field.words.hint":
+    "このユニットにつながる入出力のワード（コンマで区切る）。「入出力」のページにユニットの名前が出ます。",
   "hardware.full": "{count} 件すべて登録済みです",
   "hardware.kind.basic-io-unit": "基本 I/O ユニット",
   "hardware.kind.communications-port": "ネットワーク通信ポート",

@@ -87,4 +87,6 @@ export const operator: Record<keyof typeof english, string> = {
   "rack.title": "入出力",
   "rack.toggle": "{path} を切り替える",
   "rack.trouble": "入出力を読めませんでした: {message}",
+  "rack.unit.none": "hardware.json にユニットなし",
+  "rack.unit.place": "ラック {rack}、スロット {slot}",
 };

@@ -48,6 +48,19 @@ export function Row({ fitted: { index, item }, range, shows, fresh, problems }: 
         {shows.number && number("number")}
         {shows.place && number("rack")}
         {shows.place && number("slot")}
+        {shows.place && (
+          <td>
+            <input
+              className={`inp sm mono${bad ? " bad" : ""}`}
+              aria-label={`${what}: ${t("hardware.field.words")}`}
+              aria-invalid={bad}
+              title={t("hardware.field.words.hint")}
+              autoComplete="off"
+              value={item.words ?? ""}
+              onChange={({ target }) => set("words", target.value === "" ? null : target.value)}
+            />
+          </td>
+        )}
         <td>
           <div className="row">
             {shows.kind && <span className="mono muted">{kindWord(item.kind, "one") || "?"}</span>}
@@ -72,7 +85,7 @@ export function Row({ fitted: { index, item }, range, shows, fresh, problems }: 
       </tr>
       {problems.map(({ column, message }) => (
         <tr key={`${column}:${message}`} className="hwwrong">
-          <td colSpan={5}>
+          <td colSpan={6}>
             <span className="hint bad" role="alert">
               <Icon name="error" small />
               <span>{message}</span>
