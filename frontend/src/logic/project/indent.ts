@@ -3,7 +3,10 @@
 /** The text of a line, which counts from 1. */
 type LineOf = (line: number) => string;
 
-/** What the layout puts one level deeper than the line itself; the body of a POU begins where its sections do. */
+/** A POU: its sections are at its own level, its statements one level deeper. */
+const HEAD = /^\s*(PROGRAM|FUNCTION|FUNCTION_BLOCK|METHOD)\b(?!.*\bEND_)/i;
+const SECTION = /^\s*VAR(_\w+)?(?!\w)/i;
+/** What the layout puts one level deeper than the line itself. */
 const OPENS =
   /(\b(THEN|DO|ELSE|REPEAT|STRUCT|UNION|TYPE)|^\s*CASE\b.*\bOF|^\s*VAR(_\w+)?\b(?!.*\bEND_VAR\b).*|:)\s*$|^\s*(NAMESPACE|CONFIGURATION|RESOURCE|INTERFACE)\b(?!.*\bEND_)/i;
 const ENDS = /^\s*(?:END_(\w+)|(ELSE|ELSIF)|(UNTIL))(?!\w)/i;
@@ -17,13 +20,34 @@ const codeOf = (text: string) => text.replace(/\(\*.*?(\*\)|$)|\/\/.*$|'(\$.|[^'
 export function indentAfter(lineOf: LineOf, line: number, unit: string): string {
   for (let above = line - 1; above > 0; above -= 1) {
     const text = lineOf(above);
-    if (text.trim() !== "") return blanksOf(text) + (OPENS.test(codeOf(text)) ? unit : "");
+    if (text.trim() === "") continue;
+    const code = codeOf(text);
+    const body = HEAD.test(code) || (/\bEND_VAR\s*$/i.test(code) && headOf(lineOf, above) !== null);
+    return blanksOf(text) + (body || OPENS.test(code) ? unit : "");
   }
   return "";
 }
 
-/** That of the line whose block this line ends or goes on with; null where it does neither, or nothing is open. */
+/** The line of the POU that a line is in; null outside of one. */
+function headOf(lineOf: LineOf, line: number): number | null {
+  let ended = 0;
+  for (let above = line; above > 0; above -= 1) {
+    const code = codeOf(lineOf(above));
+    if (/^\s*END_(PROGRAM|FUNCTION|FUNCTION_BLOCK|METHOD)\b/i.test(code)) ended += 1;
+    else if (HEAD.test(code)) {
+      if (ended === 0) return above;
+      ended -= 1;
+    }
+  }
+  return null;
+}
+
+/** That of the line whose block or POU this line ends, divides or goes on with; null where it does not, or nothing is open. */
 export function indentOfOpener(lineOf: LineOf, line: number): string | null {
+  if (SECTION.test(lineOf(line))) {
+    const head = headOf(lineOf, line - 1);
+    return head === null ? null : blanksOf(lineOf(head));
+  }
   const [, end, branch, until] = ENDS.exec(lineOf(line)) ?? [];
   const words = end ? [end] : branch ? (/^ELSE$/i.test(branch) ? ["IF", "CASE"] : ["IF"]) : until ? ["REPEAT"] : [];
   if (words.length === 0) return null;

@@ -3,8 +3,8 @@ import { FILE_ENDINGS } from "../../../logic/project/explorer";
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Dialog } from "../../../ui/Dialog";
+import { FileList, FileLists } from "../../../ui/FileLists";
 import { IconButton } from "../../../ui/IconButton";
-import "./addFiles.css";
 import type { Adding, Report } from "./useAddFiles";
 
 /** Adds files from this computer to the project; files that are left out are listed with the reason. */
@@ -58,28 +58,10 @@ function Told({ report: { added, left, ended }, onClose }: { report: Report; onC
         </>
       }
     >
-      <div className="addedfiles">
-        {left.length > 0 && <h3>{t("file.left")}</h3>}
-        {left.length > 0 && (
-          <ul aria-label={t("file.left")}>
-            {left.map(({ path, why }) => (
-              <li key={path}>
-                <span className="mono">{path}</span>: {why}
-              </li>
-            ))}
-          </ul>
-        )}
-        {added.length > 0 && <h3>{t("file.added")}</h3>}
-        {added.length > 0 && (
-          <ul aria-label={t("file.added")}>
-            {added.map((path) => (
-              <li key={path} className="mono">
-                {path}
-              </li>
-            ))}
-          </ul>
-        )}
-      </div>
+      <FileLists>
+        <FileList title={t("file.left")} files={left} />
+        <FileList title={t("file.added")} files={added.map((path) => ({ path }))} />
+      </FileLists>
     </Dialog>
   );
 }

@@ -2,6 +2,7 @@ import { useState } from "react";
 import { showCompare } from "../../../store/past/comparisons";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../../store/plc/bench";
 import { showInstances } from "../../../store/plc/instances";
+import { canChooseFolder, chooseFolder } from "../../../store/project/folderOut";
 import { dropArchive, exportProject, useDropped } from "../../../store/project/newProject";
 import { useShownProgram } from "../../../store/project/shownProgram";
 import { openVersions } from "../../../store/project/versions";
@@ -11,10 +12,11 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import type { AppInfo, Project } from "../../../wire/types";
+import { FolderOut } from "./FolderOut";
 import { NewInstance } from "./NewInstance";
 import { NewProject } from "./NewProject";
 
-type Asking = "project" | "instance" | null;
+type Asking = "project" | "instance" | FileSystemDirectoryHandle | null;
 
 /** Chooses the project and the virtual PLC that this browser shows. */
 export function Picker() {
@@ -51,9 +53,17 @@ export function Picker() {
           }}
         />
       )}
+      {asking && typeof asking === "object" && project && (
+        <FolderOut project={project} folder={asking} onClose={() => setAsking(null)} />
+      )}
       {asking === "instance" && project && <NewInstance project={project} onClose={() => setAsking(null)} />}
     </>
   );
+}
+
+async function askForFolder(ask: (folder: FileSystemDirectoryHandle) => void): Promise<void> {
+  const folder = await chooseFolder();
+  if (folder) ask(folder);
 }
 
 function itemsOf(
@@ -110,6 +120,17 @@ function itemsOf(
       disabled: project === null,
       onSelect: () => project && void exportProject(project),
     },
+    ...(canChooseFolder()
+      ? [
+          {
+            label: t("folderout.menu"),
+            icon: "folder",
+            hint: t("picker.export.hint"),
+            disabled: project === null,
+            onSelect: () => void askForFolder(ask),
+          } satisfies MenuItem,
+        ]
+      : []),
     {
       label: t("import.trace"),
       icon: "import",
