@@ -37,10 +37,13 @@ const PICKER = {
   ja: ['プロジェクトとインスタンス', '実行を比較…'],
 } as const;
 
+const HISTORY = { en: ['History', 'Test record'], ja: ['履歴', '試験成績書'] } as const;
+
 /** All pages, each with what opens it. */
 export function pagesOf(ide: Ide, language: (typeof LANGUAGES)[number]): { name: string; open: () => Promise<void> }[] {
   const { page } = ide;
   const [picker, compare] = PICKER[language];
+  const [history, testRecord] = HISTORY[language];
   return [
     ...[...PAGES[language], ...DEVICE_PAGES[language], HELP[language]].map((name) => ({
       name,
@@ -52,6 +55,19 @@ export function pagesOf(ide: Ide, language: (typeof LANGUAGES)[number]): { name:
         await page.getByRole('button', { name: picker }).click();
         await page.getByRole('menuitem', { name: compare }).click();
         await expect(page.locator('[data-pane=compare]')).toBeVisible();
+      },
+    },
+    {
+      name: testRecord,
+      open: async () => {
+        await page.getByRole('tab', { name: history }).click();
+        await expect(page.locator('[data-pane=history]').getByRole('button', { name: testRecord })).toBeVisible();
+        const [, instance] = /\/i\/(\d+)/.exec(page.url()) ?? [];
+        const xml = await page.request.get(new URL(`/api/instances/${instance}/record?format=xml`, page.url()).href);
+        await page
+          .locator('[data-pane=history] input[type=file]')
+          .setInputFiles({ name: 'record.xml', mimeType: 'text/xml', buffer: await xml.body() });
+        await expect(page.locator('[data-pane=record]').getByRole('table')).toBeVisible();
       },
     },
     {

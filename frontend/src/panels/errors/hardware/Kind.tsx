@@ -70,7 +70,11 @@ export function Kind({ range, fitted, all, problems }: Props) {
               {shows.number && <th scope="col">{t("hardware.field.number")}</th>}
               {shows.place && <th scope="col">{t("hardware.field.rack")}</th>}
               {shows.place && <th scope="col">{t("hardware.field.slot")}</th>}
-              {shows.place && <th scope="col">{t("hardware.field.words")}</th>}
+              {shows.place && (
+                <th scope="col" className="hwwords">
+                  {t("hardware.field.words")}
+                </th>
+              )}
               <th scope="col">{t(isText(kind) ? "hardware.field.text" : "hardware.field.name")}</th>
               <td />
             </tr>
