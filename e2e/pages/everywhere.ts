@@ -37,7 +37,7 @@ const PICKER = {
   ja: ['プロジェクトとインスタンス', '実行を比較…'],
 } as const;
 
-const HISTORY = { en: ['History', 'Test record'], ja: ['履歴', '試験成績書'] } as const;
+const HISTORY = { en: ['Panel: History', 'Test record'], ja: ['パネル: 履歴', '試験成績書'] } as const;
 
 /** All pages, each with what opens it. */
 export function pagesOf(ide: Ide, language: (typeof LANGUAGES)[number]): { name: string; open: () => Promise<void> }[] {
@@ -60,7 +60,7 @@ export function pagesOf(ide: Ide, language: (typeof LANGUAGES)[number]): { name:
     {
       name: testRecord,
       open: async () => {
-        await page.getByRole('tab', { name: history }).click();
+        await run(page, history);
         await expect(page.locator('[data-pane=history]').getByRole('button', { name: testRecord })).toBeVisible();
         const [, instance] = /\/i\/(\d+)/.exec(page.url()) ?? [];
         const xml = await page.request.get(new URL(`/api/instances/${instance}/record?format=xml`, page.url()).href);

@@ -12,6 +12,7 @@ from scanbench.language.standard import row_of
 from scanbench.program.types import ArrayType, OpenArray, Record, Reference, Section
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk
+from scanbench.syntax.networks import Box, Contact, NetworkBody, Rung, elements
 from scanbench.syntax.source import Stretch
 
 _NUMBERED = re.compile(r"([A-Z]+)(\d+)")
@@ -32,12 +33,27 @@ def calls_of(pou: tree.PouDeclaration, start: int, end: int) -> Iterator[tree.Ca
             if each.operator == "CAL" and each.operand is not None and start <= _end(each.span) and _start(each) < end:
                 yield tree.Call(each.operand, each.arguments, each.span)
         return
+    if isinstance(pou.body, NetworkBody):
+        for rung in pou.body.networks:
+            yield from _in_rung(rung, start, end)
+        return
     lists: list[Sequence[tree.Statement]] = [pou.body]
     while lists:
         for statement in _reaching(lists.pop(), start, end):
             expressions, inner = _parts(statement)
             lists += inner
             yield from _in_expressions(expressions)
+
+
+def _in_rung(rung: Rung, start: int, end: int) -> Iterator[tree.Call]:
+    for each in elements(rung.path):
+        if isinstance(each, Box):
+            arguments = tuple(one for one in each.arguments if isinstance(one, tree.Argument))
+            if start <= _end(each.span) and _start(each) < end:
+                yield tree.Call(each.callee, arguments, each.span)
+                yield from _in_expressions([one.value for one in arguments if one.value is not None])
+        elif isinstance(each, Contact):
+            yield from _in_expressions([each.operand])
 
 
 def _reaching(statements: Sequence[tree.Statement], start: int, end: int) -> Iterator[tree.Statement]:
@@ -86,7 +102,7 @@ def _in_expressions(open_: list[tree.Expression]) -> Iterator[tree.Call]:
                 open_ += [array, *indices]
 
 
-def _start(node: tree.Statement | tree.IlInstruction) -> int:
+def _start(node: tree.Statement | tree.IlInstruction | Box) -> int:
     return node.span.start if isinstance(node.span, Stretch) else -1
 
 

@@ -15,6 +15,7 @@ from scanbench.program.types import ELEMENTARY
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import read
 from scanbench.syntax.lexer import Lex, Tokens, tokenize
+from scanbench.syntax.networks import NetworkBody
 from scanbench.syntax.scl import is_scl
 from scanbench.syntax.source import Source, Stretch
 
@@ -92,7 +93,7 @@ def keeps(text: str, lines: list[Line], made: str, name: str) -> bool:
 def leveled(text: str, tokens: Tokens, top: list[Block], pous: Sequence[tree.PouDeclaration]) -> list[Line]:
     """The lines with something in them, with how far each is to be indented."""
     lines = list(_lines(text, tokens))
-    _levels(lines, top, _il(pous))
+    _levels(lines, top, _as_written(pous))
     return lines
 
 
@@ -172,12 +173,12 @@ def _line(text: str, items: list[Item], number: int) -> Line:
 # ---- levels ---------------------------------------------------------------------------------------------------------
 
 
-def _il(pous: Sequence[tree.PouDeclaration]) -> list[tuple[int, int]]:
-    """Lines that are bodies in IL, from one to another."""
+def _as_written(pous: Sequence[tree.PouDeclaration]) -> list[tuple[int, int]]:
+    """Lines that are bodies in IL or LD, from one to another."""
     found = []
     for pou in (each for outer in pous for each in (outer, *outer.methods)):
         body = pou.body
-        if isinstance(body, tree.IlBody) and isinstance(body.span, Stretch):
+        if isinstance(body, tree.IlBody | NetworkBody) and isinstance(body.span, Stretch):
             found.append((body.span.line - 1, body.span.end_line - 1))
     return found
 

@@ -60,7 +60,12 @@ def _entry(
 
 def _pou(reading: Reading, file: str, pou: tree.PouDeclaration, by_name: dict[int, Extent]) -> Entry:
     block = by_name.get(reading.position(file, pou.span.line, pou.span.column))
-    inner = [_variable(reading, file, each, section) for section in pou.sections for each in section.variables]
+    inner = [
+        _variable(reading, file, each, section)
+        for section in pou.sections
+        for each in section.variables
+        if each.name[0] != "$"
+    ]
     inner += [_pou(reading, file, each, by_name) for each in pou.methods]
     detail = written(pou.result) if pou.result is not None else ""
     name = qualified(pou.namespace, pou.name)

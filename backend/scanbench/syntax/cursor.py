@@ -4,7 +4,7 @@ import sys
 from collections.abc import Collection
 
 from scanbench.problems import Problem, Span
-from scanbench.syntax.lexer import Lex, Tokens, tokenize
+from scanbench.syntax.lexer import AHEAD, DRAWN, Lex, Tokens, tokenize
 from scanbench.syntax.pragmas import in_out_pragmas
 from scanbench.syntax.source import Source, Stretch
 
@@ -48,6 +48,8 @@ class Cursor:
         self.namespace = ""
         self.visible: tuple[str, ...] = ()
         """Namespaces that USING names, here."""
+        self._told = -AHEAD
+        """The mark of a different language that was reported last."""
         self._lost = -1
         """Up to this token nothing more is reported: what encloses it was left for nesting too deep."""
 
@@ -93,7 +95,8 @@ class Cursor:
             self.at += 1
             return
         end = self.end_of(max(self.at - 1, 0))
-        self.report("S003", f"`{text}` expected {where}{self.found()}.", self.source.span(max(end - 1, 0), end))
+        if not self._foreign(self.at):
+            self.report("S003", f"`{text}` expected {where}{self.found()}.", self.source.span(max(end - 1, 0), end))
 
     def name(self, what: str) -> int:
         kind = self.kinds[self.at]
@@ -122,8 +125,23 @@ class Cursor:
 
     def fail(self, message: str, token: int | None = None) -> Unexpected:
         """To be raised, after reporting what is wrong with this token."""
-        self.report("S003", message + self.found(token) + ".", self.span_of(self.at if token is None else token))
+        token = self.at if token is None else token
+        if not self._foreign(token):
+            self.report("S003", message + self.found(token) + ".", self.span_of(token))
         return Unexpected()
+
+    def _foreign(self, token: int) -> bool:
+        """Reports a mark that means something in other languages, where nothing of ours has it."""
+        text = self.texts[token]
+        if text not in DRAWN:
+            return False
+        if self._told in (token, token - 1):
+            return True  # of two in a row, each for itself has no meaning either
+        twice = self.texts[token + 1] == text and self.starts[token + 1] == self.starts[token] + 1
+        message = f"`{2 * text if twice else text}` is of another language; {DRAWN[text]}."
+        self.report("S001", message, self.span_of(token))
+        self._told = token
+        return True
 
     def report(self, code: str, message: str, span: Span) -> None:
         if len(self.problems) < MAX_PROBLEMS and self.at > self._lost:

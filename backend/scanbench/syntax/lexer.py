@@ -50,10 +50,10 @@ older programs use them as names."""
 
 CONTEXTUAL = frozenset(
     """
-    ABSTRACT ACTION AUTHOR BEGIN BY CLASS CONSTANT CONTINUE DATA_BLOCK END_REGION END_STEP END_TRANSITION EN ENO EXTENDS FAMILY
+    ABSTRACT ACTION AUTHOR BEGIN BY CLASS CONSTANT CONTINUE DATA_BLOCK END_REGION END_RUNG END_STEP END_TRANSITION EN ENO EXTENDS FAMILY
     FINAL F_EDGE GET GOTO IMPLEMENTS INITIAL_STEP INTERFACE INTERNAL INTERVAL METHOD NAMESPACE NON_RETAIN ON ORGANIZATION_BLOCK
     OVERLAP OVERRIDE PERSISTENT POINTER PRIORITY PRIVATE PROPERTY PROPERTY_GET PROPERTY_SET PROTECTED PUBLIC READ_ONLY READ_WRITE
-    REF REFERENCE REF_TO REGION RESOURCE RETAIN R_EDGE SET SINGLE STEP STRING SUPER TASK THIS TITLE TRANSITION TRY UNION USING
+    REF REFERENCE REF_TO REGION RESOURCE RETAIN RUNG R_EDGE SET SINGLE STEP STRING SUPER TASK THIS TITLE TRANSITION TRY UNION USING
     VERSION VOID WITH WSTRING
     """.split()
 )
@@ -89,7 +89,9 @@ PIECE = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 """All there is, the most frequent first, so that the pieces leave no gap."""
-OPERATORS = frozenset(":= => <= >= <> ** .. ?= - + = < > & ( ) [ ] , ; : . ^ # * /".split())
+OPERATORS = frozenset(":= => <= >= <> ** .. ?= - + = < > & ( ) [ ] , ; : . ^ # * / | ~".split())
+DRAWN = {"|": "write OR", "~": "write NOT"}
+"""Marks of ladder diagrams, and what people mean who write them elsewhere."""
 
 
 @dataclass(slots=True)
@@ -124,7 +126,7 @@ def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[To
     all_starts = list(accumulate(map(len, pieces), initial=start))
     if Lex.UNREADABLE in found:
         for piece, at in zip(pieces, all_starts, strict=False):
-            if known[piece] is Lex.UNREADABLE and text[at - 1 : at + 1] != "||":  # reported already
+            if known[piece] is Lex.UNREADABLE:
                 problems.append(_unreadable(source, at, piece))
                 if len(problems) >= MAX_UNREADABLE:
                     break
@@ -179,12 +181,9 @@ def _unreadable(source: Source, at: int, char: str) -> Problem:
 
 FOREIGN = {
     "!=": "write `<>`",
-    "||": "write OR",
     "!": "write NOT",
-    "|": "write OR",
     "?": "write IF, or SEL(condition, value if FALSE, value if TRUE)",
     "%": "write MOD",
-    "~": "write NOT",
 }
 """Operators of other languages that no token begins with, the longer ones first."""
 

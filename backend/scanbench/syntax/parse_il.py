@@ -1,8 +1,9 @@
 """Instruction List (edition 3, tables 67 to 70): one instruction a line, to the same tree."""
 
-from scanbench.syntax import parse_expression, parse_statement, tree
+from scanbench.syntax import parse_expression, parse_networks, parse_statement, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
+from scanbench.syntax.networks import NetworkBody
 from scanbench.syntax.parse_expression import LITERALS
 from scanbench.syntax.parse_statement import STOPS
 
@@ -31,8 +32,10 @@ OPERANDS = LITERALS | {NAME, Lex.ADDRESS}
 ENDINGS = STOPS - {""}
 
 
-def body(c: Cursor) -> "tuple[tree.Statement, ...] | tree.IlBody":
+def body(c: Cursor) -> "tuple[tree.Statement, ...] | tree.IlBody | NetworkBody":
     """The statements of a POU, in whichever language its first line is written."""
+    if parse_networks.follows(c):
+        return parse_networks.body(c)
     return _il_body(c) if _il_follows(c, c.at) else parse_statement.statements(c)
 
 

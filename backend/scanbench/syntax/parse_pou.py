@@ -5,6 +5,7 @@ from dataclasses import replace
 from scanbench.problems import Span
 from scanbench.syntax import parse_declaration, parse_il, parse_type, tree
 from scanbench.syntax.cursor import NAME, Cursor
+from scanbench.syntax.networks import NetworkBody, memories
 from scanbench.syntax.parse_declaration import ACCESS
 from scanbench.syntax.parse_statement import BLOCK_ENDS
 from scanbench.syntax.parse_type import POU_STARTS
@@ -19,7 +20,7 @@ ENDS = {
 MEMBERS = frozenset(("METHOD", "PROPERTY", "PROPERTY_GET", "PROPERTY_SET", "ACTION"))
 SETTINGS_OF_VENDORS = frozenset(("VERSION", "TITLE", "AUTHOR", "FAMILY"))
 
-Body = tuple[tree.Statement, ...] | tree.IlBody
+Body = tuple[tree.Statement, ...] | tree.IlBody | NetworkBody
 
 
 def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.PouDeclaration:
@@ -49,8 +50,11 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
         if c.at == before:
             break
     if body and kind in ("CLASS", "INTERFACE"):
-        where = body.span if isinstance(body, tree.IlBody) else body[0].span
+        where = body[0].span if isinstance(body, tuple) else body.span
         c.report("S003", f"A {kind} has no statements of its own; put them into a METHOD.", where)
+    if isinstance(body, NetworkBody):
+        body = replace(body, owner=c.texts[name])
+        sections += memories(body) if kind in ("PROGRAM", "FUNCTION_BLOCK") else ()
     _pou_end(c, kind, name)
     stub = bool(c.pragmas) and has_stub_pragma(c.pragmas, c.starts[first], c.starts[c.at])
     result, extends, implements, more = header
@@ -321,6 +325,8 @@ def _joined(first: Body, second: Body) -> Body:
         return first or second
     if isinstance(first, tree.IlBody) and isinstance(second, tree.IlBody):
         return replace(first, instructions=first.instructions + second.instructions)
+    if isinstance(first, NetworkBody) and isinstance(second, NetworkBody):
+        return replace(first, networks=first.networks + second.networks)
     if isinstance(first, tuple) and isinstance(second, tuple):
         return first + second
     return first

@@ -1,9 +1,12 @@
 """The syntax tree: what was written, with places, before any name is looked up."""
 
 from dataclasses import dataclass, field
-from typing import TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, TypeVar, dataclass_transform
 
 from scanbench.problems import Span
+
+if TYPE_CHECKING:
+    from scanbench.syntax.networks import NetworkBody
 
 T = TypeVar("T")
 
@@ -322,7 +325,7 @@ class PouDeclaration:
     name: str
     result: TypeSpec | None
     sections: tuple[VariableSection, ...]
-    body: "tuple[Statement, ...] | IlBody"
+    body: "tuple[Statement, ...] | IlBody | NetworkBody"
     span: Span
     """Of the name."""
     methods: tuple["PouDeclaration", ...] = ()

@@ -132,6 +132,12 @@ def test_il_keeps_its_columns() -> None:
     assert formatted(FILE, text) == text.replace("a,b", "a, b")
 
 
+def test_rungs_stay_as_they_are_written() -> None:
+    body = 'RUNG hold:  "Two  blanks"\n    // and a comment\n  < [a]\n  | [/ b]   t(IN := ~,PT:=T#1s).Q\n  > (S a)\nEND_RUNG\n'
+    text = f"PROGRAM Main\nVAR a,b : BOOL; t : TON; END_VAR\n{body}END_PROGRAM\n"
+    assert formatted(FILE, text) == text.replace("a,b", "a, b")
+
+
 @pytest.mark.parametrize(("first", "last"), [(0, None), (2, 4), (7, 9)])
 def test_the_edits_of_some_lines_leave_the_others(first: int, last: int | None) -> None:
     text = UGLY.replace("else\ncase", "else\n\n\n\ncase")

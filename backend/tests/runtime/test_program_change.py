@@ -226,3 +226,29 @@ def test_a_table_by_time_goes_on_when_a_scan_takes_longer(engine: EngineFactory)
         resource.run(1)
         seen.append(value(resource, "CIO 1"))
     assert seen == [1, 2, 2, 2, 3]
+
+
+RUNGS = """
+PROGRAM Main
+VAR a, b, p : BOOL; n : INT; END_VAR
+RUNG
+    [P a] n := ADD(EN := ~, IN1 := n, IN2 := 1)
+END_RUNG
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_rung_more_changes_no_memory_of_the_others(engine: EngineFactory) -> None:
+    resource = plc(RUNGS, engine)
+    resource.submit(Write("Ada", "Main.a", "TRUE"))
+    resource.run(3)
+    assert value(resource, "Main.n") == 1
+    # were the memory of the edge lost, `a` would count as risen once more
+    change(
+        resource,
+        program(RUNGS.replace("RUNG\n    [P", "RUNG\n    [P b] [N p] (S p)\nEND_RUNG\nRUNG\n    [P", 1)),
+        engine,
+    )
+    resource.run(3)
+    assert value(resource, "Main.n") == 1

@@ -1,4 +1,4 @@
-"""The body of a POU, in ST or IL -> checked statements."""
+"""The body of a POU, in ST, IL or LD -> checked statements."""
 
 from dataclasses import replace
 from functools import partial
@@ -8,6 +8,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.edges import edges
 from scanbench.check.body.il import InstructionList
 from scanbench.check.body.jumps import parted
+from scanbench.check.body.ladder import Ladder
 from scanbench.check.body.notes import SUFFIX as NOTE
 from scanbench.check.body.redundant_checks import without_needless
 from scanbench.check.body.statements import block
@@ -17,15 +18,22 @@ from scanbench.program.program import Assign, Base, Blocks, SetBytes, Stmt
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Section, StringType, has_instance
 from scanbench.syntax import tree
+from scanbench.syntax.networks import NetworkBody
 
 
-def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody) -> tuple[Stmt, ...]:
-    """The body of a POU, in ST or IL."""
+def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | NetworkBody) -> tuple[Stmt, ...]:
+    """The body of a POU, in the language in which it is written."""
     body.counters, body.loops = [], 0
     prologue, checks = _prologue(body), len(body.report.checks)
     if body.pou is not None and body.pou.kind != "function":
         prologue += edges(body.pou.instance)
-    made = InstructionList(body, written).statements() if isinstance(written, tree.IlBody) else _text(body, written)
+    match written:
+        case tree.IlBody():
+            made = InstructionList(body, written).statements()
+        case NetworkBody():
+            made = Ladder(body, written).statements()
+        case _:
+            made = _text(body, written)
     if len(body.report.checks) > checks:
         made = without_needless(body.report, tuple(made))
     if body.pou is not None and body.pou.kind == "function_block":

@@ -58,7 +58,9 @@ export function MemoryGrid({ area }: { area: WholeArea }) {
       aria-label={t("memory.of", { area: area.name })}
       aria-rowcount={Math.ceil(area.words / columns) + 1}
       aria-colcount={columns + 1}
-      aria-activedescendant={grid.isDrawn(Math.floor(selected / columns)) ? cellId(selected) : undefined}
+      aria-activedescendant={
+        grid.isDrawn(Math.floor(selected / columns)) && wordAt(selected) ? cellId(selected) : undefined
+      }
       style={{ ...style, "--n": columns } as React.CSSProperties}
       tabIndex={0}
       onKeyDown={onKeyDown}

@@ -1,0 +1,211 @@
+"""Rungs of a ladder diagram -> tree. A bad rung is reported and skipped; the next one is read as usual."""
+
+from scanbench.syntax import networks, parse_expression, parse_statement, tree
+from scanbench.syntax.cursor import NAME, Cursor, Unexpected
+from scanbench.syntax.lexer import Lex
+from scanbench.syntax.parse_statement import STOPS
+
+OPERANDS = frozenset((NAME, Lex.ADDRESS))
+MODES = {"[": ("P", "N"), "(": ("S", "R", "P", "N")}
+
+
+def follows(c: Cursor) -> bool:
+    """Whether a body of rungs begins here: `RUNG` on a line with nothing but a label and a title."""
+    return _at_rung(c, c.at)
+
+
+def _at_rung(c: Cursor, at: int) -> bool:
+    if c.kinds[at] is not NAME or c.texts[at].upper() != "RUNG":
+        return False
+    last = at
+    if c.kinds[last + 1] is NAME and c.texts[last + 2] == ":" and _same_line(c, at, last + 1):
+        last += 2
+    if c.kinds[last + 1] is Lex.STRING and _same_line(c, at, last + 1):
+        last += 1
+    return not _same_line(c, last, last + 1) or c.kinds[last + 1] is Lex.END
+
+
+def _same_line(c: Cursor, first: int, second: int) -> bool:
+    return c.source.text.find("\n", c.starts[first], c.starts[second]) < 0
+
+
+def body(c: Cursor) -> networks.NetworkBody:
+    """Rungs up to the end of the POU, or to a declaration inside of it."""
+    start = c.at
+    found: list[networks.Rung] = []
+    while not _ended(c):
+        if _at_rung(c, c.at):
+            found.append(_rung(c))
+            continue
+        c.report("S003", f"RUNG expected: this body is a ladder diagram{c.found()}.", c.here())
+        _skip(c)
+    return networks.NetworkBody(tuple(found), c.span_from(start))
+
+
+def _ended(c: Cursor) -> bool:
+    if c.texts[c.at] in STOPS:
+        return True
+    return c.kinds[c.at + 1] is NAME and parse_statement.declaration_follows(c)
+
+
+def _skip(c: Cursor) -> None:
+    """To the next rung, at least one token on."""
+    c.take()
+    while not _ended(c) and not _at_rung(c, c.at):
+        if c.accept_word("END_RUNG"):
+            return
+        c.take()
+
+
+def _rung(c: Cursor) -> networks.Rung:
+    off = _is_off(c)
+    start = c.take()
+    label = ""
+    if c.texts[c.at + 1] == ":":
+        label = c.texts[c.at]
+        c.at += 2
+    if c.kinds[c.at] is Lex.STRING:
+        c.take()
+    head, depth = c.span_from(start), c.depth
+    path: networks.Path = ()
+    try:
+        path = _path(c)
+        if not c.accept_word("END_RUNG"):
+            raise c.fail(f"END_RUNG expected to close the RUNG of line {c.line_of(start)}")
+    except Unexpected:
+        c.depth = depth
+        if not _at_rung(c, c.at) and not _ended(c) and not c.accept_word("END_RUNG"):
+            _skip(c)
+    return networks.Rung(label, path, off, head)
+
+
+def _is_off(c: Cursor) -> bool:
+    """Whether the pragma `{off}` is right before the rung."""
+    first = c.end_of(c.at - 1) if c.at else 0
+    return any(first <= at < c.starts[c.at] and text[1:-1].strip().lower() == "off" for at, text in c.pragmas)
+
+
+# ---- elements -----------------------------------------------------------------------------------------------------
+
+
+def _path(c: Cursor) -> networks.Path:
+    found: list[networks.Element] = []
+    while not c.is_("|", ">") and c.word() != "END_RUNG" and not _ended_path(c):
+        found.append(_element(c))
+        last = found[-1]
+        if isinstance(last, networks.Leave) or (isinstance(last, networks.Link) and last.sends):
+            break
+    return tuple(found)
+
+
+def _ended_path(c: Cursor) -> bool:
+    return c.texts[c.at] in STOPS - {"RETURN"} or _at_rung(c, c.at)
+
+
+def _element(c: Cursor) -> networks.Element:
+    start = c.at
+    if c.is_("["):
+        return networks.Contact(*_operand(c, "[", "]", "the contact"), c.span_from(start))
+    if c.is_("("):
+        return networks.Coil(*_operand(c, "(", ")", "the coil"), c.span_from(start))
+    if c.is_("<"):
+        return _parallel(c)
+    if c.is_("#") or (c.is_("-") and c.texts[start + 1] == ">"):
+        sends = c.is_("-")
+        c.at += 3 if sends else 1
+        if sends and c.texts[c.at - 1] != "#":
+            raise c.fail("`#` and the name of a link expected after `->`", c.at - 1)
+        name = c.name("the name of a link")
+        return networks.Link(c.texts[name], sends, c.span_from(start))
+    if c.accept("RETURN"):
+        return networks.Leave("", c.span_from(start))
+    if c.word() == "JMP" and c.kinds[start + 1] is NAME:
+        c.at += 2
+        return networks.Leave(c.texts[c.at - 1], c.span_from(start))
+    if c.kinds[start] is NAME:
+        return _box(c)
+    raise c.fail("a contact `[ ]`, a coil `( )`, a box, `<`, a link, JMP, RETURN or END_RUNG expected")
+
+
+def _operand(c: Cursor, opening: str, closing: str, what: str) -> tuple[str, tree.Expression, str]:
+    c.take()
+    mode = ""
+    if c.accept("/"):
+        mode = "/"
+    elif c.word() in MODES[opening] and c.kinds[c.at + 1] in OPERANDS:
+        mode = c.word()
+        c.take()
+    first = c.at
+    if c.is_(closing):
+        raise c.fail(f"a variable expected in {what}")
+    value = parse_expression.expression(c)
+    written = c.source.text[c.starts[first] : c.end_of(c.at - 1)]
+    c.close(closing, f"to close {what}")
+    return mode, value, "".join(written.split())
+
+
+def _parallel(c: Cursor) -> networks.Parallel:
+    start = c.take()
+    c.enter()
+    branches = [_path(c)]
+    while c.accept("|"):
+        branches.append(_path(c))
+    c.leave()
+    if not c.is_(">"):
+        raise c.fail(f"`|` or `>` expected in the parallel branches of line {c.line_of(start)}")
+    c.take()
+    return networks.Parallel(tuple(branches), c.span_from(start))
+
+
+def _box(c: Cursor) -> networks.Box:
+    start, result = c.at, None
+    callee = _variable(c)
+    if c.accept(":="):
+        result, callee = callee, _variable(c)
+    if not c.is_("("):
+        raise c.fail("`(` expected: a box is a call, and a variable belongs in `[ ]` or `( )`")
+    arguments = _arguments(c)
+    closing, output = c.at - 1, ""
+    if c.is_(".") and c.kinds[c.at + 1] is NAME:
+        output = c.texts[c.at + 1]
+        c.at += 2
+    return networks.Box(result, callee, arguments, output, c.span_from(start), c.span_from(closing))
+
+
+def _variable(c: Cursor) -> tree.Expression:
+    at = c.name("the name of a block or function")
+    return parse_expression.postfix(c, tree.Name(c.texts[at], c.span_of(at)), calls=False)
+
+
+def _arguments(c: Cursor) -> tuple[tree.Argument | networks.Branch, ...]:
+    c.expect("(", "to open the box")
+    c.enter()
+    found: list[tree.Argument | networks.Branch] = []
+    while not c.is_(")"):
+        found.append(_argument(c))
+        if not c.accept(","):
+            break
+    c.leave()
+    c.expect(")", "to close the box")
+    return tuple(found)
+
+
+def _argument(c: Cursor) -> tree.Argument | networks.Branch:
+    start = c.at
+    named = c.kinds[start] is NAME and c.texts[start + 1] in (":=", "=>")
+    value = start + 2 if named else start
+    name, place = (c.texts[start], c.span_of(start)) if named else (None, None)
+    output = named and c.texts[start + 1] == "=>"
+    if c.texts[value] == networks.POWER:
+        c.at = value + 1
+        return tree.Argument(name, False, tree.Name(networks.POWER, c.span_of(value)), c.span_from(start), place=place)
+    if c.texts[value] == "#" and output:
+        c.at = value + 1
+        wire = c.name("the name of a link")
+        return tree.Argument(
+            name, True, tree.Name(networks.WIRE + c.texts[wire], c.span_of(wire)), c.span_from(start), place=place
+        )
+    if c.texts[value] == "<" and name is not None and not output:
+        c.at = value
+        return networks.Branch(name, _parallel(c), c.span_from(start))
+    return parse_expression.argument(c)

@@ -1,0 +1,64 @@
+"""Ladder diagrams that are wrong: each problem with its code, its line, and what it says to do."""
+
+import pytest
+
+from scanbench.check.build import check_sources
+from scanbench.problems import Problem
+from tests.caseformat import MODELS
+
+MODEL = MODELS["GENERIC-IEC"]
+HEAD = "PROGRAM Main\nVAR x, y : INT; b, c : BOOL; t : TON; END_VAR\n"
+
+
+def problems(body: str) -> list[Problem]:
+    return list(check_sources({"a.st": f"{HEAD}{body}\nEND_PROGRAM\n"}, MODEL).problems)
+
+
+WRONG = [
+    ("RUNG\n[x] (b)\nEND_RUNG", "T002", 4, "A contact is BOOL, but this is INT"),
+    ("RUNG\n[b] (x)\nEND_RUNG", "T002", 4, "`x` is INT"),
+    ("RUNG\n[b] (S x)\nEND_RUNG", "T002", 4, "Only a BOOL can be set"),
+    ("RUNG\n[gone] (b)\nEND_RUNG", "T001", 4, "`gone`"),
+    ("RUNG\n[b] JMP gone\nEND_RUNG", "T001", 4, "There is no label `gone`"),
+    ("RUNG a:\n[b] (c)\nEND_RUNG\nRUNG A:\n(b)\nEND_RUNG", "D001", 6, "The label `A` is there already"),
+    ("RUNG\n#left (b)\nEND_RUNG", "T001", 4, "Nothing sends its power to `#left`"),
+    ("RUNG\n< [b] -> #w | [c] -> #w >\nEND_RUNG", "D001", 4, "`#w` has its power already"),
+    ("RUNG\n[b] t(IN := ~, PT := T#1s).ET (c)\nEND_RUNG", "T002", 4, "The power after a box is BOOL, but this is TIME"),
+    ("RUNG\n[b] t(IN := ~, PT := 5).Q (c)\nEND_RUNG", "T002", 4, "`PT`"),
+    ("RUNG\n[b (c)\nEND_RUNG", "S003", 4, "`]` expected to close the contact"),
+    ("RUNG\n[] (c)\nEND_RUNG", "S003", 4, "a variable expected in the contact"),
+    ("RUNG\n< [b] | [c] (b)\nEND_RUNG", "S003", 5, "`|` or `>` expected in the parallel branches of line 4"),
+    ("RUNG\n[b] c\nEND_RUNG", "S003", 5, "a box is a call"),
+    ("RUNG\n[b] (c)\n", "S003", 6, "END_RUNG expected to close the RUNG of line 3"),
+    ("RUNG\n[b] JMP a (c)\nEND_RUNG", "S003", 4, "END_RUNG expected"),
+    ("RUNG\n[b] - b\nEND_RUNG", "S003", 4, "END_RUNG expected"),
+    ("RUNG\n[b] (c)\nEND_RUNG\nx := 1;", "S003", 6, "this body is a ladder diagram"),
+]
+
+
+@pytest.mark.parametrize(("body", "code", "line", "text"), WRONG, ids=[each[0] for each in WRONG])
+def test_what_is_wrong(body: str, code: str, line: int, text: str) -> None:
+    found = problems(body)
+    assert (code, line) in [(each.code, each.span.line) for each in found], "\n".join(map(str, found))
+    assert any(text in each.message for each in found if each.code == code), "\n".join(map(str, found))
+    assert len(found) <= 2, "\n".join(map(str, found))
+
+
+def test_a_wrong_rung_is_told_once_and_the_next_one_is_read() -> None:
+    found = problems(
+        "RUNG one:\n[] (c)\nEND_RUNG\nRUNG\n[gone] (c)\nEND_RUNG\nRUNG\n[b]\nRUNG two:\n[b] JMP one\nEND_RUNG"
+    )
+    assert [(each.code, each.span.line) for each in found] == [("S003", 4), ("T001", 7), ("S003", 11)]
+
+
+@pytest.mark.parametrize("word", ["RUNG", "rung"])
+def test_rung_is_a_name_elsewhere(word: str) -> None:
+    text = f"PROGRAM Main\nVAR {word} : ARRAY[1..3] OF INT; p : INT; END_VAR\n{word}[3] := 1;\np := {word}[3];\nEND_PROGRAM\n"
+    assert check_sources({"a.st": text}, MODEL).problems == ()
+
+
+def test_edges_are_refused_where_nothing_is_kept() -> None:
+    text = "FUNCTION F : BOOL\nVAR_INPUT a : BOOL; END_VAR\nRUNG\n[P a] (F)\nEND_RUNG\nEND_FUNCTION\nPROGRAM Main\nEND_PROGRAM\n"
+    (found,) = check_sources({"a.st": text}, MODEL).problems
+    assert (found.code, found.span.line) == ("T010", 4)
+    assert "keeps nothing" in found.message

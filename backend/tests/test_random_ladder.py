@@ -1,0 +1,159 @@
+"""Random ladder diagrams: both engines leave the same bytes, and what a straightforward evaluation of the rungs computes."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scanbench.check.build import check_sources
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from tests.amounts import amount
+from tests.caseformat import MODELS, find, first_difference, write
+
+MODEL = MODELS["GENERIC-IEC"]
+VARIABLES = tuple("abcdefgh")
+SCANS = 6
+
+
+@dataclass(slots=True)
+class State:
+    """What a machine would remember."""
+
+    values: dict[str, bool]
+    seen: dict[int, bool] = field(default_factory=dict)
+    """By edge, what it saw last."""
+    links: dict[str, bool] = field(default_factory=dict)
+
+
+Run = Callable[[State, bool], bool | None]
+"""The power that comes in -> the power that goes on; None where the path ends."""
+
+
+@dataclass(slots=True)
+class Maker:
+    """Draws rungs: the text and its meaning side by side."""
+
+    draw: st.DrawFn
+    numbers: Iterator[int]
+    sent: list[str] = field(default_factory=list)
+    """Links of the rung that are sure to have their power."""
+
+    def path(self, depth: int) -> tuple[str, Run]:
+        parts = [self.element(depth) for _ in range(self.draw(st.integers(0 if depth < 3 else 1, 4)))]
+
+        def run(state: State, power: bool) -> bool | None:
+            for _, each in parts:
+                gone = each(state, power)
+                assert gone is not None
+                power = gone
+            return power
+
+        return " ".join(text for text, _ in parts), run
+
+    def element(self, depth: int) -> tuple[str, Run]:
+        kind = self.draw(st.sampled_from(["contact", "contact", "coil", "parallel", "link"]))
+        if kind == "parallel" and depth:
+            return self.parallel(depth)
+        if kind == "link" and self.sent:
+            name = self.draw(st.sampled_from(self.sent))
+            return f"#{name}", lambda state, power: power and state.links[name]
+        name = self.draw(st.sampled_from(VARIABLES))
+        if kind == "coil":
+            mode = self.draw(st.sampled_from(["", "/", "S ", "R ", "P ", "N "]))
+            return f"({mode}{name})", self._coil(mode.strip(), name)
+        mode = self.draw(st.sampled_from(["", "/", "P ", "N "]))
+        return f"[{mode}{name}]", self._contact(mode.strip(), name)
+
+    def parallel(self, depth: int) -> tuple[str, Run]:
+        branches: list[tuple[str, Run]] = []
+        before = list(self.sent)
+        for _ in range(self.draw(st.integers(1, 3))):
+            text, run = self.path(depth - 1)
+            if branches and self.draw(st.integers(0, 3)) == 0:
+                name = f"w{next(self.numbers)}"
+                text, run = f"{text} -> #{name}", self._sending(run, name)
+                before.append(name)
+            branches.append((text, run))
+        self.sent = before
+
+        def joined(state: State, power: bool) -> bool | None:
+            ends = [run(state, power) for _, run in branches]  # none is skipped
+            return any(each for each in ends if each is not None)
+
+        return f"< {' | '.join(text for text, _ in branches)} >", joined
+
+    def _sending(self, inner: Run, name: str) -> Run:
+        def run(state: State, power: bool) -> None:
+            state.links[name] = bool(inner(state, power))
+
+        return run
+
+    def _edge(self, state: State, number: int, mode: str, now: bool) -> bool:
+        before = state.seen.get(number, False)
+        state.seen[number] = now
+        return now and not before if mode == "P" else before and not now
+
+    def _contact(self, mode: str, name: str) -> Run:
+        number = next(self.numbers)
+
+        def run(state: State, power: bool) -> bool:
+            value = state.values[name]
+            if mode in ("P", "N"):
+                value = self._edge(state, number, mode, value)
+            return power and value != (mode == "/")
+
+        return run
+
+    def _coil(self, mode: str, name: str) -> Run:
+        number = next(self.numbers)
+
+        def run(state: State, power: bool) -> bool:
+            if mode in ("S", "R"):
+                state.values[name] = state.values[name] or power if mode == "S" else state.values[name] and not power
+            elif mode in ("P", "N"):
+                state.values[name] = self._edge(state, number, mode, power)
+            else:
+                state.values[name] = power != (mode == "/")
+            return power
+
+        return run
+
+
+@st.composite
+def diagrams(draw: st.DrawFn) -> tuple[str, list[Run], list[dict[str, bool]]]:
+    """The text, the meaning of each rung, and what is written before each scan."""
+    numbers = iter(range(10_000))
+    texts, runs = [], []
+    for _ in range(draw(st.integers(1, 12))):
+        text, run = Maker(draw, numbers).path(3)
+        texts.append(f"RUNG\n    {text}\nEND_RUNG\n")
+        runs.append(run)
+    sets = draw(st.lists(st.dictionaries(st.sampled_from(VARIABLES), st.booleans()), min_size=SCANS, max_size=SCANS))
+    source = f"PROGRAM Main\nVAR {', '.join(VARIABLES)} : BOOL; END_VAR\n{''.join(texts)}END_PROGRAM\n"
+    return source, runs, sets
+
+
+@settings(max_examples=amount(1000, 25), deadline=None)
+@given(diagrams())
+def test_the_engines_and_the_evaluation_agree(made: tuple[str, list[Run], list[dict[str, bool]]]) -> None:
+    source, runs, sets = made
+    checked = check_sources({"main.st": source}, MODEL)
+    assert checked.program is not None, "\n".join([*map(str, checked.problems), source])
+    program = checked.program
+    memories = [bytearray(program.initial_image) for _ in range(2)]
+    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
+    state = State(dict.fromkeys(VARIABLES, False))
+    for scan, values in enumerate(sets):
+        for name, value in values.items():
+            state.values[name] = value
+            for memory in memories:
+                write(program, f"Main.{name}", str(value).upper(), memory)
+        for engine in engines:
+            engine.run(1)
+        assert not first_difference(program, *memories), source
+        for run in runs:
+            run(state, True)
+        found = {name: find(program, f"Main.{name}", memories[0])[2] == "TRUE" for name in VARIABLES}
+        assert found == state.values, f"scan {scan}\n{source}"
