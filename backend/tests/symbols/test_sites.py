@@ -11,9 +11,10 @@ from scanbench.check.build import check_sources, program_files
 from scanbench.check.incremental import Checks
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.plcmodel.model import Model
+from scanbench.problems import Span
 from scanbench.program.program import Program
 from scanbench.symbols.sites import sites_of
-from scanbench.syntax import tree
+from scanbench.syntax import networks, tree
 from scanbench.syntax.chunks import read
 from tests.caseformat import MODELS, Case, project_of, read_cases
 
@@ -31,8 +32,19 @@ def sources(case: Case) -> dict[str, str]:
     return program_files(project_of(case))
 
 
-def written(node: object, used: set[str]) -> Iterator[tree.Statement | tree.IlInstruction]:
-    """The statements and instructions of the POUs that are used."""
+def of_rungs(body: networks.NetworkBody) -> Iterator[Span]:
+    """The place that each element is known by; a parallel itself does nothing."""
+    for rung in body.networks:
+        for each in networks.elements(rung.path) if not rung.off else ():
+            branched = isinstance(each, networks.Box) and any(
+                isinstance(one, networks.Branch) for one in each.arguments
+            )
+            if not isinstance(each, networks.Parallel):
+                yield each.after if isinstance(each, networks.Box) and branched else each.span
+
+
+def written(node: object, used: set[str]) -> Iterator[Span]:
+    """Where the statements, instructions and elements of rungs are, of the POUs that are used."""
     if isinstance(node, tuple | list):
         for each in node:
             yield from written(each, used)
@@ -40,12 +52,15 @@ def written(node: object, used: set[str]) -> Iterator[tree.Statement | tree.IlIn
         if isinstance(node, tree.PouDeclaration) and node.kind in ("program", "function"):
             if node.name.upper() not in used:
                 return
+        if isinstance(node, networks.NetworkBody):
+            yield from of_rungs(node)
+            return
         if isinstance(node, STATEMENTS):
-            yield node
+            yield node.span
         elif isinstance(node, tree.IlInstruction):
             # a label alone does nothing, and what opens a parenthesis waits for what closes it
             if node.operator and not (node.deferred and node.operand is None):
-                yield node
+                yield node.span
             return
         for each in fields(node):
             yield from written(getattr(node, each.name), used)
@@ -59,7 +74,7 @@ def starts(case: Case, program: Program) -> set[Start]:
         if not name.startswith("plant/")
         for each in written(read(name, text).file, used)
     ]
-    return {(each.span.file, each.span.line, each.span.column) for each in found}
+    return {(span.file, span.line, span.column) for span in found}
 
 
 @pytest.mark.parametrize("topic", sorted(path.stem for path in CASES.glob("*.case")))
