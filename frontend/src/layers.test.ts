@@ -76,6 +76,7 @@ const FEATURES: Record<string, readonly string[]> = {
   plc: ["format", "page"],
   project: ["format", "page", "plc"],
   errors: COMMON,
+  graphic: COMMON,
   trace: COMMON,
   verify: COMMON,
   watch: COMMON,

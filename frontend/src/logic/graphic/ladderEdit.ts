@@ -1,0 +1,177 @@
+/** Edits of a rung: each gives a new path and the place for the cursor, and leaves the old path as it is. */
+
+import type { Place } from "./ladderLayout";
+import type { Box, CoilMode, ContactMode, Element, Parallel, Path } from "./tree";
+
+export interface Edited {
+  path: Path;
+  place: Place;
+}
+
+const NOWHERE = { at: 0, end: 0 };
+
+export const contact = (mode: ContactMode, operand = ""): Element => ({
+  kind: "contact",
+  mode,
+  operand,
+  span: NOWHERE,
+});
+export const coil = (mode: CoilMode, operand = ""): Element => ({ kind: "coil", mode, operand, span: NOWHERE });
+export const jump = (label: string | null): Element => ({ kind: "jump", label, span: NOWHERE });
+const parallel = (branches: readonly Path[]): Parallel => ({ kind: "parallel", branches, span: NOWHERE });
+
+/** The element at a place; null at the start of a path. */
+export function elementAt(path: Path, place: Place): Element | null {
+  const [index, branch, ...rest] = place;
+  if (index === undefined) return null;
+  const element = path[index];
+  if (element === undefined || branch === undefined) return element ?? null;
+  const inner = element.kind === "parallel" ? element.branches[branch] : undefined;
+  return inner === undefined ? null : elementAt(inner, rest);
+}
+
+/** The path with what `change` makes of the innermost path at a place; `change` is given the index there, -1 at its start. */
+function changed(path: Path, place: Place, change: (path: Path, index: number) => Path): Path {
+  const [index, branch, ...rest] = place;
+  if (index === undefined) return change(path, -1);
+  if (branch === undefined) return change(path, index);
+  return path.map((element, here) => {
+    if (here !== index || element.kind !== "parallel") return element;
+    const branches = element.branches.map((each, number) => (number === branch ? changed(each, rest, change) : each));
+    return { ...element, branches };
+  });
+}
+
+const parentOf = (place: Place): Place => place.slice(0, -1);
+const lastOf = (place: Place): number => place.at(-1) ?? -1;
+const isStart = (place: Place) => place.length % 2 === 0;
+
+/** Puts an element after the cursor. */
+export function insert(path: Path, place: Place, element: Element): Edited {
+  const next = isStart(place) ? 0 : lastOf(place) + 1;
+  return {
+    path: changed(path, place, (inner) => [...inner.slice(0, next), element, ...inner.slice(next)]),
+    place: isStart(place) ? [...place, 0] : [...parentOf(place), next],
+  };
+}
+
+/** Puts a coil at the end of the path: below the one that is there already, or after its contacts. */
+export function insertCoil(path: Path, place: Place, element: Element): Edited {
+  const innermost = isStart(place) ? place : parentOf(place);
+  const last = innerPath(path, innermost).length - 1;
+  const here = elementAt(path, place);
+  return insert(path, here?.kind === "coil" ? place : last < 0 ? innermost : [...innermost, last], element);
+}
+
+function innerPath(path: Path, place: Place): Path {
+  const [index, branch, ...rest] = place;
+  if (index === undefined || branch === undefined) return path;
+  const element = path[index];
+  return element?.kind === "parallel" ? innerPath(element.branches[branch] ?? [], rest) : [];
+}
+
+/** Puts a contact below the element at the cursor, as a branch beside it. */
+export function insertBelow(path: Path, place: Place, element: Element): Edited {
+  if (isStart(place)) return insert(path, place, element);
+  const alone = parentOf(place);
+  const around = parentOf(alone);
+  const [branch] = alone.slice(-1);
+  // An element that is alone in its branch gets one more branch in the same parallel.
+  if (branch !== undefined && innerPath(path, alone).length === 1) {
+    const grown = changed(path, around, (inner, index) =>
+      inner.map((each, here) =>
+        here === index && each.kind === "parallel"
+          ? parallel([...each.branches.slice(0, branch + 1), [element], ...each.branches.slice(branch + 1)])
+          : each,
+      ),
+    );
+    return { path: grown, place: [...around, branch + 1, 0] };
+  }
+  const here = elementAt(path, place);
+  if (here?.kind === "parallel") {
+    const branches = [...here.branches, [element]];
+    return { path: replace(path, place, parallel(branches)), place: [...place, branches.length - 1, 0] };
+  }
+  const old = here === null ? [] : [here];
+  return { path: replace(path, place, parallel([old, [element]])), place: [...place, 1, 0] };
+}
+
+/** The path with a different element at a place. */
+export const replace = (path: Path, place: Place, element: Element): Path =>
+  changed(path, place, (inner, index) => inner.map((each, here) => (here === index ? element : each)));
+
+/** Deletes the element at the cursor; a branch that is empty then goes too, and a parallel with one branch is no parallel. */
+export function remove(path: Path, place: Place): Edited {
+  if (isStart(place)) return place.length === 0 ? { path, place } : removeBranch(path, place);
+  const without = changed(path, place, (inner, index) => inner.filter((_, here) => here !== index));
+  const innermost = parentOf(place);
+  if (innermost.length > 0 && innerPath(without, innermost).length === 0) return removeBranch(without, innermost);
+  const index = lastOf(place);
+  return { path: without, place: index > 0 ? [...innermost, index - 1] : innermost };
+}
+
+function removeBranch(path: Path, place: Place): Edited {
+  const around = parentOf(place);
+  const found = elementAt(path, around);
+  if (found?.kind !== "parallel") return { path, place: around };
+  const left = found.branches.filter((_, index) => index !== lastOf(place));
+  const [only] = left;
+  if (left.length > 1 || only === undefined)
+    return {
+      path: replace(path, around, parallel(left)),
+      place: [...around, Math.min(lastOf(place), left.length - 1)],
+    };
+  const index = lastOf(around);
+  const innermost = parentOf(around);
+  return {
+    path: changed(path, around, (inner, here) => [...inner.slice(0, here), ...only, ...inner.slice(here + 1)]),
+    place:
+      only.length > 0 ? [...innermost, index + only.length - 1] : index > 0 ? [...innermost, index - 1] : innermost,
+  };
+}
+
+/** The next mode of an element for `!`: negated or not. */
+export function negated(element: Element): Element | null {
+  if (element.kind === "contact" || element.kind === "coil")
+    return { ...element, mode: element.mode === "/" ? "" : "/" } as Element;
+  return null;
+}
+
+const EDGES = ["", "P", "N"] as const;
+
+/** The next edge of an element for `E`: none, rising, falling. */
+export function nextEdge(element: Element): Element | null {
+  if (element.kind !== "contact" && element.kind !== "coil") return null;
+  const at = (EDGES as readonly string[]).indexOf(element.mode);
+  return { ...element, mode: EDGES[(at + 1) % EDGES.length] ?? "" };
+}
+
+/** What the name field shows for an element, with `/`, `P ` and the like before the operand. */
+export function fieldText(element: Element): string {
+  switch (element.kind) {
+    case "contact":
+    case "coil":
+      return element.mode === "" || element.mode === "/"
+        ? element.mode + element.operand
+        : `${element.mode} ${element.operand}`;
+    case "jump":
+      return element.label ?? "";
+    case "send":
+    case "receive":
+      return element.name;
+    default:
+      return "";
+  }
+}
+
+/** A box with the power at its first BOOL input, as the field makes it from `jam: TON` or `x := ADD`. */
+export function newBox(callee: string, result: string | null, pins: readonly string[], output: string | null): Box {
+  const args = pins.map((name, index) => ({
+    name,
+    out: false,
+    value: index === 0 ? "~" : "",
+    branch: null,
+    span: NOWHERE,
+  }));
+  return { kind: "box", result, callee, args, output, span: NOWHERE };
+}

@@ -1,0 +1,127 @@
+/** Where the rungs and networks of a file are. A network is found by its first line, so that one that cannot be read hides no other. */
+
+import { commentEnd, stringEnd } from "./reader";
+import type { Head } from "./tree";
+
+/** A network in the text of a file; offsets are those of the file, lines count from 1. */
+export interface Found {
+  kind: "rung" | "network";
+  head: Head;
+  /** From the word RUNG or NETWORK up to the end of END_RUNG or END_NETWORK. */
+  from: number;
+  to: number;
+  line: number;
+  /** The blanks before its first word. */
+  indent: string;
+  /** The part of the text between head and end, as offsets from `from`. */
+  body: { at: number; end: number };
+  /** The whole text of the network. */
+  text: string;
+  /** Whether its end was found. */
+  closed: boolean;
+}
+
+const BEGIN = /^([ \t]*)(?:(\{off\})[ \t]*\n?[ \t]*)?(RUNG|NETWORK)\b([^\n]*)/i;
+const HEAD = /^[ \t]*(?:([\p{L}_][\p{L}\p{N}_]*)[ \t]*:)?[ \t]*(?:"((?:[^"$\n]|\$.)*)")?[ \t]*(?:\/\/[^\n]*)?\r?$/u;
+
+/** All networks of a file, in the order of the text. */
+export function networksIn(text: string): Found[] {
+  const found: Found[] = [];
+  let at = 0;
+  let line = 1;
+  let lineStart = true;
+  while (at < text.length) {
+    if (lineStart) {
+      const network = networkAt(text, at, line);
+      if (network) {
+        found.push(network);
+        line += count(text, at, network.to);
+        at = network.to;
+        lineStart = !network.closed;
+        continue;
+      }
+    }
+    const here = text[at] ?? "";
+    const comment = commentEnd(text, at);
+    const next = comment !== at ? comment : here === "'" || here === '"' ? stringEnd(text, at) : at + 1;
+    line += count(text, at, next);
+    lineStart = here === "\n" || (lineStart && comment !== at && text[at + 1] !== "/");
+    at = next;
+  }
+  return found;
+}
+
+/** The network that begins in the line at this offset; null when none does. */
+function networkAt(text: string, at: number, line: number): Found | null {
+  const begin = BEGIN.exec(text.slice(at, at + 2000));
+  if (!begin) return null;
+  const [whole, indent = "", off, word = "", rest = ""] = begin;
+  const head = HEAD.exec(rest);
+  if (!head) return null;
+  const kind = word.toUpperCase() === "RUNG" ? "rung" : "network";
+  const from = at + whole.length - rest.length - word.length;
+  const headEnd = at + whole.length;
+  const { comment, at: bodyAt } = commentBelow(text, headEnd);
+  const { at: bodyEnd, to } = endOf(text, bodyAt, kind);
+  return {
+    kind,
+    head: { label: head[1] ?? "", title: unescaped(head[2] ?? ""), comment, off: off !== undefined },
+    from,
+    to,
+    line: line + count(text, at, from),
+    indent,
+    body: { at: bodyAt - from, end: bodyEnd - from },
+    text: text.slice(from, to),
+    closed: to > bodyEnd,
+  };
+}
+
+/** The lines of comment below the head, and the offset after them. */
+function commentBelow(text: string, at: number): { comment: string[]; at: number } {
+  const comment: string[] = [];
+  const lines = /\n[ \t]*\/\/([^\n]*)/y;
+  let end = at;
+  for (;;) {
+    lines.lastIndex = end;
+    const found = lines.exec(text);
+    if (!found) return { comment, at: end };
+    comment.push((found[1] ?? "").trim());
+    end = lines.lastIndex;
+  }
+}
+
+/** Where the word that ends the network begins and ends; where the next network or the POU begins if it is missing. */
+function endOf(text: string, from: number, kind: "rung" | "network"): { at: number; to: number } {
+  const word = kind === "rung" ? "END_RUNG" : "END_NETWORK";
+  let at = from;
+  while (at < text.length) {
+    const here = text[at] ?? "";
+    const comment = commentEnd(text, at);
+    if (comment !== at) at = comment;
+    else if (here === "'" || here === '"') at = stringEnd(text, at);
+    else if (/[A-Za-z_]/.test(here) && !/[\p{L}\p{N}_]/u.test(text[at - 1] ?? " ")) {
+      const found = /^[\p{L}_][\p{L}\p{N}_]*/u.exec(text.slice(at, at + 200))?.[0] ?? here;
+      const upper = found.toUpperCase();
+      if (upper === word) return { at, to: at + found.length };
+      if (upper.startsWith("END_")) return { at, to: at };
+      if ((upper === "RUNG" || upper === "NETWORK") && startsLine(text, at))
+        return { at: lineStartOf(text, at), to: lineStartOf(text, at) };
+      at += found.length;
+    } else at += 1;
+  }
+  return { at, to: at };
+}
+
+const lineStartOf = (text: string, at: number) => text.lastIndexOf("\n", at - 1) + 1;
+const startsLine = (text: string, at: number) => text.slice(lineStartOf(text, at), at).trim() === "";
+const unescaped = (title: string) => title.replace(/\$(.)/g, "$1");
+
+function count(text: string, from: number, to: number): number {
+  let lines = 0;
+  for (let at = text.indexOf("\n", from); at >= 0 && at < to; at = text.indexOf("\n", at + 1)) lines += 1;
+  return lines;
+}
+
+/** The network that contains this line of the file. */
+export const networkOnLine = (networks: readonly Found[], line: number): Found | undefined =>
+  networks.find((found) => found.line <= line && line <= found.line + count(found.text, 0, found.text.length));
