@@ -59,10 +59,10 @@ const filesOf = (path: string, name: string) =>
 /** The feature that a file of `logic`, `store` or `panels` belongs to; empty elsewhere. */
 const featureOf = (path: string) => (path.split("/").length > 2 ? (path.split("/")[1] ?? "") : "");
 
-/** A panel counts as a folder of its own, and so does a group with one panel. */
+/** A panel counts as a folder of its own, with the folders inside of it, and so does a group with one panel. */
 function folderOf(path: string): string {
   const parts = path.split("/").slice(0, -1);
-  return parts[0] === "panels" ? parts.join("/") : (parts[0] ?? "");
+  return parts[0] === "panels" ? parts.slice(0, 3).join("/") : (parts[0] ?? "");
 }
 
 /** The panels of a feature may import what they share, which is beside them. */

@@ -1,0 +1,36 @@
+/** What readers say about an element: its kind, its operand, its mode. Its value is said when it is selected. */
+
+import type { Drawn } from "../../../../logic/graphic/ladderLayout";
+import { type TextKey, t } from "../../../../text";
+
+const CONTACT: Record<string, TextKey> = {
+  "": "graphic.contact",
+  "/": "graphic.contact.negated",
+  P: "graphic.contact.rising",
+  N: "graphic.contact.falling",
+};
+const COIL: Record<string, TextKey> = {
+  "": "graphic.coil",
+  "/": "graphic.coil.negated",
+  S: "graphic.coil.set",
+  R: "graphic.coil.reset",
+  P: "graphic.coil.rising",
+  N: "graphic.coil.falling",
+};
+
+export function nameOf(element: Drawn["element"]): string {
+  switch (element.kind) {
+    case "contact":
+      return t(CONTACT[element.mode] ?? "graphic.contact", { name: element.operand });
+    case "coil":
+      return t(COIL[element.mode] ?? "graphic.coil", { name: element.operand });
+    case "box":
+      return t("graphic.box", { name: element.callee });
+    case "send":
+      return t("graphic.send", { name: element.name });
+    case "receive":
+      return t("graphic.receive", { name: element.name });
+    case "jump":
+      return element.label === null ? t("graphic.return") : t("graphic.jump", { label: element.label });
+  }
+}
