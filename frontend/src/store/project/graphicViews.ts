@@ -1,6 +1,7 @@
 /** How each file is shown: as text, as a drawing of its networks, or both beside each other. */
 
 import { create } from "zustand";
+import { networksIn } from "../../logic/graphic/networks";
 import { keep, recall } from "../page/localStorage";
 
 export type View = "text" | "graphic" | "both";
@@ -8,7 +9,7 @@ export type View = "text" | "graphic" | "both";
 const KEY = "views";
 const VIEWS: readonly string[] = ["text", "graphic", "both"];
 
-export const useViews = create<{ of: Readonly<Record<string, View>> }>(() => ({ of: known() }));
+const useViews = create<{ of: Readonly<Record<string, View>> }>(() => ({ of: known() }));
 
 function known(): Record<string, View> {
   const kept = Object.entries(recall<Record<string, View>>(KEY, {}));
@@ -20,5 +21,11 @@ export function showAs(path: string, view: View): void {
   keep(KEY, useViews.getState().of);
 }
 
-/** The view of a file that has networks: the drawing, until somebody chooses. */
-export const useViewOf = (path: string): View => useViews(({ of }) => of[path] ?? "graphic");
+/** Whether a text has ladder diagrams. */
+export const hasRungs = (text: string): boolean => /^[ \t]*RUNG\b/im.test(text) && networksIn(text).length > 0;
+
+/** The view of a file: where it has ladder diagrams the drawing, until somebody chooses; else the text. */
+export function useViewOf(path: string, text: string): View {
+  const chosen = useViews(({ of }) => of[path] ?? "graphic");
+  return hasRungs(text) ? chosen : "text";
+}

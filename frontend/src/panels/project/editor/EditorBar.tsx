@@ -7,11 +7,13 @@ import { toggleChecks, toggleFormatOnType, toggleLenses, usePrefs } from "../../
 import { useBench } from "../../../store/plc/bench";
 import { useForbidden, useLost, usePlc } from "../../../store/plc/plc";
 import { build, isDirty, save, useDocuments } from "../../../store/project/documents";
+import { hasRungs, showAs, useViewOf } from "../../../store/project/graphicViews";
 import { useCorrected } from "../../../store/project/refusedBuild";
 import { shownText, useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import { Segments } from "../../../ui/Segments";
 import { StateWord } from "../../../ui/StateWord";
 import type { Pou } from "../../../wire/types";
 import { DebugSwitches } from "./DebugSwitches";
@@ -19,6 +21,8 @@ import { shownLine, useHaltedLine } from "./halt";
 import { SeenAs } from "./SeenAs";
 import { canVerify, VerifyButton } from "./VerifyButton";
 import { verifyHere } from "./verifyHere";
+
+const VIEWS = ["graphic", "text", "both"] as const;
 
 /** Kinds of declarations with instances: the text shows the values of one instance. */
 const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"];
@@ -53,6 +57,7 @@ export function EditorBar({ path }: { path: string }) {
           <BuildOutcome />
         </span>
         <span className="edtools">
+          {hasRungs(text) && <ViewChoice path={path} text={text} />}
           <span className="edextra">
             <RollBack />
           </span>
@@ -84,6 +89,19 @@ export function EditorBar({ path }: { path: string }) {
         </span>
       </div>
     </div>
+  );
+}
+
+/** The drawing of the ladder diagrams, the text, or both. */
+function ViewChoice({ path, text }: { path: string; text: string }) {
+  const view = useViewOf(path, text);
+  return (
+    <Segments
+      label={t("graphic.view")}
+      value={view}
+      options={VIEWS.map((value) => ({ value, word: t(`graphic.view.${value}`) }))}
+      onChoose={(chosen) => showAs(path, chosen)}
+    />
   );
 }
 

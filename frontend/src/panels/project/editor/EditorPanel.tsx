@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
 import { isDirty, isKept, openDocument, useDocuments } from "../../../store/project/documents";
+import { useViewOf } from "../../../store/project/graphicViews";
 import { useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -12,6 +13,7 @@ import { afterWords } from "./loading";
 
 // Monaco is 4 MB: it is loaded after the page is shown.
 const CodeView = later(() => afterWords(() => import("./CodeView")));
+const GraphicView = later(() => import("./graphic/GraphicView"));
 
 /** Says which version is shown, and that the edited text is kept; or why there is no text. */
 function PastNote({ path, version }: { path: string; version: number }) {
@@ -60,6 +62,21 @@ function RefusedNote({ path }: { path: string }) {
   );
 }
 
+/** The text of a file, its drawing where it has ladder diagrams, or both. The text stays in the page: it is what is edited. */
+function Views({ path, past }: { path: string; past: string | null }) {
+  const edited = useDocuments((documents) => documents.open[path]?.text ?? "");
+  const text = past ?? edited;
+  const view = useViewOf(path, text);
+  return (
+    <div className="edviews">
+      {view !== "text" && <GraphicView path={path} text={text} />}
+      <div className="textview" hidden={view === "graphic"}>
+        <CodeView path={path} past={past} />
+      </div>
+    </div>
+  );
+}
+
 /** The editor of one file. */
 export function EditorPanel({ path }: { path: string }) {
   const project = useDocuments((documents) => documents.project);
@@ -105,9 +122,7 @@ export function EditorPanel({ path }: { path: string }) {
       <RefusedNote path={path} />
       {version !== null && past && <PastNote path={path} version={version} />}
       {version !== null && !past && unsure !== null && <UnsureNote version={version} refused={unsure} />}
-      {!past
-        ? loaded && <CodeView path={path} past={null} />
-        : ran !== undefined && <CodeView path={path} past={ran} />}
+      {!past ? loaded && <Views path={path} past={null} /> : ran !== undefined && <Views path={path} past={ran} />}
       {conflict && !past && <Conflict path={path} theirs={conflict} />}
     </section>
   );

@@ -1,15 +1,21 @@
 import { memo } from "react";
 import type { Drawing, Drawn, Frame } from "../../../../logic/graphic/ladderLayout";
 import { widthOf } from "../../../../logic/graphic/measure";
-import { t } from "../../../../text";
 import { nameOf } from "./names";
 
 /** Lines of one pixel are sharp in the middle of a pixel. */
 const sharp = (value: number) => Math.round(value) + 0.5;
 
+interface Props {
+  drawing: Drawing;
+  id: string;
+  /** The index of the selected element; null where none of it is. */
+  selected: number | null;
+}
+
 /** A rung as it is drawn. Its values are written to the elements directly, twenty times a second: see `live.ts`. */
-export const RungDrawing = memo(function RungDrawing({ drawing, id }: { drawing: Drawing; id: string }) {
-  const { width, height, wires, elements, rail, empty } = drawing;
+export const RungDrawing = memo(function RungDrawing({ drawing, id, selected }: Props) {
+  const { width, height, wires, elements, rail } = drawing;
   return (
     <svg className="draw" width={width} height={height} role="presentation">
       {wires.map(({ points, node }, index) => (
@@ -23,24 +29,35 @@ export const RungDrawing = memo(function RungDrawing({ drawing, id }: { drawing:
       ))}
       <path className="rail2" data-node={0} d={`M${sharp(rail.left)} ${rail.top}V${rail.bottom}`} />
       <path className="rail2" d={`M${sharp(rail.right)} ${rail.top}V${rail.bottom}`} />
-      {empty.map(({ place, x, y, width: wide }) => (
-        <g key={`e${place.join(".")}`} id={`${id}-${place.join(".")}`} role="option" aria-selected={false} aria-label={t("graphic.wire")} className="el">
-          <rect className="hit" x={x} y={y - 9} width={wide} height={18} data-place={place.join(".")} />
-        </g>
-      ))}
-      {elements.map((drawn) => (
-        <Element key={drawn.place.join(".")} drawn={drawn} id={`${id}-${drawn.place.join(".")}`} />
+      {elements.map((drawn, index) => (
+        <Element
+          key={drawn.place.join(".")}
+          drawn={drawn}
+          id={`${id}-${drawn.place.join(".")}`}
+          selected={index === selected}
+        />
       ))}
     </svg>
   );
 });
 
-function Element({ drawn, id }: { drawn: Drawn; id: string }) {
+function Element({ drawn, id, selected }: { drawn: Drawn; id: string; selected: boolean }) {
   const { element, x, y, width, up, down, place, frame } = drawn;
   return (
-    <g id={id} className="el" role="option" aria-selected={false} aria-label={nameOf(element)} data-element={place.join(".")}>
-      <rect className="hit" x={x} y={y - up} width={width} height={up + down} data-place={place.join(".")} />
-      {element.kind === "box" && frame ? <BoxDrawing frame={frame} callee={element.callee} /> : <Symbol drawn={drawn} />}
+    <g
+      id={id}
+      className={`el${selected ? " sel" : ""}`}
+      role="option"
+      aria-selected={selected}
+      aria-label={nameOf(element)}
+      data-element={place.join(".")}
+    >
+      <rect className="hit" x={x + 1} y={y - up - 4} width={width - 2} height={up + down + 4} rx={3} />
+      {element.kind === "box" && frame ? (
+        <BoxDrawing frame={frame} callee={element.callee} />
+      ) : (
+        <Symbol drawn={drawn} />
+      )}
     </g>
   );
 }
@@ -52,8 +69,13 @@ function Symbol({ drawn: { element, x, y, width } }: { drawn: Drawn }) {
       return (
         <>
           <rect className="closed" x={middle - 4} y={y - 6} width={9} height={13} />
-          <path className="sym bar" d={`M${sharp(middle - 5)} ${y - 10}V${y + 11}M${sharp(middle + 5)} ${y - 10}V${y + 11}`} />
-          {element.mode === "/" && <path className="slash round" d={`M${middle - 3.5} ${y + 6.5}L${middle + 4.5} ${y - 5.5}`} />}
+          <path
+            className="sym bar"
+            d={`M${sharp(middle - 5)} ${y - 10}V${y + 11}M${sharp(middle + 5)} ${y - 10}V${y + 11}`}
+          />
+          {element.mode === "/" && (
+            <path className="slash round" d={`M${middle - 3.5} ${y + 6.5}L${middle + 4.5} ${y - 5.5}`} />
+          )}
           {(element.mode === "P" || element.mode === "N") && <Mode text={element.mode} x={middle} y={y} />}
           <Name text={element.operand} x={middle} y={y} />
         </>
@@ -66,7 +88,9 @@ function Symbol({ drawn: { element, x, y, width } }: { drawn: Drawn }) {
             className="sym round"
             d={`M${middle - 5} ${y - 8.5}A10.5 10.5 0 0 0 ${middle - 5} ${y + 9.5}M${middle + 5} ${y - 8.5}A10.5 10.5 0 0 1 ${middle + 5} ${y + 9.5}`}
           />
-          {element.mode === "/" && <path className="slash round" d={`M${middle - 4} ${y + 6.5}L${middle + 5} ${y - 5.5}`} />}
+          {element.mode === "/" && (
+            <path className="slash round" d={`M${middle - 4} ${y + 6.5}L${middle + 5} ${y - 5.5}`} />
+          )}
           {element.mode !== "" && element.mode !== "/" && <Mode text={element.mode} x={middle} y={y} />}
           <Name text={element.operand} x={middle} y={y} />
         </>

@@ -1,0 +1,63 @@
+import { useEffect, useRef } from "react";
+import type { DrawnRung } from "../../../../logic/graphic/rungs";
+import { loadNames, seenAs, useSeenAs } from "../../../../store/debug/seenAs";
+import { useMembers } from "../../../../store/plc/members";
+import { useForces } from "../../../../store/watch/forces";
+import { t } from "../../../../text";
+import { showLive } from "./live";
+import { RungDrawing } from "./RungDrawing";
+
+interface Props {
+  rung: DrawnRung;
+  number: number;
+  /** The POU whose instance gives the values; undefined where there are none to show. */
+  pou: string | undefined;
+  id: string;
+  /** The index of the selected element; null where none of this rung is. */
+  selected: number | null;
+  breakpoints: boolean;
+}
+
+/** One rung: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
+export function RungRow({ rung, number, pou, id, selected, breakpoints }: Props) {
+  const { found, path, drawing } = rung;
+  const { label, title, comment, off } = found.head;
+  const picture = useRef<HTMLDivElement>(null);
+  const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou)));
+  const members = useMembers(({ of }) => of);
+  const forces = useForces();
+
+  useEffect(() => {
+    if (pou !== undefined) void loadNames(pou);
+  }, [pou]);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: what a name means depends on the instance and its variables, and forces are drawn
+  useEffect(() => {
+    const svg = picture.current?.querySelector("svg");
+    if (!svg || !drawing || pou === undefined || off || path === null) return;
+    return showLive(svg, drawing, pou);
+  }, [drawing, pou, off, path, instance, members, forces]);
+
+  return (
+    <div
+      className={`net${selected === null ? "" : " cur"}${off ? " off" : ""}`}
+      role="group"
+      aria-label={t("graphic.rung", { number, title: title || label })}
+    >
+      <span className={`g${breakpoints ? " bp" : ""}`} title={breakpoints ? t("graphic.breakpoint") : undefined} />
+      <span className="no">{number}</span>
+      <div className="netbody">
+        <div className="hd">
+          {label !== "" && <span className="lab">{label}:</span>}
+          <b className="cut">{title}</b>
+          <span className="cm cut">{comment.join(" ")}</span>
+          {off && <span className="st faint">{t("graphic.off")}</span>}
+          {path === null && <span className="st bad">{t("graphic.unread")}</span>}
+        </div>
+        <div ref={picture} className={path === null ? "netold" : undefined}>
+          {drawing && <RungDrawing drawing={drawing} id={id} selected={selected} />}
+        </div>
+        {path === null && <pre className="nettext">{found.text}</pre>}
+      </div>
+    </div>
+  );
+}
