@@ -43,6 +43,15 @@ describe("a rung is edited", () => {
     expect(elementAt(path, place)).toMatchObject({ operand: "jog" });
   });
 
+  it("puts a coil at the end of the rung, or of a branch that ends there", () => {
+    const put = (body: string, place: Place) => shown(insertCoil(pathOf(body), place, coil("", "x")).path);
+    expect(put("< [a] | [b] > [c]", [0, 1, 0])).toBe("< [a] | [b] > [c] (x)");
+    expect(put("[a] (b)", [0])).toBe("[a] (b) (x)");
+    expect(put("[a] < (b) | [c] >", [1, 1, 0])).toBe("[a] < (b) | [c] (x) >");
+    expect(put("[a] (b) (c)", [1])).toBe("[a] (b) (x) (c)");
+    expect(put("", [])).toBe("(x)");
+  });
+
   it.each<[string, string, Place, string, Place]>([
     ["an element", "[a] [b] (c)", [1], "[a] (c)", [0]],
     ["the first element", "[a] (c)", [0], "(c)", []],

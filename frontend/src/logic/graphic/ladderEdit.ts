@@ -1,7 +1,7 @@
 /** Edits of a rung: each gives a new path and the place for the cursor, and leaves the old path as it is. */
 
-import type { Place } from "./ladderLayout";
-import type { Box, CoilMode, ContactMode, Element, Parallel, Path } from "./tree";
+import { isEnd, type Place } from "./ladderLayout";
+import type { CoilMode, ContactMode, Element, Parallel, Path } from "./tree";
 
 export interface Edited {
   path: Path;
@@ -17,7 +17,6 @@ export const contact = (mode: ContactMode, operand = ""): Element => ({
   span: NOWHERE,
 });
 export const coil = (mode: CoilMode, operand = ""): Element => ({ kind: "coil", mode, operand, span: NOWHERE });
-export const jump = (label: string | null): Element => ({ kind: "jump", label, span: NOWHERE });
 const parallel = (branches: readonly Path[]): Parallel => ({ kind: "parallel", branches, span: NOWHERE });
 
 /** The element at a place; null at the start of a path. */
@@ -55,12 +54,13 @@ export function insert(path: Path, place: Place, element: Element): Edited {
   };
 }
 
-/** Puts a coil at the end of the path: below the one that is there already, or after its contacts. */
+/** Puts a coil after the one at the cursor; else at the end of the rung, or of the cursor's branch where branches end at the right rail. */
 export function insertCoil(path: Path, place: Place, element: Element): Edited {
-  const innermost = isStart(place) ? place : parentOf(place);
-  const last = innerPath(path, innermost).length - 1;
-  const here = elementAt(path, place);
-  return insert(path, here?.kind === "coil" ? place : last < 0 ? innermost : [...innermost, last], element);
+  if (elementAt(path, place)?.kind === "coil") return insert(path, place, element);
+  const last = path.length - 1;
+  const branch = place[0] === last && place.length > 1 && isEnd(path[last]) ? place.slice(0, 2) : [];
+  const end = innerPath(path, branch).length - 1;
+  return insert(path, end < 0 ? branch : [...branch, end], element);
 }
 
 function innerPath(path: Path, place: Place): Path {
@@ -144,34 +144,4 @@ export function nextEdge(element: Element): Element | null {
   if (element.kind !== "contact" && element.kind !== "coil") return null;
   const at = (EDGES as readonly string[]).indexOf(element.mode);
   return { ...element, mode: EDGES[(at + 1) % EDGES.length] ?? "" };
-}
-
-/** What the name field shows for an element, with `/`, `P ` and the like before the operand. */
-export function fieldText(element: Element): string {
-  switch (element.kind) {
-    case "contact":
-    case "coil":
-      return element.mode === "" || element.mode === "/"
-        ? element.mode + element.operand
-        : `${element.mode} ${element.operand}`;
-    case "jump":
-      return element.label ?? "";
-    case "send":
-    case "receive":
-      return element.name;
-    default:
-      return "";
-  }
-}
-
-/** A box with the power at its first BOOL input, as the field makes it from `jam: TON` or `x := ADD`. */
-export function newBox(callee: string, result: string | null, pins: readonly string[], output: string | null): Box {
-  const args = pins.map((name, index) => ({
-    name,
-    out: false,
-    value: index === 0 ? "~" : "",
-    branch: null,
-    span: NOWHERE,
-  }));
-  return { kind: "box", result, callee, args, output, span: NOWHERE };
 }

@@ -11,7 +11,7 @@ import type { Argument, Box, Element, Parallel, Path } from "./tree";
 /** Indexes from the rung to an element or a branch: element, branch, element, and so on. Of even length: the start of a path. */
 export type Place = readonly number[];
 
-export interface Wire {
+interface Wire {
   points: readonly (readonly [number, number])[];
   /** The node whose power it carries. */
   node: number;
@@ -41,7 +41,7 @@ export interface Frame {
   outputs: readonly Pin[];
 }
 
-export interface Pin {
+interface Pin {
   /** What is written inside of the frame. */
   name: string;
   /** What is written beside it; empty where the wire of the rung is. */
@@ -79,7 +79,8 @@ interface Size {
   down: number;
 }
 
-const isEnd = (element: Element | undefined): boolean =>
+/** Whether it is drawn at the right rail. */
+export const isEnd = (element: Element | undefined): boolean =>
   element !== undefined &&
   (["coil", "send", "jump"].includes(element.kind) ||
     (element.kind === "parallel" && element.branches.some((branch) => isEnd(branch.at(-1)))));

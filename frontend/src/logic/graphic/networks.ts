@@ -121,7 +121,3 @@ function count(text: string, from: number, to: number): number {
   for (let at = text.indexOf("\n", from); at >= 0 && at < to; at = text.indexOf("\n", at + 1)) lines += 1;
   return lines;
 }
-
-/** The network that contains this line of the file. */
-export const networkOnLine = (networks: readonly Found[], line: number): Found | undefined =>
-  networks.find((found) => found.line <= line && line <= found.line + count(found.text, 0, found.text.length));

@@ -9,6 +9,8 @@ export interface DrawnRung {
   found: Found;
   /** Null while the text cannot be read: then `drawing` is the last one of this rung, if there was any. */
   path: Path | null;
+  /** Comments are between its elements, which the drawing does not have: only its text can be edited. */
+  comments: boolean;
   drawing: Drawing | null;
 }
 
@@ -44,6 +46,6 @@ export class Rungs {
 
 function draw(found: Found, width: number, last: Drawing | null): DrawnRung {
   const read = found.closed ? readRung(found) : null;
-  if (read === null || read.kind === "unread") return { found, path: null, drawing: last };
-  return { found, path: read.path, drawing: layOut(read.path, width) };
+  if (read === null || read.kind === "unread") return { found, path: null, comments: false, drawing: last };
+  return { found, path: read.path, comments: read.comments, drawing: layOut(read.path, width) };
 }

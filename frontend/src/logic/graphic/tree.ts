@@ -1,10 +1,10 @@
 /**
- * A rung or a network as it is drawn. Operands are slices of the text, which only the compiler understands. The grammar is that of
- * `docs/ladder-and-fbd.md`.
+ * A rung as it is drawn. Operands are slices of the text, which only the compiler understands. The grammar is that of
+ * `docs/ladder.md`.
  */
 
 /** The part of a text that an element is written in: offsets from the start of its network. */
-export interface Span {
+interface Span {
   at: number;
   end: number;
 }
@@ -56,7 +56,7 @@ export interface Parallel {
 }
 
 /** `-> #name` sends the power and ends its path; `#name` receives it. */
-export interface Link {
+interface Link {
   kind: "send" | "receive";
   name: string;
   span: Span;
@@ -82,31 +82,10 @@ export interface Head {
   off: boolean;
 }
 
-/** An item of a function block diagram: one line, in order of execution. */
-export interface Item {
-  /** What takes the result: a wire, a variable, nothing (a call, a jump). */
-  target:
-    | { kind: "wire"; name: string; type: string }
-    | { kind: "variable"; name: string; store: "" | "S" | "R" }
-    | null;
-  /** A box, or null where a value goes straight to its target. */
-  call: { callee: string; args: readonly Argument[] } | null;
-  /** The value without a box, and the condition of a jump. */
-  pin: string;
-  jump: { label: string | null } | null;
-  span: Span;
-}
-
 export interface Rung {
   kind: "rung";
   head: Head;
   path: Path;
-}
-
-export interface Diagram {
-  kind: "network";
-  head: Head;
-  items: readonly Item[];
 }
 
 /** Why a network could not be read, and where: an offset from its start. */

@@ -2,7 +2,7 @@
 
 import { create } from "zustand";
 import { rest } from "../../wire/rest";
-import type { PlcSymbol } from "../../wire/types";
+import type { PlcSymbol, Pou } from "../../wire/types";
 import { isAway, loadMembers, sameProgram, useMembers } from "../plc/members";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
@@ -77,14 +77,18 @@ export async function loadNames(pou: string): Promise<void> {
   await Promise.all([loadMembers(""), instance === undefined ? [] : loadMembers(instance)]);
 }
 
-/** The instance path of a variable as it is written in a POU; undefined when it is not a variable, or not known (yet). */
-export function pathOf(pou: string, written: string): string | undefined {
+/**
+ * The instance path of a variable as it is written in a POU; undefined when it is not a variable, or not known (yet). Without an
+ * instance it is not known: a global variable may have the name of one of the POU's own.
+ */
+export function pathOf(pou: Pick<Pou, "name" | "kind">, written: string): string | undefined {
   const { of } = useMembers.getState();
   const root = /^[^.[^]+/.exec(written)?.[0].toUpperCase();
   if (root === undefined) return undefined;
   const rest = written.slice(root.length);
   const named = (symbol: PlcSymbol) => symbol.name.toUpperCase() === root;
-  const instance = seenAsNow(pou);
+  const instance = seenAsNow(pou.name);
+  if (instance === undefined && pou.kind !== "global") return undefined;
   const own = instance === undefined ? undefined : of.get(instance)?.find(named);
   const found = own ?? of.get("")?.find(named);
   return found && (rest !== "" || !found.expandable) ? found.path + rest : undefined;

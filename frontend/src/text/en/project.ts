@@ -148,6 +148,8 @@ export const project = {
   "graphic.coil.reset": "Coil {name}, reset",
   "graphic.coil.rising": "Coil {name}, when the power rises",
   "graphic.coil.set": "Coil {name}, set",
+  "graphic.comments": "This rung has comments between its elements: edit its text (double-click).",
+  "graphic.field.bad": "Write one element, as in the text of a rung.",
   "graphic.contact": "Contact {name}",
   "graphic.contact.falling": "Contact {name}, when it falls",
   "graphic.contact.negated": "Closed contact {name}",
@@ -156,8 +158,11 @@ export const project = {
   "graphic.fromvalues.hint":
     "The power is computed from the values after the scan, not noted while the rung ran. After an edge contact, a condition or the result of a box it is not known: dashed lines.",
   "graphic.jump": "Jump to {label}",
+  "graphic.keys":
+    "C contact, / closed, W below, O coil, S set, R reset, F box, Enter name, Ctrl+I rung, double-click: text",
   "graphic.of": "Ladder diagrams of {path}",
   "graphic.off": "switched off",
+  "graphic.readonly": "The text of the past cannot be changed.",
   "graphic.receive": "Link {name}",
   "graphic.return": "RETURN",
   "graphic.rung": "Rung {number} {title}",

@@ -148,6 +148,8 @@ export const project: Record<keyof typeof english, string> = {
   "graphic.coil.reset": "コイル {name}（リセット）",
   "graphic.coil.rising": "コイル {name}（電力の立ち上がり）",
   "graphic.coil.set": "コイル {name}（セット）",
+  "graphic.comments": "このラングには要素の間にコメントがあるため、テキストで編集してください（ダブルクリック）。",
+  "graphic.field.bad": "ラングのテキストと同じ書き方で要素を1つ書いてください。",
   "graphic.contact": "接点 {name}",
   "graphic.contact.falling": "接点 {name}（立ち下がり）",
   "graphic.contact.negated": "b接点 {name}",
@@ -156,8 +158,11 @@ export const project: Record<keyof typeof english, string> = {
   "graphic.fromvalues.hint":
     "電力はスキャン後の値から計算したもので、ラングの実行中に記録したものではありません。エッジ接点、条件、ボックスの結果より後は不明なため破線で示します。",
   "graphic.jump": "{label} へジャンプ",
+  "graphic.keys":
+    "C 接点、/ b接点、W 下に接点、O コイル、S セット、R リセット、F ボックス、Enter 名前、Ctrl+I ラング、ダブルクリック: テキスト",
   "graphic.of": "{path} のラダー図",
   "graphic.off": "無効",
+  "graphic.readonly": "過去のテキストは変更できません。",
   "graphic.receive": "リンク {name}",
   "graphic.return": "RETURN",
   "graphic.rung": "ラング {number} {title}",

@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
+import { useViewOf } from "../../../store/graphic/views";
 import { isDirty, isKept, openDocument, useDocuments } from "../../../store/project/documents";
-import { useViewOf } from "../../../store/project/graphicViews";
 import { useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -69,7 +69,7 @@ function Views({ path, past }: { path: string; past: string | null }) {
   const view = useViewOf(path, text);
   return (
     <div className="edviews">
-      {view !== "text" && <GraphicView path={path} text={text} />}
+      {view !== "text" && <GraphicView path={path} text={text} readOnly={past !== null} />}
       <div className="textview" hidden={view === "graphic"}>
         <CodeView path={path} past={past} />
       </div>

@@ -16,6 +16,7 @@ import { useDocuments } from "../../../store/project/documents";
 import { shownText } from "../../../store/project/shownProgram";
 import { forcedAt, useForces } from "../../../store/watch/forces";
 import { t } from "../../../text";
+import type { Pou } from "../../../wire/types";
 import { haltedLineIn } from "./halt";
 import type { editor } from "./monaco";
 import { hasValues } from "./names";
@@ -140,7 +141,7 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
       const inFrame = pou !== undefined && pou.name.toUpperCase() === here;
       const found = variablesIn(model.getLineContent(line), comment);
       comment = found.comment;
-      const values = pou && on && hasValues(pou) ? valuesOf(found.variables, pou.name, inFrame) : [];
+      const values = pou && on && hasValues(pou) ? valuesOf(found.variables, pou, inFrame) : [];
       const next = haltedAt === line ? saidOf(halted?.look) : "";
       const old = inFrame && haltedAt !== null && line > haltedAt;
       if (values.length > 0 || next !== "") wanted.set(line, { values, old, next });
@@ -152,7 +153,7 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
 const saidOf = (look: "halt" | "past" | "frame" | undefined) =>
   look === "frame" ? "calls" : look === "past" ? "past" : "next";
 
-function valuesOf(named: readonly NamedVariable[], pou: string, inFrame: boolean): Shown[] {
+function valuesOf(named: readonly NamedVariable[], pou: Pou, inFrame: boolean): Shown[] {
   const shown: Shown[] = [];
   for (const { path: name } of named) {
     const path = pathOf(pou, name);

@@ -1,37 +1,45 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef, useState } from "react";
-import { next, type Way } from "../../../../logic/graphic/near";
+import { type Drawn, layOut } from "../../../../logic/graphic/ladderLayout";
 import { type DrawnRung, heightOf, Rungs } from "../../../../logic/graphic/rungs";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { toggleBreakpoint, useDebug } from "../../../../store/debug/debug";
+import { seenAsNow } from "../../../../store/debug/seenAs";
+import { showAs, useViewOf } from "../../../../store/graphic/views";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
+import { useMembers } from "../../../../store/plc/members";
 import { useDocuments } from "../../../../store/project/documents";
-import { showAs, useViewOf } from "../../../../store/project/graphicViews";
 import { shownText } from "../../../../store/project/shownProgram";
 import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
 import "./graphic.css";
+import { elementBeside, inOrder, moved, sameElement } from "./cursor";
+import { NameField } from "./NameField";
 import { RungRow } from "./RungRow";
+import { type Cursor, useEditing } from "./useEditing";
 
-const GUTTER = 22 + 34 + 14 + 18;
-const WAYS: Record<string, Way> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
+/** Marks, number and margins left and right of a drawing. */
+const BESIDE = 22 + 34 + 20 + 18;
 
-interface Cursor {
-  rung: number;
-  element: number;
+interface Props {
+  path: string;
+  text: string;
+  /** The text of the past cannot be changed. */
+  readOnly: boolean;
 }
 
 /** The ladder diagrams of a file, drawn: a second view of its text. */
-export default function GraphicView({ path, text }: { path: string; text: string }) {
+export default function GraphicView({ path, text, readOnly }: Props) {
   const sheet = useRef<HTMLDivElement>(null);
   const rungs = useRef(new Rungs());
   const [width, setWidth] = useState(640);
-  const [cursor, setCursor] = useState<Cursor | null>(null);
+  const [cursor, setCursor] = useState<Cursor>({ rung: 0, place: [0] });
   const id = useId();
   const view = useViewOf(path, text);
   useDocuments(({ pous }) => pous);
   const breakpoints = useDebug((debug) => debug.breakpoints);
-  const drawn = useMemo(() => rungs.current.of(text, Math.max(320, width - GUTTER)), [text, width]);
+  const room = Math.max(320, width - BESIDE);
+  const drawn = useMemo(() => rungs.current.of(text, room), [text, room]);
   const pous = shownText(path).pous;
 
   useEffect(() => {
@@ -41,26 +49,35 @@ export default function GraphicView({ path, text }: { path: string; text: string
     return () => observer.disconnect();
   }, []);
 
+  const editing = useEditing(path, drawn, readOnly, go);
+  const { naming } = editing;
+  const named = useMemo(() => naming && layOut(naming.path, room), [naming, room]);
+  const heightAt = (index: number) => {
+    const rung = drawn[index];
+    if (!rung) return 0;
+    return heightOf(naming?.rung === index ? { ...rung, drawing: named } : rung);
+  };
   const virtual = useVirtualizer({
     count: drawn.length,
     getScrollElement: () => sheet.current,
-    estimateSize: (index) => (drawn[index] ? heightOf(drawn[index]) : 0),
+    estimateSize: heightAt,
     overscan: 4,
   });
   // biome-ignore lint/correctness/useExhaustiveDependencies: the heights follow from what is drawn
-  useEffect(() => virtual.measure(), [drawn]);
+  useEffect(() => virtual.measure(), [drawn, named]);
 
-  const place = useNavigation((navigation) => navigation.place);
-  const turn = useRef(place?.turn);
+  const target = useNavigation((navigation) => navigation.place);
+  const turn = useRef(target?.turn);
   useEffect(() => {
-    if (!place || place.path !== path || place.turn === turn.current) return;
-    turn.current = place.turn;
+    if (!target || target.path !== path || target.turn === turn.current) return;
+    turn.current = target.turn;
     const at = drawn.findIndex(
-      ({ found }) => linesOf(found.text) + found.line > place.line && found.line <= place.line,
+      ({ found }) => linesOf(found.text) + found.line > target.line && found.line <= target.line,
     );
-    // A place outside of the rungs, a declaration perhaps, is in the text only.
-    if (at < 0) showAs(path, "both");
-    else if (view !== "text") go({ rung: at, element: 0 });
+    const opened = pous.some((pou) => pou.file === path && pou.line === target.line);
+    if (at >= 0) go({ rung: at, place: [0] });
+    // A variable's declaration is in the text only; who opens a POU looks at its rungs.
+    else if (view === "graphic" && !opened) showAs(path, "both");
   });
 
   function go(to: Cursor): void {
@@ -68,40 +85,57 @@ export default function GraphicView({ path, text }: { path: string; text: string
     virtual.scrollToIndex(to.rung);
   }
 
-  function toText({ rung, element }: Cursor): void {
-    const found = drawn[rung]?.found;
-    if (!found) return;
+  function toText(): void {
     showAs(path, "both");
-    const { line, column } = placeOf(drawn[rung], element);
+    const { line, column } = placeInText(drawn[cursor.rung], cursor);
     openFile(path, line, column);
   }
 
   function onKeyDown(event: KeyboardEvent): void {
     if (event.altKey || event.metaKey) return;
-    const now = cursor ?? { rung: 0, element: 0 };
-    const handled = move(event, now, drawn, go) || act(event.key, now);
-    if (handled) event.preventDefault();
+    const to = moved(event, cursor, drawn);
+    if (to) go(to);
+    else if (event.key === "F9") void toggleBreakpoint(path, placeInText(drawn[cursor.rung], cursor).line);
+    else if (!editing.onKey(event, cursor)) return;
+    event.preventDefault();
   }
 
-  function act(key: string, now: Cursor): boolean {
-    if (key === "Enter" || key === "F2") toText(now);
-    else if (key === "F9") void toggleBreakpoint(path, placeOf(drawn[now.rung], now.element).line);
-    else return false;
-    return true;
-  }
-
-  function onClick(event: MouseEvent): void {
-    const hit = (event.target as Element).closest<SVGElement>("[data-element]");
-    const rung = (event.target as Element).closest<HTMLElement>("[data-index]");
+  function onClick({ target: on }: MouseEvent): void {
+    if (!(on instanceof Element)) return;
+    const rung = on.closest<HTMLElement>("[data-index]");
     if (!rung) return;
-    const groups = hit ? [...rung.querySelectorAll("[data-element]")] : [];
-    setCursor({ rung: Number(rung.dataset.index), element: hit ? groups.indexOf(hit) : 0 });
+    const hit = on.closest<SVGElement>("[data-element]")?.dataset.element;
+    setCursor({ rung: Number(rung.dataset.index), place: hit === undefined ? [] : hit.split(".").map(Number) });
   }
 
-  const active = cursor && drawn[cursor.rung]?.drawing?.elements[cursor.element];
+  function field(drawing: { elements: readonly Drawn[] }, pou: string | undefined) {
+    const element = drawing.elements.find((each) => naming && sameElement(each.place, naming.place));
+    if (!naming || !element) return null;
+    const { of } = useMembers.getState();
+    const own = pou === undefined ? undefined : of.get(seenAsNow(pou) ?? "");
+    const names = [...(own ?? []), ...(of.get("") ?? [])].filter(({ type }) => type === "BOOL").map(({ name }) => name);
+    const leave = () => {
+      editing.leave();
+      sheet.current?.focus();
+    };
+    return (
+      <NameField
+        key={naming.place.join(".")}
+        drawn={element}
+        names={[...new Set(names)]}
+        onLeave={leave}
+        onTake={(made, onwards) => {
+          editing.take(made);
+          go({ rung: naming.rung, place: onwards ? elementBeside(drawing, naming.place) : naming.place });
+          sheet.current?.focus();
+        }}
+      />
+    );
+  }
+
+  const active = inOrder(drawn[cursor.rung]).find((each) => sameElement(each.place, cursor.place));
   return (
     <div className="graphicview">
-      {/* biome-ignore lint/a11y/useKeyWithClickEvents: the keys are those of the whole list */}
       <div
         ref={sheet}
         className="sheet"
@@ -111,13 +145,18 @@ export default function GraphicView({ path, text }: { path: string; text: string
         aria-activedescendant={active ? `${id}${cursor.rung}-${active.place.join(".")}` : undefined}
         onKeyDown={onKeyDown}
         onClick={onClick}
-        onDoubleClick={() => cursor && toText(cursor)}
+        onDoubleClick={toText}
+        data-pane="ladder"
       >
         <div style={{ height: virtual.getTotalSize(), position: "relative" }}>
           {virtual.getVirtualItems().map((item) => {
             const rung = drawn[item.index];
             if (!rung) return null;
             const { line, text: own } = rung.found;
+            const pou = pouAt(pous, path, line, text);
+            const here = breakpoints.some(
+              (each) => each.file === path && each.line >= line && each.line < line + linesOf(own),
+            );
             return (
               <div
                 key={item.key}
@@ -128,21 +167,25 @@ export default function GraphicView({ path, text }: { path: string; text: string
                 <RungRow
                   rung={rung}
                   number={item.index + 1}
-                  pou={pouAt(pous, path, line, text)?.name}
+                  pou={pou}
                   id={`${id}${item.index}`}
-                  selected={cursor?.rung === item.index ? cursor.element : null}
-                  breakpoints={breakpoints.some(
-                    (each) => each.file === path && each.line >= line && each.line < line + linesOf(own),
-                  )}
+                  cursor={cursor.rung === item.index ? cursor.place : null}
+                  naming={
+                    naming?.rung === item.index && named ? { drawing: named, field: field(named, pou?.name) } : null
+                  }
+                  breakpoints={here}
                 />
               </div>
             );
           })}
         </div>
       </div>
-      <p className="netnote faint" title={t("graphic.fromvalues.hint")}>
-        <Icon name="info" small />
-        {t("graphic.fromvalues")}
+      <p className="netnote faint" role="status">
+        <span className="row tight" title={t("graphic.fromvalues.hint")}>
+          <Icon name="info" small />
+          {t("graphic.fromvalues")}
+        </span>
+        <span className="cut">{editing.refused || t(readOnly ? "graphic.readonly" : "graphic.keys")}</span>
       </p>
     </div>
   );
@@ -150,35 +193,11 @@ export default function GraphicView({ path, text }: { path: string; text: string
 
 const linesOf = (text: string) => text.split("\n").length;
 
-/** Where an element begins in the file. */
-function placeOf(rung: DrawnRung | undefined, element: number): { line: number; column: number } {
+/** Where the element at the cursor begins in the file. */
+function placeInText(rung: DrawnRung | undefined, { place }: Cursor): { line: number; column: number } {
   if (!rung) return { line: 1, column: 1 };
-  const at = rung.drawing?.elements[element]?.element.span.at ?? 0;
+  const at = inOrder(rung).find((each) => sameElement(each.place, place))?.element.span.at ?? 0;
   const before = rung.found.text.slice(0, at).split("\n");
   const column = (before.at(-1)?.length ?? 0) + 1 + (before.length === 1 ? rung.found.indent.length : 0);
   return { line: rung.found.line + before.length - 1, column };
-}
-
-/** Moves the cursor; whether the key is one that does. */
-function move(event: KeyboardEvent, now: Cursor, drawn: readonly DrawnRung[], go: (to: Cursor) => void): boolean {
-  const count = drawn[now.rung]?.drawing?.elements.length ?? 0;
-  const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
-  const other = step === undefined ? now.rung : Math.max(0, Math.min(drawn.length - 1, now.rung + step));
-  if (event.ctrlKey) {
-    if (step === undefined) return false;
-    go({ rung: other, element: 0 });
-    return true;
-  }
-  if (event.key === "Home" || event.key === "End") {
-    go({ rung: now.rung, element: event.key === "Home" ? 0 : Math.max(0, count - 1) });
-    return true;
-  }
-  const way = WAYS[event.key];
-  if (way === undefined) return false;
-  const drawing = drawn[now.rung]?.drawing;
-  const found = drawing ? next(drawing, now.element, way) : null;
-  if (found !== null) go({ rung: now.rung, element: found });
-  else if (other !== now.rung) go({ rung: other, element: 0 });
-  else go(now);
-  return true;
 }

@@ -9,12 +9,12 @@ const sharp = (value: number) => Math.round(value) + 0.5;
 interface Props {
   drawing: Drawing;
   id: string;
-  /** The index of the selected element; null where none of it is. */
-  selected: number | null;
+  /** The place of the cursor, joined by points; null where it is elsewhere. */
+  cursor: string | null;
 }
 
 /** A rung as it is drawn. Its values are written to the elements directly, twenty times a second: see `live.ts`. */
-export const RungDrawing = memo(function RungDrawing({ drawing, id, selected }: Props) {
+export const RungDrawing = memo(function RungDrawing({ drawing, id, cursor }: Props) {
   const { width, height, wires, elements, rail } = drawing;
   return (
     <svg className="draw" width={width} height={height} role="presentation">
@@ -29,12 +29,12 @@ export const RungDrawing = memo(function RungDrawing({ drawing, id, selected }: 
       ))}
       <path className="rail2" data-node={0} d={`M${sharp(rail.left)} ${rail.top}V${rail.bottom}`} />
       <path className="rail2" d={`M${sharp(rail.right)} ${rail.top}V${rail.bottom}`} />
-      {elements.map((drawn, index) => (
+      {elements.map((drawn) => (
         <Element
           key={drawn.place.join(".")}
           drawn={drawn}
           id={`${id}-${drawn.place.join(".")}`}
-          selected={index === selected}
+          selected={drawn.place.join(".") === cursor}
         />
       ))}
     </svg>
@@ -53,16 +53,12 @@ function Element({ drawn, id, selected }: { drawn: Drawn; id: string; selected: 
       data-element={place.join(".")}
     >
       <rect className="hit" x={x + 1} y={y - up - 4} width={width - 2} height={up + down + 4} rx={3} />
-      {element.kind === "box" && frame ? (
-        <BoxDrawing frame={frame} callee={element.callee} />
-      ) : (
-        <Symbol drawn={drawn} />
-      )}
+      {element.kind === "box" && frame ? <BoxDrawing frame={frame} callee={element.callee} /> : <Shape drawn={drawn} />}
     </g>
   );
 }
 
-function Symbol({ drawn: { element, x, y, width } }: { drawn: Drawn }) {
+function Shape({ drawn: { element, x, y, width } }: { drawn: Drawn }) {
   const middle = Math.round(x + width / 2);
   switch (element.kind) {
     case "contact":
@@ -101,7 +97,7 @@ function Symbol({ drawn: { element, x, y, width } }: { drawn: Drawn }) {
         <>
           <path className="sym round" d={`M${x + 14} ${y - 5}l6 5.5-6 5.5`} />
           <text className="nm l" x={x + 26} y={y + 4}>
-            {element.kind === "send" ? `#${element.name}` : (element.label ?? "RETURN")}
+            {element.kind === "jump" ? (element.label ?? "RETURN") : `#${element.name}`}
           </text>
         </>
       );

@@ -1,9 +1,11 @@
-import { useEffect, useRef } from "react";
+import { type ReactNode, useEffect, useRef } from "react";
+import type { Drawing, Place } from "../../../../logic/graphic/ladderLayout";
 import type { DrawnRung } from "../../../../logic/graphic/rungs";
 import { loadNames, seenAs, useSeenAs } from "../../../../store/debug/seenAs";
 import { useMembers } from "../../../../store/plc/members";
 import { useForces } from "../../../../store/watch/forces";
 import { t } from "../../../../text";
+import type { Pou } from "../../../../wire/types";
 import { showLive } from "./live";
 import { RungDrawing } from "./RungDrawing";
 
@@ -11,24 +13,27 @@ interface Props {
   rung: DrawnRung;
   number: number;
   /** The POU whose instance gives the values; undefined where there are none to show. */
-  pou: string | undefined;
+  pou: Pou | undefined;
   id: string;
-  /** The index of the selected element; null where none of this rung is. */
-  selected: number | null;
+  /** The place of the cursor; null where it is in a different rung. */
+  cursor: Place | null;
+  /** While an element is named: how the rung will be, and the field. */
+  naming: { drawing: Drawing; field: ReactNode } | null;
   breakpoints: boolean;
 }
 
 /** One rung: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function RungRow({ rung, number, pou, id, selected, breakpoints }: Props) {
-  const { found, path, drawing } = rung;
+export function RungRow({ rung, number, pou, id, cursor, naming, breakpoints }: Props) {
+  const { found, path } = rung;
+  const drawing = naming?.drawing ?? rung.drawing;
   const { label, title, comment, off } = found.head;
   const picture = useRef<HTMLDivElement>(null);
-  const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou)));
+  const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou.name)));
   const members = useMembers(({ of }) => of);
   const forces = useForces();
 
   useEffect(() => {
-    if (pou !== undefined) void loadNames(pou);
+    if (pou !== undefined) void loadNames(pou.name);
   }, [pou]);
   // biome-ignore lint/correctness/useExhaustiveDependencies: what a name means depends on the instance and its variables, and forces are drawn
   useEffect(() => {
@@ -39,7 +44,7 @@ export function RungRow({ rung, number, pou, id, selected, breakpoints }: Props)
 
   return (
     <div
-      className={`net${selected === null ? "" : " cur"}${off ? " off" : ""}`}
+      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}`}
       role="group"
       aria-label={t("graphic.rung", { number, title: title || label })}
     >
@@ -53,8 +58,9 @@ export function RungRow({ rung, number, pou, id, selected, breakpoints }: Props)
           {off && <span className="st faint">{t("graphic.off")}</span>}
           {path === null && <span className="st bad">{t("graphic.unread")}</span>}
         </div>
-        <div ref={picture} className={path === null ? "netold" : undefined}>
-          {drawing && <RungDrawing drawing={drawing} id={id} selected={selected} />}
+        <div ref={picture} className={`netdraw${path === null ? " netold" : ""}`}>
+          {drawing && <RungDrawing drawing={drawing} id={id} cursor={cursor?.join(".") ?? null} />}
+          {naming?.field}
         </div>
         {path === null && <pre className="nettext">{found.text}</pre>}
       </div>

@@ -6,6 +6,7 @@ import { pathOf } from "../../../../store/debug/seenAs";
 import { bindCell } from "../../../../store/plc/values";
 import { watch } from "../../../../store/plc/watches";
 import { forcedAt } from "../../../../store/watch/forces";
+import type { Pou } from "../../../../wire/types";
 
 /** A variable as it may be written: `s[2].ready`. An expression is none. */
 const VARIABLE = /^[\p{L}_%][\p{L}\p{N}_.]*(?:\[[\p{N}\s,-]+\][\p{L}\p{N}_.]*)*$/u;
@@ -22,7 +23,7 @@ function operandsOf({ nodes, elements }: Drawing): Set<string> {
 }
 
 /** Shows values and power in a drawing from now on, until the returned function is called. */
-export function showLive(svg: SVGSVGElement, drawing: Drawing, pou: string): () => void {
+export function showLive(svg: SVGSVGElement, drawing: Drawing, pou: Pou): () => void {
   const paths = new Map<string, string>();
   for (const operand of operandsOf(drawing)) {
     const path = VARIABLE.test(operand) ? pathOf(pou, operand) : undefined;

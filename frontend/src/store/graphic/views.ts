@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { networksIn } from "../../logic/graphic/networks";
 import { keep, recall } from "../page/localStorage";
 
-export type View = "text" | "graphic" | "both";
+type View = "text" | "graphic" | "both";
 
 const KEY = "views";
 const VIEWS: readonly string[] = ["text", "graphic", "both"];

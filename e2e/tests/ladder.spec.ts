@@ -1,0 +1,72 @@
+import { expect, test } from '../fixtures/test';
+
+const EMPTY = `FUNCTION_BLOCK Latch
+VAR_INPUT go, halt : BOOL; END_VAR
+VAR_OUTPUT on : BOOL; END_VAR
+RUNG "The motor holds itself"
+END_RUNG
+END_FUNCTION_BLOCK
+`;
+
+test('a rung is drawn by keys, is text at once, and shows where power flows', async ({ openAs, server }) => {
+  const mika = await openAs('Mika');
+  const { page } = mika;
+  const { keyboard } = page;
+  await mika.runs();
+  const project = (await server.get<{ id: number; name: string }[]>('/projects'))[0]?.id;
+  const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
+  const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
+  const main = text
+    .replace('END_VAR', '  latch : Latch;\nEND_VAR')
+    .replace('END_PROGRAM', 'latch(go := start);\nEND_PROGRAM');
+  for (const [file, data] of [
+    ['Latch.st', { text: EMPTY, version: 0 }],
+    ['Main.st', { text: main, version }],
+  ] as const)
+    expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
+
+  const sheet = page.getByRole('listbox', { name: 'Ladder diagrams of Latch.st' });
+  await test.step('a motor that holds itself, from nothing, by the keyboard alone', async () => {
+    await mika.explorer.item('Latch').dblclick();
+    await expect(sheet).toContainText('The motor holds itself');
+    await sheet.focus();
+    for (const [key, name] of [
+      ['c', 'go'],
+      ['w', 'on'],
+    ] as const) {
+      await keyboard.press(key);
+      await keyboard.type(name);
+      await keyboard.press('Enter');
+      await expect(sheet.getByRole('option', { name: `Contact ${name}` })).toBeVisible();
+      await expect(sheet).toBeFocused();
+    }
+    await keyboard.press('ArrowUp');
+    await keyboard.press('Home');
+    expect.soft(await sheet.getByRole('option', { selected: true }).getAttribute('aria-label')).toBe('Contact go');
+    await keyboard.press('o');
+    await keyboard.type('on');
+    await keyboard.press('Enter');
+    await expect(sheet.getByRole('option', { name: 'Coil on' })).toBeVisible();
+  });
+
+  await test.step('what is taken back is gone from drawing and text, and comes again', async () => {
+    await keyboard.press('Control+Z');
+    await expect(sheet.getByRole('option', { name: 'Coil on' })).toHaveCount(0);
+    await keyboard.press('Control+Y');
+    await expect(sheet.getByRole('option', { name: 'Coil on' })).toBeVisible();
+  });
+
+  await test.step('it is built, and power flows where its contacts are closed', async () => {
+    await mika.editor('Latch.st').build();
+    await mika.watch.set('start', 'TRUE');
+    await expect(sheet.locator('.el.on')).toHaveCount(3);
+    await mika.watch.set('start', 'FALSE');
+    await expect(sheet.locator('.el.on')).toHaveCount(2);
+  });
+
+  await test.step('it is the text of the file', async () => {
+    await page.getByRole('radio', { name: 'Both' }).click();
+    await expect(mika.editor('Latch.st').line('| [on]')).toBeVisible();
+    await expect(mika.editor('Latch.st').line('> (on)')).toBeVisible();
+  });
+});
