@@ -12,7 +12,7 @@ from scanbench.language.standard import row_of
 from scanbench.program.types import ArrayType, OpenArray, Record, Reference, Section
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk
-from scanbench.syntax.networks import Box, Contact, NetworkBody, Rung, elements
+from scanbench.syntax.networks import Box, Contact, Diagram, Function, NetworkBody, Pin, Rung, elements
 from scanbench.syntax.source import Stretch
 
 _NUMBERED = re.compile(r"([A-Z]+)(\d+)")
@@ -34,8 +34,8 @@ def calls_of(pou: tree.PouDeclaration, start: int, end: int) -> Iterator[tree.Ca
                 yield tree.Call(each.operand, each.arguments, each.span)
         return
     if isinstance(pou.body, NetworkBody):
-        for rung in pou.body.networks:
-            yield from _in_rung(rung, start, end)
+        for network in pou.body.networks:
+            yield from _in_rung(network, start, end) if isinstance(network, Rung) else _in_diagram(network, start, end)
         return
     lists: list[Sequence[tree.Statement]] = [pou.body]
     while lists:
@@ -54,6 +54,18 @@ def _in_rung(rung: Rung, start: int, end: int) -> Iterator[tree.Call]:
                 yield from _in_expressions([one.value for one in arguments if one.value is not None])
         elif isinstance(each, Contact):
             yield from _in_expressions([each.operand])
+
+
+def _in_diagram(diagram: Diagram, start: int, end: int) -> Iterator[tree.Call]:
+    for item in diagram.items:
+        value = item.value
+        if isinstance(value, Function):
+            arguments = tuple(one for one in value.arguments if isinstance(one, tree.Argument))
+            if start <= _end(value.span) and _start(value) < end:
+                yield tree.Call(value.callee, arguments, value.span)
+                yield from _in_expressions([one.value for one in arguments if one.value is not None])
+        elif value is not None and not isinstance(value, Pin):
+            yield from _in_expressions([value])
 
 
 def _reaching(statements: Sequence[tree.Statement], start: int, end: int) -> Iterator[tree.Statement]:
@@ -102,7 +114,7 @@ def _in_expressions(open_: list[tree.Expression]) -> Iterator[tree.Call]:
                 open_ += [array, *indices]
 
 
-def _start(node: tree.Statement | tree.IlInstruction | Box) -> int:
+def _start(node: tree.Statement | tree.IlInstruction | Box | Function) -> int:
     return node.span.start if isinstance(node.span, Stretch) else -1
 
 

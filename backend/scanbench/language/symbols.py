@@ -64,7 +64,7 @@ def _pou(reading: Reading, file: str, pou: tree.PouDeclaration, by_name: dict[in
         _variable(reading, file, each, section)
         for section in pou.sections
         for each in section.variables
-        if each.name[0] != "$"
+        if each.name[0] not in "$#"
     ]
     inner += [_pou(reading, file, each, by_name) for each in pou.methods]
     detail = written(pou.result) if pou.result is not None else ""

@@ -43,6 +43,8 @@ class Cursor:
         """Those that no FUNCTION_BLOCK has taken yet."""
         self.at = 0
         self.depth = 0
+        self.wires: set[str] | None = None
+        """In a function block diagram: the wires that were read, in upper case. Elsewhere `#x` is a variable of one vendor."""
         self.list_name = ""
         """Of the variables that a vendor keeps in a list of its own."""
         self.namespace = ""

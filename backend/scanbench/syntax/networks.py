@@ -1,4 +1,4 @@
-"""Ladder as text: the networks of a body, before any name is looked up. The grammar is that of `docs/ladder.md`."""
+"""Ladder and function block diagrams as text: the networks of a body, before any name is looked up. The grammar is that of `docs/ladder.md`."""
 
 from collections.abc import Iterator
 
@@ -93,8 +93,62 @@ class Rung:
 
 
 @node
+class Pin:
+    """`NOT R_EDGE x`: an edge is a contact with the mode P or N; `name` is that of the input, where it is one."""
+
+    name: str | None
+    edge: Contact
+    negated: bool
+    span: Span
+
+
+@node
+class Function:
+    """`callee(inputs, name => variable or wire)`, as a box of a function block diagram."""
+
+    callee: tree.Expression
+    arguments: tuple[tree.Argument | Pin, ...]
+    span: Span
+
+
+@node
+class Item:
+    """A line of a function block diagram. `target` takes the value: a variable, or a wire, which is a name that begins with `#`."""
+
+    target: tree.Expression | None
+    operator: str
+    """`:=`, `S=` or `R=`."""
+    value: Function | Pin | tree.Expression | None
+    """Of a jump its condition; None without one."""
+    leave: Leave | None
+    span: Span
+
+
+@node
+class Wire:
+    """`#name : type`; `loop`: it is read above the line that sets it, so that it keeps its value from one evaluation to the next."""
+
+    name: str
+    type: tree.TypeSpec | None
+    loop: bool
+    span: Span
+
+
+@node
+class Diagram:
+    """NETWORK: a function block diagram, in the order of execution."""
+
+    label: str
+    items: tuple[Item, ...]
+    wires: tuple[Wire, ...]
+    off: bool
+    span: Span
+    """Of the first line."""
+
+
+@node
 class NetworkBody:
-    networks: tuple[Rung, ...]
+    networks: tuple[Rung | Diagram, ...]
     span: Span
     owner: str = ""
     """The name of the POU: its heirs have memories of their own."""
@@ -116,8 +170,8 @@ def elements(path: Path) -> Iterator[Element]:
 def edges(body: NetworkBody) -> Iterator[tuple[Contact | Coil, str]]:
     """What looks for an edge, with the name of its memory: by operand and count, so that an inserted rung changes no other name."""
     counts: dict[str, int] = {}
-    for rung in body.networks:
-        for each in elements(rung.path):
+    for network in body.networks:
+        for each in elements(network.path) if isinstance(network, Rung) else _pins(network):
             if isinstance(each, Contact | Coil) and each.mode in ("P", "N"):
                 kind = each.mode + ("" if isinstance(each, Contact) else "C")
                 key = f"${body.owner}.{kind}.{each.written}".upper()
@@ -125,9 +179,23 @@ def edges(body: NetworkBody) -> Iterator[tuple[Contact | Coil, str]]:
                 yield each, f"{key}.{counts[key]}"
 
 
+def _pins(diagram: Diagram) -> Iterator[Contact]:
+    """The edges of a diagram, in the order in which they are looked for."""
+    for item in diagram.items:
+        if isinstance(item.value, Function):
+            yield from (each.edge for each in item.value.arguments if isinstance(each, Pin))
+        elif isinstance(item.value, Pin):
+            yield item.value.edge
+
+
 def memories(body: NetworkBody) -> tuple[tree.VariableSection, ...]:
-    """The variables that the edges of a body need: what each saw last."""
+    """The variables that the edges and loops of a body need: what each edge saw last, what each wire had."""
     found = tuple(
         tree.Variable(name, tree.NamedType("BOOL", each.span), None, None, each.span) for each, name in edges(body)
+    )
+    wires = [each for network in body.networks if isinstance(network, Diagram) for each in network.wires if each.loop]
+    found += tuple(
+        tree.Variable(each.name, each.type or tree.NamedType("BOOL", each.span), None, None, each.span)
+        for each in wires
     )
     return (tree.VariableSection("VAR", (), found, body.span),) if found else ()

@@ -98,8 +98,12 @@ def _marked(c: Cursor, at: int, text: str) -> tree.Expression:
         c.leave()
         return tree.UnaryOp(UNARY[text], inner, c.span_from(at))
     if text == "#" and c.kinds[at + 1] is NAME:
-        c.take()  # `#local`, as one vendor writes its local variables
-        return operand(c)
+        c.take()
+        if c.wires is None:
+            return operand(c)  # `#local`, as one vendor writes its local variables
+        c.take()
+        c.wires.add(c.texts[at + 1].upper())
+        return postfix(c, tree.Name(f"#{c.texts[at + 1]}", c.span_from(at)), calls=False)
     foreign = FOREIGN.get(c.texts[at - 1] + text)
     if foreign and c.starts[at - 1] + len(c.texts[at - 1]) == c.starts[at]:
         c.report("S003", f"`{c.texts[at - 1]}{text}` is of another language; {foreign}.", c.span_from(at - 1))

@@ -1,6 +1,6 @@
-"""Rungs of a ladder diagram -> tree. A bad rung is reported and skipped; the next one is read as usual."""
+"""Rungs of a ladder diagram, and function block diagrams beside them -> tree. A bad one is reported and skipped; the next one is read as usual."""
 
-from scanbench.syntax import networks, parse_expression, parse_statement, tree
+from scanbench.syntax import networks, parse_diagram, parse_expression, parse_statement, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.parse_statement import STOPS
@@ -10,12 +10,12 @@ MODES = {"[": ("P", "N"), "(": ("S", "R", "P", "N")}
 
 
 def follows(c: Cursor) -> bool:
-    """Whether a body of rungs begins here: `RUNG` on a line with nothing but a label and a title."""
-    return _at_rung(c, c.at)
+    """Whether a body of networks begins here: RUNG or NETWORK on a line with nothing but a label and a title."""
+    return _at_network(c, c.at)
 
 
-def _at_rung(c: Cursor, at: int) -> bool:
-    if c.kinds[at] is not NAME or c.texts[at].upper() != "RUNG":
+def _at_network(c: Cursor, at: int) -> bool:
+    if c.kinds[at] is not NAME or c.texts[at].upper() not in ("RUNG", "NETWORK"):
         return False
     last = at
     if c.kinds[last + 1] is NAME and c.texts[last + 2] == ":" and _same_line(c, at, last + 1):
@@ -30,14 +30,14 @@ def _same_line(c: Cursor, first: int, second: int) -> bool:
 
 
 def body(c: Cursor) -> networks.NetworkBody:
-    """Rungs up to the end of the POU, or to a declaration inside of it."""
+    """Networks up to the end of the POU, or to a declaration inside of it."""
     start = c.at
-    found: list[networks.Rung] = []
+    found: list[networks.Rung | networks.Diagram] = []
     while not _ended(c):
-        if _at_rung(c, c.at):
-            found.append(_rung(c))
+        if _at_network(c, c.at):
+            found.append(_network(c))
             continue
-        c.report("S003", f"RUNG expected: this body is a ladder diagram{c.found()}.", c.here())
+        c.report("S003", f"RUNG or NETWORK expected: this body is a diagram{c.found()}.", c.here())
         _skip(c)
     return networks.NetworkBody(tuple(found), c.span_from(start))
 
@@ -51,15 +51,16 @@ def _ended(c: Cursor) -> bool:
 def _skip(c: Cursor) -> None:
     """To the next rung, at least one token on."""
     c.take()
-    while not _ended(c) and not _at_rung(c, c.at):
-        if c.accept_word("END_RUNG"):
+    while not _ended(c) and not _at_network(c, c.at):
+        if c.accept_word("END_RUNG", "END_NETWORK"):
             return
         c.take()
 
 
-def _rung(c: Cursor) -> networks.Rung:
+def _network(c: Cursor) -> networks.Rung | networks.Diagram:
     off = _is_off(c)
     start = c.take()
+    kind = c.texts[start].upper()
     label = ""
     if c.texts[c.at + 1] == ":":
         label = c.texts[c.at]
@@ -68,14 +69,21 @@ def _rung(c: Cursor) -> networks.Rung:
         c.take()
     head, depth = c.span_from(start), c.depth
     path: networks.Path = ()
+    items: tuple[networks.Item, ...] = ()
+    wires: tuple[networks.Wire, ...] = ()
     try:
-        path = _path(c)
-        if not c.accept_word("END_RUNG"):
-            raise c.fail(f"END_RUNG expected to close the RUNG of line {c.line_of(start)}")
+        if kind == "RUNG":
+            path = _path(c)
+        else:
+            items, wires = parse_diagram.items(c, "END_NETWORK")
+        if not c.accept_word(f"END_{kind}"):
+            raise c.fail(f"END_{kind} expected to close the {kind} of line {c.line_of(start)}")
     except Unexpected:
         c.depth = depth
-        if not _at_rung(c, c.at) and not _ended(c) and not c.accept_word("END_RUNG"):
+        if not _at_network(c, c.at) and not _ended(c) and not c.accept_word("END_RUNG", "END_NETWORK"):
             _skip(c)
+    if kind == "NETWORK":
+        return networks.Diagram(label, items, wires, off, head)
     return networks.Rung(label, path, off, head)
 
 
@@ -99,7 +107,7 @@ def _path(c: Cursor) -> networks.Path:
 
 
 def _ended_path(c: Cursor) -> bool:
-    return c.texts[c.at] in STOPS - {"RETURN"} or _at_rung(c, c.at)
+    return c.texts[c.at] in STOPS - {"RETURN"} or _at_network(c, c.at)
 
 
 def _element(c: Cursor) -> networks.Element:

@@ -32,7 +32,7 @@ WRONG = [
     ("RUNG\n[b] (c)\n", "S003", 6, "END_RUNG expected to close the RUNG of line 3"),
     ("RUNG\n[b] JMP a (c)\nEND_RUNG", "S003", 4, "END_RUNG expected"),
     ("RUNG\n[b] - b\nEND_RUNG", "S003", 4, "END_RUNG expected"),
-    ("RUNG\n[b] (c)\nEND_RUNG\nx := 1;", "S003", 6, "this body is a ladder diagram"),
+    ("RUNG\n[b] (c)\nEND_RUNG\nx := 1;", "S003", 6, "RUNG or NETWORK expected: this body is a diagram"),
 ]
 
 
@@ -62,3 +62,34 @@ def test_edges_are_refused_where_nothing_is_kept() -> None:
     (found,) = check_sources({"a.st": text}, MODEL).problems
     assert (found.code, found.span.line) == ("T010", 4)
     assert "keeps nothing" in found.message
+
+
+DIAGRAMS = [
+    ("x := #gone;", "T001", 4, "`#gone`"),
+    ("#a = 1;\n#A = 2;", "D001", 5, "`#A` is a wire of line 4 already"),
+    ("#a = t;", "T002", 4, "so a wire cannot have it"),
+    ("x := b;", "T002", 4, "`x` is INT"),
+    ("x + 1;", "S003", 4, "a value alone goes nowhere"),
+    ("JMP gone IF b;", "T001", 4, "There is no label `gone`"),
+    ("JMP IF x;", "S003", 4, "expected"),
+    ("RETURN IF x;", "T002", 4, "A condition is BOOL, but this is INT"),
+    ("b := R_EDGE x;", "T002", 4, "An edge is BOOL, but this is INT"),
+    ("y := #n;\n#n : INT = ADD(#n, b);", "T002", 5, "BOOL"),
+    ("#n INT = 1;", "S003", 4, "`=` expected after the wire"),
+    ("x := ADD(x, 1)", "S003", 4, "`;` expected at the end of the line"),
+    ("x := ADD(IN1 := x, IN2 := 1, ENO => #ok);", "T010", 4, "The type of `#ok` is not known here"),
+]
+
+
+@pytest.mark.parametrize(("lines", "code", "line", "text"), DIAGRAMS, ids=[each[0] for each in DIAGRAMS])
+def test_what_is_wrong_in_a_function_block_diagram(lines: str, code: str, line: int, text: str) -> None:
+    found = problems(f"NETWORK\n{lines}\nEND_NETWORK")
+    assert (code, line) in [(each.code, each.span.line) for each in found], "\n".join(map(str, found))
+    assert any(text in each.message for each in found if each.code == code), "\n".join(map(str, found))
+    assert len(found) <= 2, "\n".join(map(str, found))
+
+
+def test_a_loop_is_refused_where_nothing_is_kept() -> None:
+    text = "FUNCTION F : INT\nNETWORK\nF := #n;\n#n : INT = 1;\nEND_NETWORK\nEND_FUNCTION\nPROGRAM Main\nEND_PROGRAM\n"
+    found = check_sources({"a.st": text}, MODEL).problems
+    assert {("T001", 3), ("T010", 4)} <= {(each.code, each.span.line) for each in found}

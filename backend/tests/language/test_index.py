@@ -25,7 +25,7 @@ WORDS = frozenset(
     ABSTRACT ACTION ARRAY BY CLASS CONSTANT EXTENDS FINAL F_EDGE GET IMPLEMENTS INTERFACE INTERNAL INTERVAL METHOD NAMESPACE
     NON_RETAIN NULL ON OVERLAP OVERRIDE PERSISTENT POINTER PRIORITY PRIVATE PROPERTY PROPERTY_GET PROPERTY_SET PROTECTED PUBLIC
     READ_ONLY READ_WRITE REFERENCE REF REF_TO RESOURCE RETAIN R_EDGE SET SINGLE STRING SUPER TASK THIS UNION USING WITH WSTRING
-    PLC CPU CONTINUE R S ANY ANY_NUM ANY_INT ANY_REAL ANY_BIT ANY_STRING ANY_DATE ANY_ELEMENTARY ANY_MAGNITUDE CIO
+    RUNG END_RUNG NETWORK END_NETWORK JMP PLC CPU CONTINUE R S ANY ANY_NUM ANY_INT ANY_REAL ANY_BIT ANY_STRING ANY_DATE ANY_ELEMENTARY ANY_MAGNITUDE CIO
     """.split()
 )
 """Words of the language that the lexer takes as names, as programs may use them as names."""
@@ -44,7 +44,7 @@ def test_every_name_of_a_case_means_something(topic: str) -> None:
 
 def unresolved(reading: Reading) -> list[str]:
     """Names that mean nothing; but not words of the language, parameters of standard functions, names of namespaces, tasks and
-    program instances, and operators and labels of IL."""
+    program instances, operators and labels of IL, and what only a network knows."""
     tokens, _ = tokenize(Source(FILE, reading.text(FILE)))
     names = reading.index.between(FILE, 0, len(reading.text(FILE)) + 1)
     known = {reading.place(FILE, first) for first, _, _ in names}
@@ -54,7 +54,10 @@ def unresolved(reading: Reading) -> list[str]:
     for number, (kind, text, start) in enumerate(zip(tokens.kinds, tokens.texts, tokens.starts, strict=True)):
         if kind is not Lex.NAME:
             continue
-        upper = text.upper()
+        upper, before = text.upper(), tokens.texts[number - 1].upper()
+        # wires, links and labels of networks, and the modes of contacts and coils
+        if before in ("#", "RUNG", "NETWORK", "JMP") or (upper in ("P", "N") and before in ("[", "(")):
+            continue
         formal = tokens.texts[number + 1] in (":=", "=>") and tokens.texts[number - 1] in ("(", ",", "NOT")
         around = reading.around(FILE, start)
         if "CONFIGURATION" in reading.holding(FILE, start) or (around and isinstance(around.inner.body, tree.IlBody)):

@@ -34,8 +34,11 @@ def sources(case: Case) -> dict[str, str]:
 
 def of_rungs(body: networks.NetworkBody) -> Iterator[Span]:
     """The place that each element is known by; a parallel itself does nothing."""
-    for rung in body.networks:
-        for each in networks.elements(rung.path) if not rung.off else ():
+    for network in body.networks:
+        if isinstance(network, networks.Diagram):
+            yield from (each.span for each in network.items if not network.off)
+            continue
+        for each in networks.elements(network.path) if not network.off else ():
             branched = isinstance(each, networks.Box) and any(
                 isinstance(one, networks.Branch) for one in each.arguments
             )

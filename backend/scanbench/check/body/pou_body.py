@@ -1,4 +1,4 @@
-"""The body of a POU, in ST, IL or LD -> checked statements."""
+"""The body of a POU, in ST, IL, LD or FBD -> checked statements."""
 
 from dataclasses import replace
 from functools import partial
@@ -8,7 +8,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.edges import edges
 from scanbench.check.body.il import InstructionList
 from scanbench.check.body.jumps import parted
-from scanbench.check.body.ladder import Ladder
+from scanbench.check.body.network_body import network_statements
 from scanbench.check.body.notes import SUFFIX as NOTE
 from scanbench.check.body.redundant_checks import without_needless
 from scanbench.check.body.statements import block
@@ -31,7 +31,7 @@ def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | Net
         case tree.IlBody():
             made = InstructionList(body, written).statements()
         case NetworkBody():
-            made = Ladder(body, written).statements()
+            made = network_statements(body, written)
         case _:
             made = _text(body, written)
     if len(body.report.checks) > checks:

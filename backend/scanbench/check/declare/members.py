@@ -81,7 +81,7 @@ def _declare(
     if variable.address is not None and variable.address.endswith("*"):
         return _incomplete(declared, owner, variable, section, made)
     member = Member(variable.name, made, section, variable.span, constant=constant, copied=copied)
-    member.hidden = variable.name[0] == "$"  # made for a body, see `networks.memories`
+    member.hidden = variable.name[0] in "$#"  # made for a body, see `networks.memories`
     with suppress(Rejected):
         _start(declared, owner, member, variable)
         if variable.address is not None and not (section is Section.MEMBER and is_relative(variable.address)):

@@ -1,0 +1,129 @@
+"""Function block diagrams -> checked statements: a line after the other, as the text has them.
+
+A wire is a hidden temporary with the name that it is written with, `#low`; one that is read above its line is a variable that keeps its value.
+"""
+
+from dataclasses import replace
+
+from scanbench.check.body import fold
+from scanbench.check.body.coercion import as_type
+from scanbench.check.body.enabling import enabling
+from scanbench.check.body.il_operands import hidden, type_of
+from scanbench.check.body.network_code import NetworkCode
+from scanbench.check.context import Rejected
+from scanbench.problems import Span
+from scanbench.program.types import BOOL, Record, Type, has_instance
+from scanbench.program.untyped import settle
+from scanbench.syntax import networks, tree
+
+
+class FunctionBlocks:
+    """The function block diagrams of one body."""
+
+    def __init__(self, code: NetworkCode) -> None:
+        self._code = code
+        self._body = code.body
+        self._report = code.report
+        self._wires: dict[str, networks.Wire] = {}
+        """Those of the network, by name in upper case."""
+        self._known: dict[str, Span] = {}
+        """All of the body: a name means one wire."""
+
+    def diagram(self, diagram: networks.Diagram) -> None:
+        self._wires = {}
+        for wire in diagram.wires:
+            key = wire.name.upper()
+            if key in self._known:
+                self._report.error(
+                    "D001", f"`{wire.name}` is a wire of line {self._known[key].line} already; rename one.", wire.span
+                )
+            self._known.setdefault(key, wire.span)
+            self._wires[key] = wire
+            if wire.loop and (self._body.pou is None or self._body.pou.kind not in ("program", "function_block")):
+                self._report.error(
+                    "T010",
+                    f"`{wire.name}` is read above its line, so it keeps its value, and a FUNCTION or METHOD keeps nothing; "
+                    f"move the line up.",
+                    wire.span,
+                )
+        for item in diagram.items:
+            try:
+                self._item(item)
+            except Rejected:
+                continue
+
+    def _item(self, item: networks.Item) -> None:
+        if item.leave is not None:
+            condition = None if item.value is None else self._condition(item.value, item.span)
+            self._code.leave_later(item.leave, condition)
+        elif isinstance(item.value, networks.Function):
+            self._function(item, item.value)
+        elif item.value is not None and item.target is not None:
+            self._set(item, self._plain(item.value, item.span))
+
+    def _condition(self, value: networks.Function | networks.Pin | tree.Expression, span: Span) -> tree.Name:
+        assert not isinstance(value, networks.Function)
+        return self._code.note(as_type(self._body, self._plain(value, span), BOOL, "A condition"), span)
+
+    def _plain(self, value: networks.Pin | tree.Expression, span: Span) -> tree.Expression:
+        """The value of a pin; an edge is looked for now, as a part of the line at `span`."""
+        if not isinstance(value, networks.Pin):
+            return value
+        found = self._code.edge(value.edge, as_type(self._body, value.edge.operand, BOOL, "An edge"), span)
+        found = fold.unary("not", BOOL, found) if value.negated else found
+        return self._code.note(found, span)
+
+    # ---- boxes ------------------------------------------------------------------------------------------------------
+
+    def _function(self, item: networks.Item, box: networks.Function) -> None:
+        arguments = tuple(self._argument(each, box.callee, item.span) for each in box.arguments)
+        call = tree.Call(box.callee, arguments, item.span)
+        apart = enabling(call)
+        if item.target is None:
+            self._code.run(tree.ExpressionStatement(call, item.span))
+        elif item.operator == ":=" and (apart.en is not None or apart.eno is not None):
+            ok = self._code.temporary("ok", BOOL, item.span)
+            own = replace(apart, eno=tree.Argument("ENO", True, ok, item.span))
+            self._code.enabled_result(item.target, own, ok, item.span)
+            if apart.eno is not None and apart.eno.value is not None:
+                self._code.run(tree.Assignment(apart.eno.value, ok, apart.eno.span))
+        else:
+            self._set(item, call)
+
+    def _argument(self, each: tree.Argument | networks.Pin, callee: tree.Expression, span: Span) -> tree.Argument:
+        if isinstance(each, networks.Pin):
+            return tree.Argument(each.name, False, self._plain(each, span), each.span)
+        if each.output and isinstance(each.value, tree.Name) and each.value.name.startswith(networks.WIRE):
+            type = self._output(callee, each.name or "")
+            if type is None:
+                raise self._report.reject(
+                    "T010", f"The type of `{each.value.name}` is not known here; write `{each.value.name} = ...` below the call.",
+                    each.span,
+                )  # fmt: skip
+            hidden(self._body, each.value.name, type, each.span)
+        return each
+
+    def _output(self, callee: tree.Expression, name: str) -> Type | None:
+        """The type of an output of a block."""
+        record = type_of(self._body.scope, callee)
+        member = record.members.get(name.upper()) if isinstance(record, Record) else None
+        return None if member is None else member.type
+
+    def _set(self, item: networks.Item, value: tree.Expression) -> None:
+        """Assigns to a variable, or sets a wire, which then has the type of the value unless it says one."""
+        assert item.target is not None
+        wire = self._wires.get(item.target.name.upper()) if isinstance(item.target, tree.Name) else None
+        if item.operator != "=":
+            self._code.run(tree.Assignment(item.target, value, item.span, item.operator))
+            return
+        assert wire is not None
+        if wire.type is not None and not wire.loop:
+            hidden(self._body, wire.name, self._body.declarations.type_of(wire.type), wire.span)
+        if wire.type is not None or wire.loop:
+            self._code.run(tree.Assignment(item.target, value, item.span))
+            return
+        found = settle(self._body.expression(value))
+        if found.type is None or has_instance(found.type):
+            raise self._report.reject("T002", "This gives no value, so a wire cannot have it.", item.span)
+        hidden(self._body, wire.name, found.type, wire.span)
+        self._code.store(tree.Name(wire.name, item.span), found, item.span)
