@@ -62,7 +62,8 @@ def _variables(pou: tree.PouDeclaration, owner: str) -> Iterator[Declared]:
         if section.keyword == "VAR_EXTERNAL":
             continue
         for variable in section.variables:
-            if variable.span is not pou.span:  # EN and ENO, which a body only names
+            # EN and ENO, which a body only names, and the memory of an edge
+            if variable.span is not pou.span and not variable.name.startswith("$"):
                 yield Declared(Symbol("variable", owner, variable.name.upper()), variable.name, variable.span, variable)
                 yield from _inside(variable)
 

@@ -14,6 +14,7 @@ from scanbench.problems import Severity
 from scanbench.program.types import ABBREVIATIONS, ELEMENTARY
 from scanbench.syntax import tree
 from scanbench.syntax.lexer import Lex, tokenize
+from scanbench.syntax.networks import NetworkBody
 from scanbench.syntax.source import Source
 from tests.amounts import some
 from tests.caseformat import MODELS, read_cases
@@ -60,6 +61,8 @@ def unresolved(reading: Reading) -> list[str]:
             continue
         formal = tokens.texts[number + 1] in (":=", "=>") and tokens.texts[number - 1] in ("(", ",", "NOT")
         around = reading.around(FILE, start)
+        if around and is_switched_off(around.inner.body, reading.place(FILE, start)[0]):
+            continue
         if "CONFIGURATION" in reading.holding(FILE, start) or (around and isinstance(around.inner.body, tree.IlBody)):
             continue
         line = reading.text(FILE).splitlines()[reading.place(FILE, start)[0] - 1].upper()
@@ -69,6 +72,12 @@ def unresolved(reading: Reading) -> list[str]:
         if not word and not formal and reading.place(FILE, start) not in known:
             found.append(f"{text} in line {reading.place(FILE, start)[0]}")
     return found
+
+
+def is_switched_off(body: object, line: int) -> bool:
+    """Whether the line is in a network that is not compiled."""
+    above = [each for each in body.networks if each.span.line <= line] if isinstance(body, NetworkBody) else []
+    return bool(above) and above[-1].off
 
 
 def declared(reading: Reading) -> list[Declared]:

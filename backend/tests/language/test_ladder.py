@@ -47,3 +47,14 @@ def test_the_memory_of_an_edge_is_no_variable_of_the_outline() -> None:
     assert [(each.name, [inner.name for inner in each.inner]) for each in main.inner] == [
         ("VAR", ["run", "stuck", "jam", "n"])
     ]
+
+
+def test_the_memory_of_an_edge_is_no_declaration() -> None:
+    reading = read(TEXT)
+    names = {
+        each.name
+        for chunk in reading.files[FILE].chunks
+        for found in reading.part(chunk).declared.values()
+        for each in found
+    }
+    assert names == {"Main", "run", "stuck", "jam", "n"}
