@@ -53,6 +53,7 @@ class BreakpointInfo(Wire):
     enabled: bool
     file: str
     line: int = Field(description="as asked for")
+    column: int = Field(description="as asked for; 0 is the first statement in the line")
     path: str
     access: Literal["read", "write", "change", "access"]
     error: str

@@ -23,7 +23,7 @@ def breakpoint(verdict: Verdict) -> wire.BreakpointInfo:
     one = verdict.breakpoint
     return wire.BreakpointInfo(
         id=one.id, kind=one.kind, author=one.author, group=one.group, enabled=one.enabled, file=one.file,
-        line=one.line, path=one.path, access=one.access, error=one.error, scan=one.scan, condition=one.condition,
+        line=one.line, column=one.column, path=one.path, access=one.access, error=one.error, scan=one.scan, condition=one.condition,
         hits=one.hits, log=one.log, assign=one.assign, instance=one.instance, task=one.task,
         verified=verdict.verified, message=verdict.message, at_line=verdict.line, at_column=verdict.column,
         reached=verdict.hits,

@@ -2923,6 +2923,11 @@ export interface components {
             at_line: number;
             /** Author */
             author: string;
+            /**
+             * Column
+             * @description as asked for; 0 is the first statement in the line
+             */
+            column: number;
             /** Condition */
             condition: string;
             /** Enabled */

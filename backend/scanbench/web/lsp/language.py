@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
+from scanbench.garbage import keep_what_is_there
 from scanbench.language.index import Occurrence
 from scanbench.language.navigate import named_at
 from scanbench.language.reading import Reading
@@ -55,6 +56,8 @@ class Language:
     lists: bool = False
     """Whether the client lists what is counted above a declaration, when somebody clicks the number."""
     _timer: asyncio.TimerHandle | None = None
+    _read: bool = False
+    """Whether the whole project was read once."""
     _told: set[str] = field(default_factory=set)
     """URIs of files with problems."""
 
@@ -127,6 +130,9 @@ class Language:
         assert self.project is not None
         reading = self.project.reading
         found = diagnostics(reading, self.positions(reading))
+        if not self._read:  # searching a large project for garbage takes longer than any answer
+            keep_what_is_there()
+            self._read = True
         told = {self.uri(file): problems for file, problems in found.items()}
         open_ = {uri for uri in self.server.workspace.text_documents if self.project.saved.file(uri) is not None}
         for uri in (self._told | open_) - told.keys():

@@ -12,6 +12,7 @@ const at = (change: Partial<BreakpointInfo>): BreakpointInfo => ({
   verified: true,
   message: "",
   at_line: 12,
+  column: 0,
   at_column: 3,
   reached: 0,
   ...change,

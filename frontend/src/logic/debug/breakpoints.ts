@@ -14,6 +14,7 @@ export type Wanted = Pick<
   | "enabled"
   | "file"
   | "line"
+  | "column"
   | "path"
   | "access"
   | "error"
@@ -31,6 +32,7 @@ export const PLAIN: Wanted = {
   enabled: true,
   file: "",
   line: 0,
+  column: 0,
   path: "",
   access: "change",
   error: "",

@@ -124,26 +124,30 @@ export function breakpointsAt(file: string, line: number): BreakpointInfo[] {
   );
 }
 
-/** A click on the gutter, F9: removes the breakpoints of the line, or sets a plain one. */
-export async function toggleBreakpoint(file: string, line: number): Promise<void> {
-  const here = breakpointsAt(file, line);
+/** A click on the gutter, F9: removes the breakpoints of the line, or sets a plain one; with a column those of one statement. */
+export async function toggleBreakpoint(file: string, line: number, column = 0): Promise<void> {
+  const here = breakpointsAt(file, line).filter(({ at_column }) => column === 0 || at_column === column);
   if (here.length > 0) await removeBreakpoints(here.map(({ id }) => id));
-  else await addBreakpoint({ file, line });
+  else await addBreakpoint({ file, line, column });
 }
 
-/** After a build by this browser: breakpoints move with the lines of the text. */
-export async function moveBreakpoints(file: string, lines: ReadonlyMap<number, number>): Promise<void> {
+/** After a build by this browser: breakpoints move with the text. Those without a column are at the first statement of their line. */
+export async function moveBreakpoints(
+  file: string,
+  places: ReadonlyMap<number, { line: number; column?: number }>,
+): Promise<void> {
   for (const known of get().breakpoints) {
-    const line = lines.get(known.id);
-    if (line === undefined || !isShared(known) || known.file !== file || known.line === line) continue;
-    await addBreakpoint({ ...wantedOf(known), line }, known.id);
+    const { line = known.line, column = known.column } = places.get(known.id) ?? {};
+    if (!isShared(known) || known.file !== file || (known.line === line && known.column === column)) continue;
+    await addBreakpoint({ ...wantedOf(known), line, column }, known.id);
   }
 }
 
 /** The properties of a breakpoint that a person chose, without the server's results. */
 export function wantedOf(known: BreakpointInfo): Wanted {
-  const { kind, enabled, file, line, path, access, error, scan, condition, hits, log, assign, instance, task } = known;
-  return { kind, enabled, file, line, path, access, error, scan, condition, hits, log, assign, instance, task };
+  const { kind, enabled, file, line, column, path, access, error, scan, condition, hits, log, assign, instance, task } =
+    known;
+  return { kind, enabled, file, line, column, path, access, error, scan, condition, hits, log, assign, instance, task };
 }
 
 export function editBreakpoint(editing: Editing | null): void {

@@ -160,8 +160,10 @@ export const project = {
   "graphic.jump": "Jump to {label}",
   "graphic.keys":
     "C contact, / closed, W below, O coil, S set, R reset, F box, Enter name, Ctrl+I rung, double-click: text",
+  "graphic.next": "next element",
   "graphic.of": "Ladder diagrams of {path}",
   "graphic.off": "switched off",
+  "graphic.point": "breakpoint",
   "graphic.readonly": "The text of the past cannot be changed.",
   "graphic.receive": "Link {name}",
   "graphic.return": "RETURN",

@@ -160,8 +160,10 @@ export const project: Record<keyof typeof english, string> = {
   "graphic.jump": "{label} へジャンプ",
   "graphic.keys":
     "C 接点、/ b接点、W 下に接点、O コイル、S セット、R リセット、F ボックス、Enter 名前、Ctrl+I ラング、ダブルクリック: テキスト",
+  "graphic.next": "次の要素",
   "graphic.of": "{path} のラダー図",
   "graphic.off": "無効",
+  "graphic.point": "ブレークポイント",
   "graphic.readonly": "過去のテキストは変更できません。",
   "graphic.receive": "リンク {name}",
   "graphic.return": "RETURN",

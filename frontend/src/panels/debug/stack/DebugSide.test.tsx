@@ -44,6 +44,7 @@ const BREAKPOINT: BreakpointInfo = {
   file: "Main.st",
   line: 7,
   at_line: 7,
+  column: 0,
   at_column: 1,
   condition: "",
   hits: "",

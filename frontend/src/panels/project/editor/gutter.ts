@@ -1,12 +1,13 @@
 /** Breakpoints in the gutter: shown, set and removed there. They move with the text while it is edited. */
 
 import { isShared, lineOf, sayBreakpoint, shapeOf } from "../../../logic/debug/breakpoints";
-import { lineIn } from "../../../logic/plc/sourceLines";
 import { moveBreakpoints, removeBreakpoints, toggleBreakpoint, useDebug } from "../../../store/debug/debug";
 import { isDirty, useDocuments } from "../../../store/project/documents";
 import { shownText } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import type { BreakpointInfo } from "../../../wire/types";
+import { columnMarks } from "./columnMarks";
+import { builtLine, shownLine } from "./halt";
 import { editor } from "./monaco";
 
 /** The breakpoints of one line of the built text. */
@@ -31,6 +32,7 @@ type Menu = (line: number, at: { x: number; y: number }) => void;
 export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string, openMenu: Menu): Gutter {
   const marks = code.createDecorationsCollection();
   const hint = code.createDecorationsCollection();
+  const columns = columnMarks(code, path);
   let groups: readonly Group[] = [];
 
   const lineNow = (group: Group): number => {
@@ -45,6 +47,7 @@ export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string
     const edited = text !== built;
     groups = next;
     marks.set(next.map((group, index) => decoration(group, lines[index] ?? group.line, edited)));
+    columns.show(next.flatMap(({ all }) => all));
   }
 
   const at = (line: number) => groups.filter((group) => lineNow(group) === line).flatMap(({ all }) => all);
@@ -63,10 +66,13 @@ export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string
     }),
     useDocuments.subscribe((now, before) => {
       if (now.build !== before.build && now.build.phase === "done" && now.build.ok) {
-        const lines = new Map(groups.flatMap((group) => group.all.map(({ id }) => [id, lineNow(group)])));
-        if (now.build.author === null) void moveBreakpoints(path, lines);
+        const places = groups.flatMap((group) =>
+          group.all.map(({ id }) => [id, columns.of(id) ?? { line: lineNow(group) }] as const),
+        );
+        if (now.build.author === null) void moveBreakpoints(path, new Map(places));
         // The lines of the server are those of this text from here on; it may have put a breakpoint elsewhere than its mark was.
         groups = [];
+        columns.forget();
         mark();
       }
       if (isDirty(now.open[path]) !== isDirty(before.open[path])) mark();
@@ -77,6 +83,7 @@ export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string
     code.onDidChangeModelContent(({ changes, isFlush }) => {
       if (!isFlush && !(changes.length === 1 && changes[0]?.text === code.getValue())) return;
       groups = [];
+      columns.forget();
       mark();
     }),
     code.onMouseDown(({ target, event }) => {
@@ -116,16 +123,6 @@ function groupsOf(path: string): Group[] {
     byLine.set(lineOf(known), [...(byLine.get(lineOf(known)) ?? []), known]);
   }
   return [...byLine].map(([line, all]) => ({ line, all }));
-}
-
-function shownLine(path: string, line: number): number {
-  const { built, text } = shownText(path);
-  return lineIn(built, text, line);
-}
-
-function builtLine(path: string, line: number): number {
-  const { built, text } = shownText(path);
-  return lineIn(text, built, line);
 }
 
 function decoration({ line, all }: Group, shown: number, edited: boolean): editor.IModelDeltaDecoration {

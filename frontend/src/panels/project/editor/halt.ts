@@ -7,8 +7,9 @@ import { shownText } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import type { editor } from "./monaco";
 
-interface HaltedLine {
+export interface HaltedPlace {
   line: number;
+  column: number;
   /** Identifies the halt and frame, so that the editor scrolls to each once. */
   key: string;
   look: "halt" | "past" | "frame";
@@ -39,28 +40,46 @@ export function shownLine(path: string, line: number): number {
   return lineIn(built, text, line);
 }
 
-/** The same as a hook. */
-export function useHaltedLine(path: string): HaltedLine | null {
+/** The line of the built text that a line of the shown text comes from. */
+export function builtLine(path: string, line: number): number {
+  const { built, text } = shownText(path);
+  return lineIn(text, built, line);
+}
+
+/** Where the program is halted, as a hook. */
+export function useHaltedLine(path: string): HaltedPlace | null {
   usePlc((plc) => plc.state?.halt);
   useStack((stack) => stack.frame);
   return haltedLineIn(path);
 }
 
 /** The place of the halt, or of a caller that was selected in the call stack. */
-export function haltedLineIn(path: string): HaltedLine | null {
+export function haltedLineIn(path: string): HaltedPlace | null {
   const halt = usePlc.getState().state?.halt;
   if (!halt) return null;
   const frame = frameNow();
   const { frames } = useStack.getState();
   if (frame && frame.id !== frames[0]?.id) {
     if (frame.source?.path !== path) return null;
-    return { line: frame.line, key: `${halt.number}:${frame.id}`, look: "frame", text: t("debug.callshere") };
+    return {
+      line: frame.line,
+      column: frame.column,
+      key: `${halt.number}:${frame.id}`,
+      look: "frame",
+      text: t("debug.callshere"),
+    };
   }
   if (halt.file !== path) return null;
-  return { line: halt.line, key: `${halt.number}`, look: halt.past ? "past" : "halt", text: halt.text };
+  return {
+    line: halt.line,
+    column: halt.column,
+    key: `${halt.number}`,
+    look: halt.past ? "past" : "halt",
+    text: halt.text,
+  };
 }
 
-function decoration({ look, text }: HaltedLine, breakpoint: boolean, line: number): editor.IModelDeltaDecoration {
+function decoration({ look, text }: HaltedPlace, breakpoint: boolean, line: number): editor.IModelDeltaDecoration {
   return {
     range: { startLineNumber: line, startColumn: 1, endLineNumber: line, endColumn: 1 },
     options: {

@@ -1,9 +1,10 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef, useState } from "react";
 import { type Drawn, layOut } from "../../../../logic/graphic/ladderLayout";
+import { holds, inText } from "../../../../logic/graphic/places";
 import { type DrawnRung, heightOf, Rungs } from "../../../../logic/graphic/rungs";
 import { pouAt } from "../../../../logic/plc/sourceLines";
-import { toggleBreakpoint, useDebug } from "../../../../store/debug/debug";
+import { useDebug } from "../../../../store/debug/debug";
 import { seenAsNow } from "../../../../store/debug/seenAs";
 import { showAs, useViewOf } from "../../../../store/graphic/views";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
@@ -13,7 +14,9 @@ import { shownText } from "../../../../store/project/shownProgram";
 import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
 import "./graphic.css";
+import { useHaltedLine } from "../halt";
 import { elementBeside, inOrder, moved, sameElement } from "./cursor";
+import { marksOf, toggleAt, toggleRung } from "./marks";
 import { NameField } from "./NameField";
 import { RungRow } from "./RungRow";
 import { type Cursor, useEditing } from "./useEditing";
@@ -38,6 +41,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const view = useViewOf(path, text);
   useDocuments(({ pous }) => pous);
   const breakpoints = useDebug((debug) => debug.breakpoints);
+  const halt = useHaltedLine(path);
   const room = Math.max(320, width - BESIDE);
   const drawn = useMemo(() => rungs.current.of(text, room), [text, room]);
   const pous = shownText(path).pous;
@@ -71,9 +75,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   useEffect(() => {
     if (!target || target.path !== path || target.turn === turn.current) return;
     turn.current = target.turn;
-    const at = drawn.findIndex(
-      ({ found }) => linesOf(found.text) + found.line > target.line && found.line <= target.line,
-    );
+    const at = drawn.findIndex((rung) => holds(rung, target.line));
     const opened = pous.some((pou) => pou.file === path && pou.line === target.line);
     if (at >= 0) go({ rung: at, place: [0] });
     // A variable's declaration is in the text only; who opens a POU looks at its rungs.
@@ -95,7 +97,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     if (event.altKey || event.metaKey) return;
     const to = moved(event, cursor, drawn);
     if (to) go(to);
-    else if (event.key === "F9") void toggleBreakpoint(path, placeInText(drawn[cursor.rung], cursor).line);
+    else if (event.key === "F9") toggleAt(path, placeInText(drawn[cursor.rung], cursor));
     else if (!editing.onKey(event, cursor)) return;
     event.preventDefault();
   }
@@ -105,7 +107,13 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     const rung = on.closest<HTMLElement>("[data-index]");
     if (!rung) return;
     const hit = on.closest<SVGElement>("[data-element]")?.dataset.element;
-    setCursor({ rung: Number(rung.dataset.index), place: hit === undefined ? [] : hit.split(".").map(Number) });
+    const index = Number(rung.dataset.index);
+    const clicked = drawn[index];
+    if (clicked && on.closest(".g")) {
+      toggleRung(path, clicked, placeInText(clicked, { rung: index, place: [0] }));
+      return;
+    }
+    setCursor({ rung: index, place: hit === undefined ? [] : hit.split(".").map(Number) });
   }
 
   function field(drawing: { elements: readonly Drawn[] }, pou: string | undefined) {
@@ -145,18 +153,14 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         aria-activedescendant={active ? `${id}${cursor.rung}-${active.place.join(".")}` : undefined}
         onKeyDown={onKeyDown}
         onClick={onClick}
-        onDoubleClick={toText}
+        onDoubleClick={({ target: on }) => on instanceof Element && on.closest(".netbody") && toText()}
         data-pane="ladder"
       >
         <div style={{ height: virtual.getTotalSize(), position: "relative" }}>
           {virtual.getVirtualItems().map((item) => {
             const rung = drawn[item.index];
             if (!rung) return null;
-            const { line, text: own } = rung.found;
-            const pou = pouAt(pous, path, line, text);
-            const here = breakpoints.some(
-              (each) => each.file === path && each.line >= line && each.line < line + linesOf(own),
-            );
+            const pou = pouAt(pous, path, rung.found.line, text);
             return (
               <div
                 key={item.key}
@@ -173,7 +177,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                   naming={
                     naming?.rung === item.index && named ? { drawing: named, field: field(named, pou?.name) } : null
                   }
-                  breakpoints={here}
+                  marks={marksOf(rung, path, breakpoints, halt)}
                 />
               </div>
             );
@@ -191,13 +195,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   );
 }
 
-const linesOf = (text: string) => text.split("\n").length;
-
 /** Where the element at the cursor begins in the file. */
 function placeInText(rung: DrawnRung | undefined, { place }: Cursor): { line: number; column: number } {
   if (!rung) return { line: 1, column: 1 };
-  const at = inOrder(rung).find((each) => sameElement(each.place, place))?.element.span.at ?? 0;
-  const before = rung.found.text.slice(0, at).split("\n");
-  const column = (before.at(-1)?.length ?? 0) + 1 + (before.length === 1 ? rung.found.indent.length : 0);
-  return { line: rung.found.line + before.length - 1, column };
+  return inText(rung, inOrder(rung).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
 }

@@ -5,8 +5,10 @@ import { loadNames, seenAs, useSeenAs } from "../../../../store/debug/seenAs";
 import { useMembers } from "../../../../store/plc/members";
 import { useForces } from "../../../../store/watch/forces";
 import { t } from "../../../../text";
+import { Icon } from "../../../../ui/Icon";
 import type { Pou } from "../../../../wire/types";
 import { showLive } from "./live";
+import type { RungMarks } from "./marks";
 import { RungDrawing } from "./RungDrawing";
 
 interface Props {
@@ -19,11 +21,11 @@ interface Props {
   cursor: Place | null;
   /** While an element is named: how the rung will be, and the field. */
   naming: { drawing: Drawing; field: ReactNode } | null;
-  breakpoints: boolean;
+  marks: RungMarks;
 }
 
 /** One rung: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function RungRow({ rung, number, pou, id, cursor, naming, breakpoints }: Props) {
+export function RungRow({ rung, number, pou, id, cursor, naming, marks }: Props) {
   const { found, path } = rung;
   const drawing = naming?.drawing ?? rung.drawing;
   const { label, title, comment, off } = found.head;
@@ -44,11 +46,13 @@ export function RungRow({ rung, number, pou, id, cursor, naming, breakpoints }: 
 
   return (
     <div
-      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}`}
+      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${marks.halt ? ` ${marks.halt.look}` : ""}`}
       role="group"
       aria-label={t("graphic.rung", { number, title: title || label })}
     >
-      <span className={`g${breakpoints ? " bp" : ""}`} title={breakpoints ? t("graphic.breakpoint") : undefined} />
+      <span className="g" title={t(marks.any ? "graphic.breakpoint" : "debug.bp.hint")}>
+        {marks.halt ? <Icon name={marks.any ? "here-bp" : "here"} small /> : marks.any && <Icon name="bp" small />}
+      </span>
       <span className="no">{number}</span>
       <div className="netbody">
         <div className="hd">
@@ -56,10 +60,19 @@ export function RungRow({ rung, number, pou, id, cursor, naming, breakpoints }: 
           <b className="cut">{title}</b>
           <span className="cm cut">{comment.join(" ")}</span>
           {off && <span className="st faint">{t("graphic.off")}</span>}
+          {marks.halt && <span className="st halted">{marks.next === "" ? marks.halt.text : t("graphic.next")}</span>}
           {path === null && <span className="st bad">{t("graphic.unread")}</span>}
         </div>
         <div ref={picture} className={`netdraw${path === null ? " netold" : ""}`}>
-          {drawing && <RungDrawing drawing={drawing} id={id} cursor={cursor?.join(".") ?? null} />}
+          {drawing && (
+            <RungDrawing
+              drawing={drawing}
+              id={id}
+              cursor={cursor?.join(".") ?? null}
+              next={marks.next}
+              points={marks.points}
+            />
+          )}
           {naming?.field}
         </div>
         {path === null && <pre className="nettext">{found.text}</pre>}

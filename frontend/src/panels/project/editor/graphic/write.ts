@@ -6,8 +6,13 @@ import type { Path } from "../../../../logic/graphic/tree";
 import { useDocuments } from "../../../../store/project/documents";
 import { modelOf } from "../models";
 
-function replaceText(path: string, from: number, to: number, text: string): void {
+/** What is the same at both ends stays, so that breakpoints and carets there keep their places. */
+function replaceText(path: string, first: number, last: number, wanted: string): void {
   const model = modelOf(path, useDocuments.getState().open[path]?.text ?? "");
+  const old = model.getValue().slice(first, last);
+  const head = same(old, wanted);
+  const tail = same([...old.slice(head)].reverse().join(""), [...wanted.slice(head)].reverse().join(""));
+  const [from, to, text] = [first + head, last - tail, wanted.slice(head, wanted.length - tail)];
   const [start, end] = [model.getPositionAt(from), model.getPositionAt(to)];
   const range = {
     startLineNumber: start.lineNumber,
@@ -18,6 +23,13 @@ function replaceText(path: string, from: number, to: number, text: string): void
   model.pushStackElement();
   model.pushEditOperations([], [{ range, text }], () => null);
   model.pushStackElement();
+}
+
+/** How many characters two texts begin with in common. */
+function same(a: string, b: string): number {
+  let count = 0;
+  while (count < a.length && a[count] === b[count]) count += 1;
+  return count;
 }
 
 export const writePath = (path: string, { head, from, to, indent }: Found, elements: Path): void =>
