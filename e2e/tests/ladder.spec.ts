@@ -64,6 +64,21 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(sheet.locator('.el.on')).toHaveCount(2);
   });
 
+  await test.step('a breakpoint halts before its contact, and a step goes on to the coil', async () => {
+    const contact = sheet.getByRole('option', { name: 'Contact go' });
+    await contact.click();
+    await keyboard.press('F9');
+    await expect(sheet.getByRole('option', { name: 'Contact go, next element, breakpoint' })).toBeVisible();
+    await expect(sheet.getByText('next element')).toBeVisible();
+    await contact.click();
+    await keyboard.press('F9');
+    await expect(sheet.getByRole('option', { name: 'Contact go, next element', exact: true })).toBeVisible();
+    await keyboard.press('F10');
+    await expect(sheet.getByRole('option', { name: 'Coil on, next element' })).toBeVisible();
+    await keyboard.press('F5');
+    await expect(sheet.getByText('next element')).toHaveCount(0);
+  });
+
   await test.step('it is the text of the file', async () => {
     await page.getByRole('radio', { name: 'Both' }).click();
     await expect(mika.editor('Latch.st').line('| [on]')).toBeVisible();

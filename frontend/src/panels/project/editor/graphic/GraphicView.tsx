@@ -16,7 +16,7 @@ import { Icon } from "../../../../ui/Icon";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
 import { elementBeside, inOrder, moved, sameElement } from "./cursor";
-import { marksOf, toggleAt, toggleRung } from "./marks";
+import { marksOf, toggleRung } from "./marks";
 import { NameField } from "./NameField";
 import { RungRow } from "./RungRow";
 import { type Cursor, useEditing } from "./useEditing";
@@ -87,6 +87,14 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     virtual.scrollToIndex(to.rung);
   }
 
+  // Keys of the whole page, like F9, mean the element at the cursor.
+  function look(): void {
+    if (!sheet.current?.contains(document.activeElement)) return;
+    useDocuments.setState({ cursor: { ...placeInText(drawn[cursor.rung], cursor), element: true }, active: path });
+  }
+  // biome-ignore lint/correctness/useExhaustiveDependencies: an edit moves the element in the text
+  useEffect(look, [cursor, drawn]);
+
   function toText(): void {
     showAs(path, "both");
     const { line, column } = placeInText(drawn[cursor.rung], cursor);
@@ -97,7 +105,6 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     if (event.altKey || event.metaKey) return;
     const to = moved(event, cursor, drawn);
     if (to) go(to);
-    else if (event.key === "F9") toggleAt(path, placeInText(drawn[cursor.rung], cursor));
     else if (!editing.onKey(event, cursor)) return;
     event.preventDefault();
   }
@@ -152,6 +159,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         aria-label={t("graphic.of", { path })}
         aria-activedescendant={active ? `${id}${cursor.rung}-${active.place.join(".")}` : undefined}
         onKeyDown={onKeyDown}
+        onFocus={look}
         onClick={onClick}
         onDoubleClick={({ target: on }) => on instanceof Element && on.closest(".netbody") && toText()}
         data-pane="ladder"

@@ -3,7 +3,7 @@
 import { isShared, lineOf, shapeOf } from "../../../../logic/debug/breakpoints";
 import { elementIn, holds } from "../../../../logic/graphic/places";
 import type { DrawnRung } from "../../../../logic/graphic/rungs";
-import { addBreakpoint, breakpointsAt, removeBreakpoints, toggleBreakpoint } from "../../../../store/debug/debug";
+import { addBreakpoint, breakpointsAt, removeBreakpoints } from "../../../../store/debug/debug";
 import { shownText } from "../../../../store/project/shownProgram";
 import type { BreakpointInfo } from "../../../../wire/types";
 import { builtLine, type HaltedPlace, shownLine } from "../halt";
@@ -48,11 +48,6 @@ function placeIn(rung: DrawnRung, path: string, line: number, column: number): s
   const shown = shownLine(path, line);
   if (built.split("\n")[line - 1] !== text.split("\n")[shown - 1]) return "";
   return elementIn(rung, { line: shown, column })?.join(".") ?? "";
-}
-
-/** F9: the breakpoints of one element. */
-export function toggleAt(path: string, { line, column }: { line: number; column: number }): void {
-  void toggleBreakpoint(path, builtLine(path, line), column);
 }
 
 /** A click beside a rung: removes all of its breakpoints, or sets one at its first element. */
