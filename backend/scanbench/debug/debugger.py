@@ -377,4 +377,4 @@ def _goal_of(
         if placed.flaw:
             return Refusal(placed.flaw)
         sites = placed.sites
-    return Goal(action, author, resource.header.scan, frames, sites)
+    return Goal(action, author, resource.header.scan, frames, sites, placing.minor)

@@ -18,6 +18,8 @@ class Goal:
     frames: tuple[Frame, ...] = ()
     sites: frozenset[int] = field(default_factory=frozenset)
     """`to`: the statements of the line."""
+    minor: frozenset[int] = field(default_factory=frozenset)
+    """`over`: the contacts, which it does not end at."""
 
     @property
     def listens(self) -> frozenset[int] | None:
@@ -36,7 +38,7 @@ class Goal:
             case "entry":
                 return count == 1
             case "over":
-                return self._back_in(depth, frames, scan)
+                return site not in self.minor and self._back_in(depth, frames, scan)
             case "out":
                 return self._out_of(depth, frames, scan)
             case _:

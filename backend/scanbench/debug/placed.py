@@ -73,6 +73,7 @@ class Placing:
             each.offset: task.name for task in program.tasks for each in task.programs
         }  # fmt: skip
         """The task of each program instance."""
+        self.minor = frozenset(number for number, site in enumerate(sites.statements) if site.minor)
         self.returns = frozenset(self._returns())
         """The RETURNs: what a block with in-outs by value copies back before one is told as its access."""
 

@@ -11,8 +11,11 @@ from scanbench.garbage import without_collection
 from scanbench.problems import Span
 from scanbench.program.bodies import bodies
 from scanbench.program.origin import in_library, is_system
-from scanbench.program.program import Blocks, Case, For, If, Pou, Program, Stmt, While
+from scanbench.program.program import Assign, Blocks, Case, For, If, Pou, Program, Stmt, While
 from scanbench.program.types import Record
+
+POWER = "$POWER"
+"""How the names of temporaries begin that keep the power after a contact."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +25,8 @@ class StatementSite:
     span: Span
     pou: str
     """The POU that has the statement. One statement of the text has several sites if several POUs are made from that text."""
+    minor: bool = False
+    """A contact of a rung, or a link that is read: a step over goes on to the next coil, box or jump."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +50,7 @@ class Sites:
         named = [(pou.name, stmt, span) for pou, stmt, span in found]
         named += [(name, stmt, stmt.span.plain()) for name, stmt in joined]
         named.sort(key=lambda each: (each[2].file, each[2].line, each[2].column))
-        self.statements = tuple(StatementSite(span, name) for name, _, span in named)
+        self.statements = tuple(StatementSite(span, name, _is_minor(stmt)) for name, stmt, span in named)
         """Ordered by file, line and column; those at the same place in the order of the program."""
         self._numbers = {id(stmt): number for number, (_, stmt, _) in enumerate(named)}
         self._first: dict[int, int] = {}
@@ -133,6 +138,10 @@ def _of_statement(stmt: Stmt, span: Span) -> Iterator[tuple[Stmt, Span]]:
 def _goes_around_itself(stmt: Stmt, span: Span) -> bool:
     """Whether it was made around what the text says: EN, S=, JMPC, what an argument needs before a call."""
     return any(each.span.plain() == span for body in bodies(stmt) for each in body)
+
+
+def _is_minor(stmt: Stmt) -> bool:
+    return isinstance(stmt, Assign) and stmt.target.variable.rpartition(".")[2].startswith(POWER)
 
 
 def _ways(stmt: Stmt) -> tuple[str, ...]:

@@ -64,7 +64,7 @@ class Ladder:
             case networks.Link():
                 return self._link(each, power)
             case networks.Leave():
-                self._code.leave_later(each, power and self._code.note(self._code.load(power), each.span))
+                self._code.leave_later(each, power and self._code.note(self._code.load(power), each.span, "leave"))
                 raise Ended
 
     def _with(self, power: Power, value: Expr) -> Expr:

@@ -65,9 +65,9 @@ class NetworkCode:
         self._count += 1
         return tree.Name(hidden(self.body, f"${kind}{self._count}", type, span).name, span)
 
-    def note(self, value: Expr, span: Span) -> tree.Name:
+    def note(self, value: Expr, span: Span, kind: str = "power") -> tree.Name:
         """Keeps a BOOL for what comes after it."""
-        name = self.temporary("power", BOOL, span)
+        name = self.temporary(kind, BOOL, span)
         self.store(name, value, span)
         return name
 
