@@ -4,7 +4,7 @@ import type { BreakpointInfo } from "../../../wire/types";
 import { shownLine } from "./halt";
 import type { editor } from "./monaco";
 
-export interface ColumnMarks {
+interface ColumnMarks {
   show: (all: readonly BreakpointInfo[]) => void;
   /** Where the statement is in the shown text; undefined for a breakpoint of a whole line. */
   of: (id: number) => { line: number; column: number } | undefined;
