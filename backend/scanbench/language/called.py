@@ -11,6 +11,7 @@ from scanbench.language.reading import Reading
 from scanbench.language.standard import row_of
 from scanbench.program.types import ArrayType, OpenArray, Record, Reference, Section
 from scanbench.syntax import tree
+from scanbench.syntax.chart import Chart
 from scanbench.syntax.chunks import Chunk
 from scanbench.syntax.networks import Box, Contact, Diagram, Function, NetworkBody, Pin, Rung, elements
 from scanbench.syntax.source import Stretch
@@ -37,12 +38,26 @@ def calls_of(pou: tree.PouDeclaration, start: int, end: int) -> Iterator[tree.Ca
         for network in pou.body.networks:
             yield from _in_rung(network, start, end) if isinstance(network, Rung) else _in_diagram(network, start, end)
         return
+    if isinstance(pou.body, Chart):
+        yield from _in_chart(pou.body, start, end)
+        return
     lists: list[Sequence[tree.Statement]] = [pou.body]
     while lists:
         for statement in _reaching(lists.pop(), start, end):
             expressions, inner = _parts(statement)
             lists += inner
             yield from _in_expressions(expressions)
+
+
+def _in_chart(chart: Chart, start: int, end: int) -> Iterator[tree.Call]:
+    yield from _in_expressions(
+        [each.duration for step in chart.steps for each in step.actions if each.duration is not None]
+    )
+    for transition in chart.transitions:
+        if isinstance(transition.condition, Rung):
+            yield from _in_rung(transition.condition, start, end)
+        elif transition.condition is not None:
+            yield from _in_expressions([transition.condition])
 
 
 def _in_rung(rung: Rung, start: int, end: int) -> Iterator[tree.Call]:

@@ -13,6 +13,7 @@ from scanbench.language.comments import between
 from scanbench.language.outline import POUS, Block, blocks
 from scanbench.program.types import ELEMENTARY
 from scanbench.syntax import tree
+from scanbench.syntax.chart import Chart
 from scanbench.syntax.chunks import read
 from scanbench.syntax.lexer import Lex, Tokens, tokenize
 from scanbench.syntax.networks import NetworkBody
@@ -174,11 +175,11 @@ def _line(text: str, items: list[Item], number: int) -> Line:
 
 
 def _as_written(pous: Sequence[tree.PouDeclaration]) -> list[tuple[int, int]]:
-    """Lines that are bodies in IL or LD, from one to another."""
+    """Lines that are bodies in IL, LD, FBD or SFC, from one to another."""
     found = []
     for pou in (each for outer in pous for each in (outer, *outer.methods)):
         body = pou.body
-        if isinstance(body, tree.IlBody | NetworkBody) and isinstance(body.span, Stretch):
+        if isinstance(body, tree.IlBody | NetworkBody | Chart) and isinstance(body.span, Stretch):
             found.append((body.span.line - 1, body.span.end_line - 1))
     return found
 

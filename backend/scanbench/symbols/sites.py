@@ -104,35 +104,39 @@ def _of_pou(pou: Pou) -> Iterator[tuple[Stmt, Span]]:
     if in_library(pou.span) or is_system(pou.span):
         return
     # the span of a start value is that of the variable's declaration; of what was made for the whole POU, that of the POU
-    made = {pou.span.plain(), *_declared(pou.frame), *_declared(pou.instance)}
-    body = [(stmt, stmt.span.plain()) for stmt in pou.body]
-    yield from _in_order([each for each in body if each[1] not in made])
+    made = frozenset((pou.span.plain(), *_declared(pou.frame), *_declared(pou.instance)))
+    yield from _in_order(pou.body, made)
 
 
 def _declared(record: Record) -> Iterator[Span]:
     return (member.span.plain() for member in record.members.values() if not member.hidden)
 
 
-def _in_order(body: Iterable[tuple[Stmt, Span]]) -> Iterator[tuple[Stmt, Span]]:
-    """Statements in the order of the text. An IL instruction may make several; only the first has a span after the one before."""
+def _in_order(body: Iterable[Stmt], made: frozenset[Span]) -> Iterator[tuple[Stmt, Span]]:
+    """Statements in the order of the text. An IL instruction may make several; only the first has a span after the one before.
+    Around what a chart says, its control is made."""
     end = (0, 0)
-    for stmt, span in body:
-        if (span.line, span.column) >= end:
-            yield from _of_statement(stmt, span)
+    for stmt in body:
+        span = stmt.span.plain()
+        if span in made:
+            yield from _inside(stmt, made)
+        elif (span.line, span.column) >= end:
+            yield from _of_statement(stmt, span, made)
             end = span.end_line, span.end_column
 
 
-def _of_statement(stmt: Stmt, span: Span) -> Iterator[tuple[Stmt, Span]]:
-    inner = [[(each, each.span.plain()) for each in body] for body in bodies(stmt)]
+def _of_statement(stmt: Stmt, span: Span, made: frozenset[Span]) -> Iterator[tuple[Stmt, Span]]:
     if isinstance(stmt, Blocks):  # the whole of an instruction list that has labels
-        for body in inner:
-            yield from _in_order(body)
+        yield from _inside(stmt, made)
         return
     yield stmt, span
-    if _goes_around_itself(stmt, span):
-        return
-    for body in inner:
-        yield from _in_order(body)
+    if not _goes_around_itself(stmt, span):
+        yield from _inside(stmt, made)
+
+
+def _inside(stmt: Stmt, made: frozenset[Span]) -> Iterator[tuple[Stmt, Span]]:
+    for body in bodies(stmt):
+        yield from _in_order(body, made)
 
 
 def _goes_around_itself(stmt: Stmt, span: Span) -> bool:

@@ -1,6 +1,7 @@
 """Instruction List (edition 3, tables 67 to 70): one instruction a line, to the same tree."""
 
-from scanbench.syntax import parse_expression, parse_networks, parse_statement, tree
+from scanbench.syntax import parse_chart, parse_expression, parse_networks, parse_statement, tree
+from scanbench.syntax.chart import Chart
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
 from scanbench.syntax.networks import NetworkBody
@@ -32,10 +33,12 @@ OPERANDS = LITERALS | {NAME, Lex.ADDRESS}
 ENDINGS = STOPS - {""}
 
 
-def body(c: Cursor) -> "tuple[tree.Statement, ...] | tree.IlBody | NetworkBody":
+def body(c: Cursor) -> "tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart":
     """The statements of a POU, in whichever language its first line is written."""
     if parse_networks.follows(c):
         return parse_networks.body(c)
+    if parse_chart.follows(c):
+        return parse_chart.body(c)
     return _il_body(c) if _il_follows(c, c.at) else parse_statement.statements(c)
 
 

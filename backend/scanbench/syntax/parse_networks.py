@@ -35,7 +35,7 @@ def body(c: Cursor) -> networks.NetworkBody:
     found: list[networks.Rung | networks.Diagram] = []
     while not _ended(c):
         if _at_network(c, c.at):
-            found.append(_network(c))
+            found.append(network(c))
             continue
         c.report("S003", f"RUNG or NETWORK expected: this body is a diagram{c.found()}.", c.here())
         _skip(c)
@@ -57,7 +57,7 @@ def _skip(c: Cursor) -> None:
         c.take()
 
 
-def _network(c: Cursor) -> networks.Rung | networks.Diagram:
+def network(c: Cursor) -> networks.Rung | networks.Diagram:
     off = _is_off(c)
     start = c.take()
     kind = c.texts[start].upper()

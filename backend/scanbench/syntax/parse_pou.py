@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from scanbench.problems import Span
 from scanbench.syntax import parse_declaration, parse_il, parse_type, tree
+from scanbench.syntax.chart import Chart, variables
 from scanbench.syntax.cursor import NAME, Cursor
 from scanbench.syntax.networks import NetworkBody, memories
 from scanbench.syntax.parse_declaration import ACCESS
@@ -20,7 +21,7 @@ ENDS = {
 MEMBERS = frozenset(("METHOD", "PROPERTY", "PROPERTY_GET", "PROPERTY_SET", "ACTION"))
 SETTINGS_OF_VENDORS = frozenset(("VERSION", "TITLE", "AUTHOR", "FAMILY"))
 
-Body = tuple[tree.Statement, ...] | tree.IlBody | NetworkBody
+Body = tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart
 
 
 def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.PouDeclaration:
@@ -55,6 +56,9 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     if isinstance(body, NetworkBody):
         body = replace(body, owner=c.texts[name])
         sections += memories(body) if kind in ("PROGRAM", "FUNCTION_BLOCK") else ()
+    if isinstance(body, Chart):
+        body = replace(body, owner=c.texts[name])
+        sections += (*variables(body), *memories(body.conditions)) if kind in ("PROGRAM", "FUNCTION_BLOCK") else ()
     _pou_end(c, kind, name)
     stub = bool(c.pragmas) and has_stub_pragma(c.pragmas, c.starts[first], c.starts[c.at])
     result, extends, implements, more = header
@@ -327,6 +331,12 @@ def _joined(first: Body, second: Body) -> Body:
         return replace(first, instructions=first.instructions + second.instructions)
     if isinstance(first, NetworkBody) and isinstance(second, NetworkBody):
         return replace(first, networks=first.networks + second.networks)
+    if isinstance(first, Chart) and isinstance(second, Chart):
+        span = first.span
+        if isinstance(span, Stretch) and isinstance(second.span, Stretch):
+            span = Stretch(span.source, span.start, second.span.end)  # actions between them are part of the chart
+        steps, transitions = first.steps + second.steps, first.transitions + second.transitions
+        return replace(first, steps=steps, transitions=transitions, span=span)
     if isinstance(first, tuple) and isinstance(second, tuple):
         return first + second
     return first

@@ -17,7 +17,7 @@ DECLARATIONS = frozenset(
 )
 """Words that begin a declaration when a name follows; no statement begins with two names."""
 OPERATORS_WITH_NAME = ("S", "R", "REF")
-CHART = "write the steps of the chart (SFC) as a CASE"
+CHART = "a chart (SFC) is a body of its own, without statements beside it"
 REFUSED = {
     "GOTO": "use IF and loops",
     "__TRY": "check before you compute; a trap stops the PLC",

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, TypeVar, dataclass_transform
 from scanbench.problems import Span
 
 if TYPE_CHECKING:
+    from scanbench.syntax.chart import Chart
     from scanbench.syntax.networks import NetworkBody
 
 T = TypeVar("T")
@@ -325,7 +326,7 @@ class PouDeclaration:
     name: str
     result: TypeSpec | None
     sections: tuple[VariableSection, ...]
-    body: "tuple[Statement, ...] | IlBody | NetworkBody"
+    body: "tuple[Statement, ...] | IlBody | NetworkBody | Chart"
     span: Span
     """Of the name."""
     methods: tuple["PouDeclaration", ...] = ()

@@ -13,6 +13,7 @@ from scanbench.language.reading import Reading, Readings
 from scanbench.problems import Severity
 from scanbench.program.types import ABBREVIATIONS, ELEMENTARY
 from scanbench.syntax import tree
+from scanbench.syntax.chart import QUALIFIERS, Chart
 from scanbench.syntax.lexer import Lex, tokenize
 from scanbench.syntax.networks import NetworkBody
 from scanbench.syntax.source import Source
@@ -26,7 +27,7 @@ WORDS = frozenset(
     ABSTRACT ACTION ARRAY BY CLASS CONSTANT EXTENDS FINAL F_EDGE GET IMPLEMENTS INTERFACE INTERNAL INTERVAL METHOD NAMESPACE
     NON_RETAIN NULL ON OVERLAP OVERRIDE PERSISTENT POINTER PRIORITY PRIVATE PROPERTY PROPERTY_GET PROPERTY_SET PROTECTED PUBLIC
     READ_ONLY READ_WRITE REFERENCE REF REF_TO RESOURCE RETAIN R_EDGE SET SINGLE STRING SUPER TASK THIS UNION USING WITH WSTRING
-    RUNG END_RUNG NETWORK END_NETWORK JMP PLC CPU CONTINUE R S ANY ANY_NUM ANY_INT ANY_REAL ANY_BIT ANY_STRING ANY_DATE ANY_ELEMENTARY ANY_MAGNITUDE CIO
+    INITIAL_STEP STEP END_STEP TRANSITION END_TRANSITION FROM RUNG END_RUNG NETWORK END_NETWORK JMP PLC CPU CONTINUE R S ANY ANY_NUM ANY_INT ANY_REAL ANY_BIT ANY_STRING ANY_DATE ANY_ELEMENTARY ANY_MAGNITUDE CIO
     """.split()
 )
 """Words of the language that the lexer takes as names, as programs may use them as names."""
@@ -56,11 +57,14 @@ def unresolved(reading: Reading) -> list[str]:
         if kind is not Lex.NAME:
             continue
         upper, before = text.upper(), tokens.texts[number - 1].upper()
-        # wires, links and labels of networks, and the modes of contacts and coils
-        if before in ("#", "RUNG", "NETWORK", "JMP") or (upper in ("P", "N") and before in ("[", "(")):
+        # wires, links and labels of networks, names of transitions, modes of contacts and coils, qualifiers of actions
+        mode = (upper in ("P", "N") and before == "[") or (upper in QUALIFIERS and before == "(")
+        if before in ("#", "RUNG", "NETWORK", "JMP", "TRANSITION") or mode:
             continue
         formal = tokens.texts[number + 1] in (":=", "=>") and tokens.texts[number - 1] in ("(", ",", "NOT")
         around = reading.around(FILE, start)
+        if around and isinstance(around.pou.body, Chart) and (before, upper) == (".", "Q"):
+            continue  # of an action: hidden
         if around and is_switched_off(around.inner.body, reading.place(FILE, start)[0]):
             continue
         if "CONFIGURATION" in reading.holding(FILE, start) or (around and isinstance(around.inner.body, tree.IlBody)):

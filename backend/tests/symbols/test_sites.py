@@ -14,7 +14,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
 from scanbench.program.program import Program
 from scanbench.symbols.sites import sites_of
-from scanbench.syntax import networks, tree
+from scanbench.syntax import chart, networks, tree
 from scanbench.syntax.chunks import read
 from tests.caseformat import MODELS, Case, project_of, read_cases
 
@@ -46,6 +46,13 @@ def of_rungs(body: networks.NetworkBody) -> Iterator[Span]:
                 yield each.after if isinstance(each, networks.Box) and branched else each.span
 
 
+def of_chart(written: chart.Chart) -> Iterator[Span]:
+    """Its steps, the first use of each action, its transitions, and the elements of their rungs."""
+    yield from (each.span for each in (*written.steps, *written.transitions))
+    yield from (use.first.span for use in chart.uses(written))
+    yield from of_rungs(written.conditions)
+
+
 def written(node: object, used: set[str]) -> Iterator[Span]:
     """Where the statements, instructions and elements of rungs are, of the POUs that are used."""
     if isinstance(node, tuple | list):
@@ -57,6 +64,9 @@ def written(node: object, used: set[str]) -> Iterator[Span]:
                 return
         if isinstance(node, networks.NetworkBody):
             yield from of_rungs(node)
+            return
+        if isinstance(node, chart.Chart):
+            yield from of_chart(node)
             return
         if isinstance(node, STATEMENTS):
             yield node.span

@@ -37,8 +37,8 @@ REFUSED = [
     ("GOTO there;", "X001 2:1 GOTO is not supported; use IF and loops."),
     ("REGION Some name\n", "X001 2:1 REGION is not supported; remove it, and its END_REGION."),
     (
-        "INITIAL_STEP start:\nEND_STEP",
-        "X001 2:1 INITIAL_STEP is not supported; write the steps of the chart (SFC) as a CASE.",
+        "x := 1;\nSTEP start:\nEND_STEP",
+        "X001 3:1 STEP is not supported; a chart (SFC) is a body of its own, without statements beside it.",
     ),
     ("_LD_BODY\n_NETWORKS : 1\n", "X001 2:1 _LD_BODY is not supported; convert the drawing to Structured Text."),
     ("__DELETE(p);", "X001 2:1 `__DELETE` is not supported: memory that is allocated while the program runs."),

@@ -13,7 +13,7 @@ from scanbench.check.body.il_operands import hidden
 from scanbench.check.body.network_code import NetworkCode
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
-from scanbench.program.program import Expr
+from scanbench.program.program import Const, Expr
 from scanbench.program.types import BOOL
 from scanbench.syntax import networks, tree
 
@@ -40,6 +40,16 @@ class Ladder:
         self._sent.clear()
         with suppress(Ended):
             self._path(rung.path, RAIL, used=False)
+
+    def condition(self, rung: networks.Rung) -> Expr:
+        """The power at the end of a rung: the condition of a transition."""
+        self._sent.clear()
+        with suppress(Ended):
+            power = self._path(rung.path, RAIL, used=True)
+            return Const(BOOL, 1) if power is RAIL else self._code.load(power)
+        raise self._report.reject(
+            "T010", "A condition is the power at the end of its rung; this one ends elsewhere.", rung.span
+        )
 
     def _path(self, path: networks.Path, power: Power, used: bool) -> Power:
         """The power at the end of a path; `used` says whether anything takes it."""

@@ -1,6 +1,8 @@
 """What the networks of a body share: where their statements go, temporaries, memories of edges, labels and jumps."""
 
-from scanbench.check.body import fold, statements
+from collections.abc import Callable
+
+from scanbench.check.body import assignments, fold, statements
 from scanbench.check.body.context import Body
 from scanbench.check.body.enabling import Enabling, enabled
 from scanbench.check.body.il_operands import hidden
@@ -39,6 +41,11 @@ class NetworkCode:
         if network.label:
             self._blocks.append([])
 
+    @property
+    def leaves(self) -> bool:
+        """Whether something in the network jumps or returns."""
+        return bool(self._leaving)
+
     def end(self) -> None:
         """A network is complete only when all its elements are (8.1.5): now its jumps are taken, the first that is TRUE."""
         for leave, condition in self._leaving:
@@ -56,6 +63,19 @@ class NetworkCode:
     def emit(self, statement: Stmt | None) -> None:
         if statement is not None:
             self._blocks[-1].append(statement)
+
+    def apart(self, make: Callable[[], None]) -> tuple[Stmt, ...]:
+        """What is emitted meanwhile, for the inside of a statement."""
+        self._blocks.append([])
+        try:
+            make()
+        finally:
+            made = self._blocks.pop()
+        return tuple(made)
+
+    def truth(self, node: tree.Expression) -> Expr:
+        """A BOOL, as IF wants it."""
+        return assignments.condition(self.body, node)
 
     def run(self, node: tree.Statement) -> None:
         self.emit(statements.statement(self.body, node))

@@ -30,6 +30,7 @@ from scanbench.program.types import (
 )
 from scanbench.program.untyped import settle
 from scanbench.syntax import tree
+from scanbench.syntax.chart import kept
 
 VARIABLES = tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree.Dereference | tree.PartialAccess
 """What names a place."""
@@ -84,7 +85,7 @@ def _width(body: Body, text: str) -> Elementary:
 
 
 def _member(body: Body, node: tree.MemberOf) -> Found:
-    found = qualified_place(body, node)
+    found = qualified_place(body, node) or _of_action(body, node)
     if found is not None:
         return found
     place, outer = body.place(node.owner)
@@ -106,6 +107,18 @@ def _member(body: Body, node: tree.MemberOf) -> Found:
         )
     keep = outer is not None and (outer.constant or record.kind is not Kind.BLOCK)
     return inner, outer if keep else member
+
+
+def _of_action(body: Body, node: tree.MemberOf) -> Found | None:
+    """`Name.Q` of an ACTION that a chart controls."""
+    if (
+        node.name.upper() != "Q"
+        or not isinstance(node.owner, tree.Name)
+        or body.scope.find(node.owner.name) is not None
+    ):
+        return None
+    hidden = kept(node.owner.name, "Q")
+    return None if body.scope.find(hidden) is None else body.lookup.variable(body, hidden, node.span)
 
 
 def _may_use(body: Body, record: Record, member: Member, span: Span) -> None:

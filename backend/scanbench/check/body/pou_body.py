@@ -1,9 +1,10 @@
-"""The body of a POU, in ST, IL, LD or FBD -> checked statements."""
+"""The body of a POU, in ST, IL, LD, FBD or SFC -> checked statements."""
 
 from dataclasses import replace
 from functools import partial
 
 from scanbench.check.body.by_value import around
+from scanbench.check.body.chart import chart_statements
 from scanbench.check.body.context import Body
 from scanbench.check.body.edges import edges
 from scanbench.check.body.il import InstructionList
@@ -18,10 +19,11 @@ from scanbench.program.program import Assign, Base, Blocks, SetBytes, Stmt
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Section, StringType, has_instance
 from scanbench.syntax import tree
+from scanbench.syntax.chart import Chart
 from scanbench.syntax.networks import NetworkBody
 
 
-def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | NetworkBody) -> tuple[Stmt, ...]:
+def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart) -> tuple[Stmt, ...]:
     """The body of a POU, in the language in which it is written."""
     body.counters, body.loops = [], 0
     prologue, checks = _prologue(body), len(body.report.checks)
@@ -32,6 +34,8 @@ def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | Net
             made = InstructionList(body, written).statements()
         case NetworkBody():
             made = network_statements(body, written)
+        case Chart():
+            made = chart_statements(body, written)
         case _:
             made = _text(body, written)
     if len(body.report.checks) > checks:

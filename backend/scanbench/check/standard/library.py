@@ -10,7 +10,7 @@ from scanbench.syntax import tree
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source
 
-FILES = ("timers", "counters", "bistable", "strings", "bits", "dates", "text_of_times", "clock")
+FILES = ("timers", "counters", "bistable", "strings", "bits", "dates", "text_of_times", "clock", "charts")
 COUNTED = {
     "INT": (-(1 << 15), (1 << 15) - 1),
     "DINT": (-(1 << 31), (1 << 31) - 1),

@@ -1,0 +1,88 @@
+"""What a sequential function chart has to keep to: initial step, steps that are there and can be reached, durations."""
+
+from collections import deque
+from itertools import combinations
+
+from scanbench.check.body.context import Body
+from scanbench.syntax import chart
+
+MOST_MARKINGS = 5_000
+"""Sets of active steps that are looked at; nothing is said of what a larger chart can reach."""
+Marking = frozenset[str]
+
+
+def check_chart(body: Body, written: chart.Chart) -> None:
+    """Reports what is wrong. A POU that keeps nothing between two calls cannot have a chart at all."""
+    if body.pou is None or body.pou.kind not in ("program", "function_block"):
+        raise body.report.reject(
+            "T010",
+            "A chart remembers its steps, and this keeps nothing; write it in a PROGRAM or FUNCTION_BLOCK.",
+            written.span,
+        )
+    known = {each.name.name.upper() for each in written.steps}
+    _check_initial(body, written)
+    for transition in written.transitions:
+        for name in (*transition.sources, *transition.targets):
+            if name.name.upper() not in known:
+                hint = body.report.near(name.name, lambda: [each.name.name for each in written.steps], "step")
+                body.report.error("T001", f"There is no step `{name.name}`.{hint}", name.span)
+    markings = reachable(written)
+    if markings is not None:
+        _check_reached(body, written, markings)
+    _check_actions(body, written, markings)
+
+
+def _check_initial(body: Body, written: chart.Chart) -> None:
+    initial = [each for each in written.steps if each.initial]
+    if not initial:
+        where = written.steps[0].span if written.steps else written.span
+        body.report.error("T010", "A chart begins with an INITIAL_STEP; there is none.", where)
+    for each in initial[1:]:
+        body.report.error("D001", f"`{initial[0].name.name}` is the initial step already; there can be one.", each.span)
+
+
+def reachable(written: chart.Chart) -> set[Marking] | None:
+    """All sets of steps that can be active together, whatever the conditions are; None where these are too many."""
+    transitions = [
+        (frozenset(each.name.upper() for each in one.sources), frozenset(each.name.upper() for each in one.targets))
+        for one in written.transitions
+    ]
+    first = frozenset(each.name.name.upper() for each in written.steps if each.initial)
+    found, waiting = {first}, deque([first])
+    while waiting:
+        marking = waiting.popleft()
+        for sources, targets in transitions:
+            if sources <= marking:
+                following = (marking - sources) | targets
+                if following not in found:
+                    found.add(following)
+                    waiting.append(following)
+        if len(found) > MOST_MARKINGS:
+            return None
+    return found
+
+
+def _check_reached(body: Body, written: chart.Chart, markings: set[Marking]) -> None:
+    reached = frozenset[str]().union(*markings)
+    if not any(each.initial for each in written.steps):
+        return
+    for step in written.steps:
+        if step.name.name.upper() not in reached:
+            body.report.warn("W001", f"Nothing leads to the step `{step.name.name}`; it is never active.", step.span)
+
+
+def _check_actions(body: Body, written: chart.Chart, markings: set[Marking] | None) -> None:
+    for use in chart.uses(written):
+        if {"SD", "SL"} <= use.by_qualifier.keys():
+            message = f"`{use.name}` has SD and SL, which share a memory in the standard; use one of them."
+            body.report.error("T010", message, use.by_qualifier["SL"][0][1].span)
+        timed = [pair for qualifier in chart.TIMED & use.by_qualifier.keys() for pair in use.by_qualifier[qualifier]]
+        for (one, _), (other, second) in combinations(sorted(timed, key=lambda each: each[1].span.line), 2):
+            names = {one.name.name.upper(), other.name.name.upper()}
+            together = len(names) == 1 or (markings is not None and any(names <= marking for marking in markings))
+            if together:
+                message = f"`{use.name}` has two durations at once: here, and in step `{one.name.name}`; remove one."
+                body.report.error("T010", message, second.span)
+        for _, each in (pair for pairs in use.by_qualifier.values() for pair in pairs):
+            if each.indicator is not None:
+                body.place(each.indicator)
