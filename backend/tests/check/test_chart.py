@@ -38,7 +38,12 @@ WRONG = [
     (AB.replace("END_TRANSITION", ""), "S003", 9, "END_TRANSITION expected"),
     (AB + "b := c;", "S003", 8, "STEP, INITIAL_STEP, TRANSITION or ACTION expected"),
     (with_action("Act(N);") + "ACTION Act: One.X := TRUE; END_ACTION", "T003", 9, "`X` is an output"),
-    (AB + "TRANSITION FROM Two TO One : RUNG\n[b] JMP a\nEND_RUNG END_TRANSITION", "T010", 8, "A condition is the power"),
+    (
+        AB + "TRANSITION FROM Two TO One : RUNG\n[b] JMP a\nEND_RUNG END_TRANSITION",
+        "T010",
+        8,
+        "A condition is the power",
+    ),
 ]
 
 

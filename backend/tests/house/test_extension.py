@@ -60,6 +60,9 @@ def test_the_language_is_described() -> None:
         ("end_if;", True),
         ('  RUNG hold: "Holds" // until', True),
         ("END_NETWORK", True),
+        ("TRANSITION second (PRIORITY := 2) FROM X1 TO X3 := TRUE;", True),
+        ("INITIAL_STEP Idle:", True),
         ("rung[3] := 1;", False),
+        ("step := transition;", False),
     ):
         assert any(re.search(each["match"], text) for each in words if "keyword.control" in each["name"]) == coloured

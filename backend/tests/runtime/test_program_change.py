@@ -252,3 +252,35 @@ def test_a_rung_more_changes_no_memory_of_the_others(engine: EngineFactory) -> N
     )
     resource.run(3)
     assert value(resource, "Main.n") == 1
+
+
+CHART = """
+PROGRAM Main
+VAR go, lamp : BOOL; n : INT; END_VAR
+INITIAL_STEP Wait:
+END_STEP
+STEP Work:
+    lamp(S);
+    Count(P1);
+END_STEP
+ACTION Count: n := n + 1; END_ACTION
+TRANSITION FROM Wait TO Work := go; END_TRANSITION
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_step_more_changes_no_other_step_and_no_action(engine: EngineFactory) -> None:
+    resource = plc(CHART, engine)
+    resource.submit(Write("Ada", "Main.go", "TRUE"))
+    resource.run(3)
+    time = value(resource, "Main.Work.T")
+    more = "STEP Rest:\nEND_STEP\nTRANSITION FROM Work TO Rest := NOT go; END_TRANSITION\nINITIAL_STEP"
+    change(resource, program(CHART.replace("INITIAL_STEP", more)), engine)
+    resource.run(1)
+    names = ("Main.Work.X", "Main.lamp", "Main.n")
+    assert [value(resource, name) for name in names] == [1, 1, 1]
+    assert str(value(resource, "Main.Work.T")) != str(time)
+    resource.submit(Write("Ada", "Main.go", "FALSE"))
+    resource.run(2)
+    assert [value(resource, name) for name in ("Main.Work.X", "Main.Rest.X", "Main.lamp")] == [0, 1, 1]

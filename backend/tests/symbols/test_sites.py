@@ -48,7 +48,8 @@ def of_rungs(body: networks.NetworkBody) -> Iterator[Span]:
 
 def of_chart(written: chart.Chart) -> Iterator[Span]:
     """Its steps, the first use of each action, its transitions, and the elements of their rungs."""
-    yield from (each.span for each in (*written.steps, *written.transitions))
+    yield from (each.span for each in written.steps)
+    yield from (each.span for each in written.transitions)
     yield from (use.first.span for use in chart.uses(written))
     yield from of_rungs(written.conditions)
 
