@@ -89,8 +89,8 @@ def _association(c: Cursor) -> chart.Association:
             qualifier = c.word()
             c.take()
         if qualifier not in chart.QUALIFIERS:
-            known = "N, R, S, L, D, P, P0, P1, SD, DS and SL"
-            c.report("S003", f"`{qualifier}` is no qualifier of an action; there are {known}.", c.span_of(c.at - 1))
+            message = f"`{qualifier}` is no qualifier; there are N, R, S, L, D, P, P0, P1, SD, DS and SL."
+            c.report("S003", message, c.span_of(c.at - 1))
             qualifier = "N"
         if qualifier in chart.TIMED and c.accept(","):
             duration = parse_expression.expression(c)
@@ -125,7 +125,7 @@ def _transition(c: Cursor) -> chart.Transition:
     if not c.accept_word("FROM"):
         raise c.fail("FROM and the steps that the transition ends expected")
     sources = _steps(c)
-    c.expect("TO", "and the steps that follow")
+    c.expect("TO", "before the steps that follow")
     targets = _steps(c)
     head = c.span_from(start)
     condition = _condition(c)
@@ -164,7 +164,8 @@ def _condition(c: Cursor) -> tree.Expression | networks.Rung:
         condition = parse_expression.expression(c)
         c.accept(";")
         return condition
-    c.expect(":", "or `:=` and the condition of the transition")
+    if not c.accept(":"):
+        raise c.fail("`:=` and the condition of the transition expected")
     if not parse_networks.follows(c) or c.word() != "RUNG":
         raise c.fail("RUNG expected: a condition is an expression after `:=`, or a rung after `:`")
     rung = parse_networks.network(c)
