@@ -44,7 +44,7 @@ def calls_of(pou: tree.PouDeclaration, start: int, end: int) -> Iterator[tree.Ca
     lists: list[Sequence[tree.Statement]] = [pou.body]
     while lists:
         for statement in _reaching(lists.pop(), start, end):
-            expressions, inner = _parts(statement)
+            expressions, inner = parts(statement)
             lists += inner
             yield from _in_expressions(expressions)
 
@@ -92,7 +92,7 @@ def _reaching(statements: Sequence[tree.Statement], start: int, end: int) -> Ite
             yield each
 
 
-def _parts(statement: tree.Statement) -> tuple[list[tree.Expression], list[Sequence[tree.Statement]]]:
+def parts(statement: tree.Statement) -> tuple[list[tree.Expression], list[Sequence[tree.Statement]]]:
     """The expressions of a statement, and the statements inside of it."""
     match statement:
         case tree.Assignment(target=target, value=value, also=also):

@@ -9,6 +9,7 @@ from scanbench.language.complete import parsed
 from scanbench.language.fix import Fix
 from scanbench.language.fix_conversion import conversions
 from scanbench.language.fix_syntax import of_syntax
+from scanbench.language.fix_unreached import of_unreached
 from scanbench.language.reading import Around, Reading
 from scanbench.problems import Problem
 from scanbench.program.types import INT
@@ -37,6 +38,7 @@ def _of(reading: Reading, file: str, problem: Problem, start: int, end: int) -> 
     written = text[start:end]
     yield from _near(problem, written, start)
     yield from of_syntax(reading, file, problem, start, end)
+    yield from of_unreached(reading, file, problem, start)
     yield from conversions(reading, file, problem, start, end)
     unknown = UNKNOWN.match(message)
     around = reading.around(file, start)

@@ -53,6 +53,12 @@ END_PROGRAM
         ("s := 'abc;", "'", "Close the string", "s := 'abc';"),
         ("b := n == 1;", "==", "Write `=`", "b := n = 1;"),
         ("b := n != 1;", "!=", "Write `<>`", "b := n <> 1;"),
+        ("n := 1;\nRETURN;\nn := 2; // two\nn := 3;", "n := 2", "Remove what is never reached", "n := 1;\nRETURN;\nEND_PROGRAM"),
+        (
+            "IF b THEN\n  RETURN; n := 2;\nELSE\n  n := 3;\nEND_IF;", "n := 2", "Remove what is never reached",
+            "IF b THEN\n  RETURN;\nELSE\n  n := 3;\nEND_IF;",
+        ),
+        ("IF FALSE THEN\n  n := 2;\nEND_IF;", "n := 2", "Remove what is never reached", "IF FALSE THEN\nEND_IF;"),
         ("b := c&&b;", "&&", "Write `AND`", "b := c AND b;"),
     ],
 )  # fmt: skip
