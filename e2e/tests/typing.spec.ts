@@ -146,8 +146,8 @@ test('lines typed without blanks are indented by their blocks, and the keywords 
     'PROGRAM Main\nVAR\nn : INT;\nEND_VAR\nn := n + 1;\nIF n > 2 THEN\nn := 0;\n\nELSE\nCASE n OF\n1:\nn := 2;\nEND_CASE;\nelsewhere := 1;\nEND_IF;\nEND_PROGRAM\n',
   );
   await expect(main.stored(server)).resolves.toBe(
-    'PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\n  n := n + 1;\n  IF n > 2 THEN\n    n := 0;\n\n  ELSE\n    CASE n OF\n      1:\n        n := 2;\n' +
-      '    END_CASE;\n    elsewhere := 1;\n  END_IF;\nEND_PROGRAM\n',
+    'PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\nn := n + 1;\nIF n > 2 THEN\n  n := 0;\n\nELSE\n  CASE n OF\n    1:\n      n := 2;\n' +
+      '  END_CASE;\n  elsewhere := 1;\nEND_IF;\nEND_PROGRAM\n',
   );
   await main
     .line('END_IF')

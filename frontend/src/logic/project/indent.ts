@@ -3,7 +3,7 @@
 /** The text of a line, which counts from 1. */
 type LineOf = (line: number) => string;
 
-/** A POU: its sections are at its own level, its statements one level deeper. */
+/** A POU: its sections are at its own level. */
 const HEAD = /^\s*(PROGRAM|FUNCTION|FUNCTION_BLOCK|METHOD)\b(?!.*\bEND_)/i;
 const SECTION = /^\s*VAR(_\w+)?(?!\w)/i;
 /** What the layout puts one level deeper than the line itself. */
@@ -21,9 +21,8 @@ export function indentAfter(lineOf: LineOf, line: number, unit: string): string 
   for (let above = line - 1; above > 0; above -= 1) {
     const text = lineOf(above);
     if (text.trim() === "") continue;
-    const code = codeOf(text);
-    const body = HEAD.test(code) || (/\bEND_VAR\s*$/i.test(code) && headOf(lineOf, above) !== null);
-    return blanksOf(text) + (body || OPENS.test(code) ? unit : "");
+    // Statements of a POU begin at its own level or one deeper: whoever types them chooses.
+    return blanksOf(text) + (OPENS.test(codeOf(text)) ? unit : "");
   }
   return "";
 }
