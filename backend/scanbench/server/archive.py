@@ -18,10 +18,13 @@ from uuid import NAMESPACE_URL, uuid5
 
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
+from scanbench.server.plcopen_archive import notes, read_plcopen
 from scanbench.server.project_files import OWN_FILES
 from scanbench.server.twincat_project import ENDING, TwinCatProject, is_twincat_project, read_twincat_project
 from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
+from scanbench.syntax.plcopen.document import is_plcopen
+from scanbench.syntax.plcopen.project import Project
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -51,6 +54,8 @@ class Archive:
     """Files that are no programs, or not compiled by their TwinCAT project."""
     dialect: DialectName = STRICT
     """The one that its programs are probably written in, where no file of it says so; of what Scanbench packed the strict one."""
+    notes: tuple[str, ...] = ()
+    """Of a PLCopen file what could not be kept as it was."""
     twincat: tuple[TwinCatProject, ...] = ()
     """What the project files of TwinCAT say that are in it; of what Scanbench packed none."""
 
@@ -103,7 +108,9 @@ def _windows(path: str) -> str:
 
 
 def unpack(data: bytes) -> Archive:
-    """What an archive has; `Refused` where it is none, too large, or without a program."""
+    """What an archive, or a PLCopen file, has; `Refused` where it is none, too large, or without a program."""
+    if is_plcopen(data):
+        return _of_plcopen(read_plcopen(data))
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return _unpacked(archive)
@@ -117,6 +124,10 @@ def unpack(data: bytes) -> Archive:
         UnicodeError,
     ) as error:
         raise Refused(f"this is no zip file that can be read: {error}") from error
+
+
+def _of_plcopen(made: Project) -> Archive:
+    return Archive(made.name, "", (), made.files, {}, (), guess_dialect(made.files), notes=tuple(notes(made)))
 
 
 def _unpacked(archive: zipfile.ZipFile) -> Archive:
@@ -159,7 +170,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
         panels,
         tuple(left_out),
         STRICT if PROJECT_FILE in inside else guess_dialect(files, named),
-        tuple(projects.values()),
+        twincat=tuple(projects.values()),
     )
 
 

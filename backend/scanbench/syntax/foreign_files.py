@@ -44,7 +44,7 @@ def _what(head: str) -> str | None:
     if found is None:
         return None
     if "plcopen.org" in found[2]:
-        return "This is a PLCopen XML file, which is not read. Copy the declarations and statements into a file .st."
+        return "This is a PLCopen XML file. Import it: `scanbench import FILE DIR`, or New project in the page."
     known = ROOTS.get(found[1].rpartition(":")[2].lower())
     return known or (
         f"This is XML (`{found[1][:40]}`), and no text of a program. Copy the declarations and statements into a file .st."

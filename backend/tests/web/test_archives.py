@@ -2,6 +2,7 @@
 
 import io
 import zipfile
+from pathlib import Path
 
 import httpx
 import pytest
@@ -19,7 +20,8 @@ def test_a_project_goes_out_and_comes_in_again(server: Server) -> None:
     assert reply.status_code == 200, reply.text
     assert "F%C3%BCllen.zip" in reply.headers["content-disposition"]
     found = server.http.post("/api/archives", content=reply.content).json()
-    assert found == {"name": "Füllen", "model": "CJ1M-CPU63", "files": ["Main.st", "Belt.panel.json"], "left_out": []}
+    files = ["Main.st", "Belt.panel.json"]
+    assert found == {"name": "Füllen", "model": "CJ1M-CPU63", "files": files, "left_out": [], "notes": []}
     made = server.http.post(
         "/api/archives/projects", params={"name": "again", "model": found["model"]}, content=reply.content
     )
@@ -28,6 +30,14 @@ def test_a_project_goes_out_and_comes_in_again(server: Server) -> None:
     assert server.http.get(f"/api/projects/{again}/files/Main.st").json()["text"] == MAIN
     assert server.http.get(f"/api/projects/{again}/files/Belt.panel.json").json()["text"] == panel["text"]
     assert server.http.post(f"/api/projects/{again}/build", json={}).json()["ok"]
+
+
+def test_a_plcopen_file_becomes_a_project_that_runs(server: Server) -> None:
+    line = (Path(__file__).parent.parent / "syntax" / "plcopen" / "line.xml").read_bytes()
+    found = server.http.post("/api/archives", content=line).json()
+    assert (found["name"], len(found["files"]), found["notes"]) == ("Line", 5, [])
+    project = _taken(server, "Line", line)
+    assert server.http.post(f"/api/projects/{project}/build", json={}).json()["ok"]
 
 
 def test_an_imported_project_has_the_dialect_of_its_files_and_a_packed_one_its_own(server: Server) -> None:

@@ -246,7 +246,8 @@ export const plc = {
   "state.past": "In the past",
   "state.readonly": "scan {scan}, read-only",
   "state.switchedoff": "switched off",
-  "newproject.archive": "Program files (optional): a zip file of a project of Scanbench or TwinCAT, or of plain files",
+  "newproject.archive":
+    "Program files (optional): a zip file of a project of Scanbench or TwinCAT or of plain files, or a PLCopen file (XML)",
   "newproject.archive.has": "{count} files",
   "newproject.archive.left": "{count} files; {left} other files are left out: {names}",
   "folderout.about":
@@ -262,6 +263,7 @@ export const plc = {
   "folderout.written": "Files written: {count}",
   "picker.export": "Export the project",
   "picker.export.hint": "as it is saved",
+  "newproject.archive.notes": "What is not as it was",
   "newproject.archive.model": "The project in the file is written for {model}.",
   "newproject.template": "Begin with",
   "newproject.template.empty": "An empty program",

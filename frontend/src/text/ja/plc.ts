@@ -245,7 +245,8 @@ export const plc: Record<keyof typeof english, string> = {
   "state.past": "過去",
   "state.readonly": "スキャン {scan}、読み出し専用",
   "state.switchedoff": "電源オフ",
-  "newproject.archive": "プログラムファイル（任意）: Scanbench または TwinCAT のプロジェクト、またはファイルの zip",
+  "newproject.archive":
+    "プログラムファイル（任意）: Scanbench または TwinCAT のプロジェクト、ファイルの zip、または PLCopen ファイル (XML)",
   "newproject.archive.has": "ファイル {count} 件",
   "newproject.archive.left": "ファイル {count} 件。ほかの {left} 件は取り込みません: {names}",
   "folderout.about": "サーバーに保存済みのプロジェクトのファイルです。フォルダ内のほかのファイルは変更しません。",
@@ -260,6 +261,7 @@ export const plc: Record<keyof typeof english, string> = {
   "folderout.written": "書き込んだファイル: {count}",
   "picker.export": "プロジェクトをエクスポート",
   "picker.export.hint": "保存済みの内容",
+  "newproject.archive.notes": "元と異なる点",
   "newproject.archive.model": "ファイルのプロジェクトは {model} 用です。",
   "newproject.template": "最初の内容",
   "newproject.template.empty": "空のプログラム",

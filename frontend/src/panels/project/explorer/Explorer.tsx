@@ -36,9 +36,9 @@ export function Explorer() {
     const { files: dropped, folders } = droppedOn(event.dataTransfer);
     if (dropped.length + folders.length === 0) return;
     event.preventDefault();
-    const [archive] = dropped.filter(({ name }) => /\.zip$/i.test(name));
+    const [archive] = dropped.filter(({ name }) => /\.(zip|xml)$/i.test(name));
     if (archive) dropArchive(archive);
-    const files = dropped.filter(({ name }) => !/\.zip$/i.test(name));
+    const files = dropped.filter(({ name }) => !/\.(zip|xml)$/i.test(name));
     if (project !== null && files.length + folders.length > 0) void adding.add(files, folders);
   }
 

@@ -14,7 +14,7 @@ interface Props {
 /** Nothing; a file that is being looked at, or that has no project; a file and what it has. */
 export type Chosen = "none" | "not yet" | { file: File; found: ProjectArchive };
 
-/** Asks for a zip file with the files of a new project, and tells what it has. */
+/** Asks for a zip file or a PLCopen file with the files of a new project, and tells what it has. */
 export function ArchiveField({ dropped = null, onChoose }: Props) {
   const [found, setFound] = useState<ProjectArchive | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
@@ -47,7 +47,7 @@ export function ArchiveField({ dropped = null, onChoose }: Props) {
       <span>{t("newproject.archive")}</span>
       <input
         type="file"
-        accept=".zip"
+        accept=".zip,.xml"
         className="inp file"
         aria-invalid={refused !== null}
         onChange={({ target }) => {
@@ -56,6 +56,13 @@ export function ArchiveField({ dropped = null, onChoose }: Props) {
         }}
       />
       {found && <span className="hint">{`${dropped && !chosen ? `${dropped.name}: ` : ""}${says(found)}`}</span>}
+      {found && found.notes.length > 0 && (
+        <ul className="hint notes" aria-label={t("newproject.archive.notes")}>
+          {found.notes.map((note) => (
+            <li key={note}>{note}</li>
+          ))}
+        </ul>
+      )}
       {refused && (
         <span className="hint bad" role="alert">
           <Icon name="error" small />

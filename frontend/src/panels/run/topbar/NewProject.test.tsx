@@ -69,7 +69,13 @@ test("a zip file gives name, model and files; what it is not is told, and makes 
   const { server, user } = await openPage((server) => {
     server.on("GET", "/models", () => new Promise((resolve) => (arrive = () => resolve(MODELS))));
     server.on("GET", "/models/*", () => MODEL);
-    const has = { name: "Press", model: "NJ501", files: ["Main.st", "lib/F.st"], left_out: ["notes.txt"] };
+    const has = {
+      name: "Press",
+      model: "NJ501",
+      files: ["Main.st", "lib/F.st"],
+      left_out: ["notes.txt"],
+      notes: ["Valve: a note"],
+    };
     server.on("POST", "/archives", () => has);
     server.on("POST", "/archives/projects", () => someProject(801));
     server.on("GET", "/projects/*/files", () => [{ path: "Main.st", version: 1, author: "Mika" }]);
@@ -96,7 +102,7 @@ test("a zip file gives name, model and files; what it is not is told, and makes 
   server.on("POST", "/archives", () => refusal("no zip file"));
   await user.upload(file(), new File(["nonsense"], "other.zip"));
   await waitFor(() => expect(textOf(within(dialog).queryByRole("alert"))).toContain("no zip file"));
-  server.on("POST", "/archives", () => ({ name: "", model: "", files: ["Main.st"], left_out: [] }));
+  server.on("POST", "/archives", () => ({ name: "", model: "", files: ["Main.st"], left_out: [], notes: [] }));
   await user.upload(file(), new File(["zip"], "press.zip"));
   await waitFor(() => expect(textOf(dialog)).toContain(t("newproject.archive.has", { count: 1 })));
   await user.click(button(t("create"), dialog));
@@ -143,7 +149,13 @@ test("a zip file that was dropped on the explorer is looked at in the dialog", a
   const { server, user } = await openPage((server) => {
     server.on("GET", "/models", () => MODELS);
     server.on("GET", "/models/*", () => MODEL);
-    server.on("POST", "/archives", () => ({ name: "Press", model: "NJ501", files: ["Main.st"], left_out: [] }));
+    server.on("POST", "/archives", () => ({
+      name: "Press",
+      model: "NJ501",
+      files: ["Main.st"],
+      left_out: [],
+      notes: [],
+    }));
   });
   render(
     <>

@@ -106,7 +106,7 @@ export function NewProject({ dropped = null, onClose }: Props) {
               setArchive(chosen);
               if (typeof chosen !== "object") return;
               const { file, found } = chosen;
-              setName((typed) => typed || found.name || file.name.replace(/\.zip$/i, ""));
+              setName((typed) => typed || found.name || file.name.replace(/\.(zip|xml)$/i, ""));
               if (isKnown(found.model)) setPicked("");
             }}
           />

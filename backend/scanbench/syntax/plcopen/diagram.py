@@ -1,0 +1,172 @@
+"""Connected objects of an FBD, or of a ladder that is none by itself -> the text of a NETWORK, one box a line."""
+
+from dataclasses import dataclass, field
+
+from scanbench.syntax.plcopen import notes
+from scanbench.syntax.plcopen.elements import Pin, Thing
+
+RESULTS = frozenset(("", "OUT", "OUT1", "RESULT"))
+"""How tools name the result of a function."""
+INDENT = "    "
+End = tuple[str, str]
+
+
+@dataclass(slots=True)
+class Diagram:
+    """One network as it is written."""
+
+    group: list[Thing]
+    rails: set[str]
+    lines: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    """What could not be kept as it was."""
+    _wires: dict[End, str] = field(default_factory=dict)
+    _things: dict[str, Thing] = field(default_factory=dict)
+    _used: set[End] = field(default_factory=set)
+    _count: int = 0
+
+    def text(self, head: str) -> str:
+        self._things = {each.id: each for each in self.group}
+        for each in self.group:
+            for pin in each.inputs:
+                self._used |= {self._end(end) for end in pin.ends if end[0] in self._things}
+        for each in self.group:
+            self._line(each)
+        if not self.lines:
+            return ""
+        inner = "".join(f"{INDENT}{line}\n" for line in self.lines)
+        return f"NETWORK{head}\n{inner}END_NETWORK\n"
+
+    # ---- values -----------------------------------------------------------------------------------------------
+
+    def _end(self, end: End) -> End:
+        thing = self._things.get(end[0])
+        output = None if thing is None else thing.output(end[1])
+        return end[0], "" if output is None else output.name
+
+    def _wire(self, end: End) -> str:
+        end = self._end(end)
+        if end not in self._wires:
+            self._count += 1
+            self._wires[end] = f"#w{self._count}"
+        return self._wires[end]
+
+    def _value(self, end: End) -> str:
+        """What an end carries, where it is used."""
+        if end[0] in self.rails:
+            return "TRUE"
+        thing = self._things.get(end[0])
+        if thing is None:
+            self.notes.append(notes.NO_SOURCE)
+            return "FALSE"
+        if thing.kind in ("inVariable", "inOutVariable"):
+            return f"NOT {_operand(thing.name)}" if thing.negated else thing.name or "FALSE"
+        if thing.kind == "continuation":
+            source = next(
+                (each for each in self.group if each.kind == "connector" and each.name.upper() == thing.name.upper()),
+                None,
+            )
+            return self._input(source.inputs[0]) if source is not None and source.inputs else "FALSE"
+        return self._wire(end)
+
+    def _input(self, pin: Pin) -> str:
+        """The value at an input, also of several connections, of which one TRUE is enough."""
+        values = [self._value(end) for end in pin.ends]
+        if not values:
+            return pin.expression
+        value = values[0] if len(values) == 1 else self._joined(values)
+        if pin.edge:
+            value = f"{'R' if pin.edge == 'rising' else 'F'}_EDGE {value}"
+        return f"NOT {value}" if pin.negated else value
+
+    def _joined(self, values: list[str]) -> str:
+        if "TRUE" in values:
+            return "TRUE"
+        self._count += 1
+        wire = f"#w{self._count}"
+        self.lines.append(f"{wire} = OR({', '.join(values)});")
+        return wire
+
+    # ---- lines ------------------------------------------------------------------------------------------------
+
+    def _line(self, each: Thing) -> None:
+        match each.kind:
+            case "contact":
+                self._contact(each)
+            case "coil" | "outVariable":
+                self._assignment(each)
+            case "block":
+                self._block(each)
+            case "jump" | "return":
+                value = self._input(each.inputs[0]) if each.inputs else ""
+                word = f"JMP {each.name}" if each.kind == "jump" else "RETURN"
+                self.lines.append(f"{word};" if value in ("", "TRUE") else f"{word} IF {value};")
+
+    def _contact(self, each: Thing) -> None:
+        power = self._input(each.inputs[0]) if each.inputs else "FALSE"
+        edge = {"rising": "R_EDGE ", "falling": "F_EDGE "}.get(each.edge, "")
+        own = f"{'NOT ' if each.negated else ''}{edge}{each.name or 'FALSE'}"
+        wire = self._wire((each.id, ""))
+        self.lines.append(f"{wire} = {own};" if power == "TRUE" else f"{wire} = AND({power}, {own});")
+
+    def _assignment(self, each: Thing) -> None:
+        value = (self._input(each.inputs[0]) if each.inputs else "") or "FALSE"
+        if each.edge:
+            value = f"{'R' if each.edge == 'rising' else 'F'}_EDGE {value}"
+        if each.negated:
+            value = value.removeprefix("NOT ") if value.startswith("NOT ") else f"NOT {value}"
+        operator = {"set": "S=", "reset": "R="}.get(each.storage, ":=")
+        self.lines.append(f"{each.name} {operator} {value};")
+        if (each.id, "") in self._used:  # a coil hands its power on
+            self.lines.append(
+                f"{self._wire((each.id, ''))} = {(self._input(each.inputs[0]) if each.inputs else '') or 'FALSE'};"
+            )
+
+    def _block(self, each: Thing) -> None:
+        arguments = [
+            f"{formal(pin.name)} := {value}" if pin.name else value
+            for pin in each.inputs
+            if (value := self._input(pin)) not in ("", "???")
+        ]
+        result = None if each.instance else next((pin for pin in each.outputs if is_result(each, pin)), None)
+        after: list[str] = []
+        for pin in each.outputs:
+            end = (each.id, pin.name)
+            if pin is result or any(pin.name == one.name for one in each.inputs):
+                continue
+            if end in self._used:
+                wire = self._wire(end)
+                arguments.append(f"{pin.name} => {wire}")
+                if pin.negated:
+                    after.append(self._negated(end, wire))
+            elif pin.expression:
+                arguments.append(f"{pin.name} => {pin.expression}")
+        call = f"{each.instance or each.name}({', '.join(arguments)})"
+        if result is not None and (each.id, result.name) in self._used:
+            wire = self._wire((each.id, result.name))
+            self.lines.append(f"{wire} = {call};")
+            if result.negated:
+                after.append(self._negated((each.id, result.name), wire))
+        elif result is not None and result.expression:
+            self.lines.append(f"{result.expression} := {call};")
+        else:
+            self.lines.append(f"{call};")
+        self.lines += after
+
+    def _negated(self, end: End, wire: str) -> str:
+        self._count += 1
+        self._wires[end] = f"#w{self._count}"
+        return f"{self._wires[end]} = NOT {wire};"
+
+
+def is_result(each: Thing, pin: Pin) -> bool:
+    return pin.name.upper() in RESULTS or pin.name.upper() == each.name.upper()
+
+
+def formal(name: str) -> str:
+    """Tools write `In1` for the inputs of operators."""
+    return name.upper() if name[:2].upper() == "IN" and name[2:].isdigit() else name
+
+
+def _operand(text: str) -> str:
+    return text if text.replace("_", "").replace(".", "").isalnum() else f"({text})"

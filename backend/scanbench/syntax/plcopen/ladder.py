@@ -1,0 +1,221 @@
+"""A ladder of connected objects -> the text of a rung: series and parallel branches, and links for what is neither.
+
+The objects become edges between points, labelled with text. Points with one edge in and one out are taken away, edges between the same points
+become parallel branches, dead ends become branches of their own; where nothing of this is left to do, a point is cut by links.
+"""
+
+from dataclasses import dataclass, field
+
+from scanbench.syntax.plcopen.diagram import formal, is_result
+from scanbench.syntax.plcopen.elements import Pin, Thing
+
+RAIL, END = "rail", "end"
+LADDER = frozenset(("contact", "coil", "block", "inVariable", "outVariable", "jump", "return"))
+
+
+class NoLadder(ValueError):
+    """The group is no ladder: values that are no power go from box to box, or the like."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    start: str
+    to: str
+    path: tuple[str, ...]
+    """Elements from left to right."""
+    order: float
+    """Of branches the first one is above; what receives a link comes after all that send to it."""
+
+
+@dataclass(slots=True)
+class Rung:
+    """One connected group as a rung."""
+
+    group: list[Thing]
+    rails: set[str]
+    _edges: list[Edge] = field(default_factory=list)
+    _things: dict[str, Thing] = field(default_factory=dict)
+    _order: dict[str, float] = field(default_factory=dict)
+    """Of the points, in the order of execution."""
+    _links: int = 0
+
+    def elements(self) -> str:
+        """The path of the rung; `NoLadder` where it cannot be one."""
+        self._things = {each.id: each for each in self.group}
+        if not all(each.kind in LADDER for each in self.group) or not any(
+            end in self.rails for each in self.group for pin in each.inputs for end, _ in pin.ends
+        ):
+            raise NoLadder
+        for number, each in enumerate(self.group):
+            self._add(each, number)
+        self._reduce()
+        return " ".join(self._edges[0].path) if self._edges else ""
+
+    # ---- objects to edges -------------------------------------------------------------------------------------
+
+    def _add(self, each: Thing, order: int) -> None:
+        if each.kind in ("inVariable", "outVariable"):
+            return
+        power = self._power(each)
+        self._order |= {f"in {each.id}": order, f"out {each.id}": order + 0.1}
+        text = self._text(each, power)
+        ends = each.kind in ("jump", "return") or not self._goes_on(each)
+        to = END if ends else f"out {each.id}"
+        if power is None:
+            raise NoLadder
+        self._edges.append(Edge(f"in {each.id}", to, (text,), order))
+        for end, _ in power.ends:
+            start = RAIL if end in self.rails else f"out {end}"
+            self._edges.append(Edge(start, f"in {each.id}", (), order))
+
+    def _power(self, each: Thing) -> Pin | None:
+        """The input that power comes to; no other input may get any."""
+        found = [pin for pin in each.inputs if any(self._is_power(end) for end, _ in pin.ends)]
+        if len(found) > 1:
+            raise NoLadder
+        return found[0] if found else None
+
+    def _is_power(self, end: str) -> bool:
+        thing = self._things.get(end)
+        return end in self.rails or (thing is not None and thing.kind in ("contact", "coil", "block"))
+
+    def _consumers(self, each: Thing) -> list[tuple[Thing, str]]:
+        return [
+            (other, output)
+            for other in self.group
+            for pin in other.inputs
+            for end, output in pin.ends
+            if end == each.id
+        ]
+
+    def _goes_on(self, each: Thing) -> bool:
+        return any(other.kind != "outVariable" for other, _ in self._consumers(each))
+
+    def _text(self, each: Thing, power: Pin | None) -> str:
+        if each.kind == "contact":
+            mode = {"rising": "P ", "falling": "N "}.get(each.edge, "")
+            if each.negated and mode:
+                raise NoLadder
+            return f"[{'/' if each.negated else mode}{each.name}]"
+        if each.kind == "coil":
+            mode = {"rising": "P ", "falling": "N "}.get(each.edge, "") or {"set": "S ", "reset": "R "}.get(
+                each.storage, ""
+            )
+            if each.negated and mode:
+                raise NoLadder
+            return f"({'/' if each.negated else mode}{each.name})"
+        if each.kind == "jump":
+            return f"JMP {each.name}"
+        return "RETURN" if each.kind == "return" else self._box(each, power)
+
+    def _box(self, each: Thing, power: Pin | None) -> str:
+        arguments = []
+        for pin in each.inputs:
+            if pin.negated or pin.edge or (pin is not power and len(pin.ends) > 1):
+                raise NoLadder
+            value = "~" if pin is power else self._operand(pin)
+            if value not in ("", "???"):
+                arguments.append(f"{formal(pin.name)} := {value}" if pin.name else value)
+        outputs = {output for other, output in self._consumers(each) if other.kind != "outVariable"}
+        named = {self._named(each, output) for output in outputs}
+        if len(named) > 1 or any(pin.negated for pin in each.outputs):
+            raise NoLadder
+        result = None if each.instance else next((pin for pin in each.outputs if is_result(each, pin)), None)
+        target = ""
+        for pin in each.outputs:
+            taken = self._taken(each, pin)
+            if pin is result:
+                target = taken
+            elif taken:
+                arguments.append(f"{pin.name} => {taken}")
+        goes_on = next(iter(named), "")
+        if result is not None and goes_on == result.name:
+            raise NoLadder  # the result of a function is no power by itself
+        call = f"{each.instance or each.name}({', '.join(arguments)})"
+        return f"{f'{target} := ' if target else ''}{call}{f'.{goes_on}' if goes_on else ''}"
+
+    def _named(self, each: Thing, output: str) -> str:
+        found = each.output(output)
+        return output if found is None else found.name
+
+    def _taken(self, each: Thing, pin: Pin) -> str:
+        """The variable that takes an output."""
+        found = [
+            other.name for other, output in self._consumers(each)
+            if other.kind == "outVariable" and self._named(each, output) == pin.name
+        ]  # fmt: skip
+        if len(found) > 1:
+            raise NoLadder
+        return found[0] if found else pin.expression
+
+    def _operand(self, pin: Pin) -> str:
+        if not pin.ends:
+            return pin.expression
+        source = self._things.get(pin.ends[0][0])
+        if source is None or source.kind != "inVariable":
+            raise NoLadder
+        return f"NOT ({source.name})" if source.negated else source.name
+
+    # ---- edges to one path ------------------------------------------------------------------------------------
+
+    def _reduce(self) -> None:
+        while len(self._edges) > 1 or (self._edges and self._edges[0].start != RAIL):
+            if not (self._series() or self._parallel() or self._tails() or self._cut()):
+                raise NoLadder
+
+    def _series(self) -> bool:
+        for first in self._edges:
+            after = [each for each in self._edges if each.start == first.to]
+            before = [each for each in self._edges if each.to == first.to]
+            if first.to != END and len(after) == 1 and len(before) == 1:
+                second = after[0]
+                self._replace((first, second), Edge(first.start, second.to, first.path + second.path, first.order))
+                return True
+        return False
+
+    def _parallel(self) -> bool:
+        """Edges between the same points; those to the end are dead ends, see `_tails`."""
+        for first in self._edges:
+            same = [
+                each for each in self._edges if (each.start, each.to) == (first.start, first.to) and first.to != END
+            ]
+            if len(same) > 1:
+                self._replace(same, Edge(first.start, first.to, (branches(same),), max(each.order for each in same)))
+                return True
+        return False
+
+    def _tails(self) -> bool:
+        """All that goes on from a point are dead ends: they are one."""
+        for start in dict.fromkeys(each.start for each in self._edges):
+            mine = [each for each in self._edges if each.start == start]
+            if len(mine) > 1 and all(each.to == END for each in mine):
+                self._replace(mine, Edge(start, END, (branches(mine),), mine[0].order))
+                return True
+        return False
+
+    def _cut(self) -> bool:
+        """A point that several ways lead to becomes the end of each, with a link; what follows begins at the rail with the links."""
+        points = {each.to for each in self._edges if each.to != END}
+        if not points:
+            return False
+        point = min(points, key=self._order.__getitem__)
+        into = [each for each in self._edges if each.to == point]
+        names = []
+        for each in into:
+            self._links += 1
+            names.append(f"#p{self._links}")
+            self._replace((each,), Edge(each.start, END, (*each.path, f"-> {names[-1]}"), each.order))
+        receives = names[0] if len(names) == 1 else f"< {' | '.join(names)} >"
+        for each in [each for each in self._edges if each.start == point]:
+            order = max(each.order, *(one.order for one in into)) + 0.5
+            self._replace((each,), Edge(RAIL, each.to, (receives, *each.path), order))
+        return True
+
+    def _replace(self, old: "list[Edge] | tuple[Edge, ...]", new: Edge) -> None:
+        self._edges = [each for each in self._edges if each not in old]
+        self._edges.append(new)
+
+
+def branches(edges: list[Edge]) -> str:
+    """Parallel branches from top to bottom, in the order in which they run."""
+    return f"< {' | '.join(' '.join(each.path) for each in sorted(edges, key=lambda one: one.order))} >"

@@ -1,0 +1,17 @@
+"""What is told of a POU that could not be kept as it was."""
+
+MACRO_STEP = "a macro step is left out"
+NO_LANGUAGE = "a body in a language that is not known is left out"
+NO_SOURCE = "a connection leads to nothing; it is FALSE"
+
+
+def no_transition(line: int) -> str:
+    return f"the transition of line {line} is left out: it does not lead from a step to a step"
+
+
+def drawn_condition(line: int) -> str:
+    return f"the condition of the transition of line {line} is drawn; it is FALSE until it is written"
+
+
+def no_ladder(line: int) -> str:
+    return f"the network of line {line} is a function block diagram here"

@@ -1,0 +1,25 @@
+"""`scanbench import`."""
+
+from pathlib import Path
+
+from tests.cli.calling import scanbench
+
+LINE = Path(__file__).parent.parent / "syntax" / "plcopen" / "line.xml"
+
+
+def test_the_pous_of_a_plcopen_file_become_files_that_run(tmp_path: Path) -> None:
+    told = scanbench("import", str(LINE), str(tmp_path / "line"))
+    assert (told.returncode, told.stdout) == (0, "5 files. POUs: 3 as they were, 0 nearly, 0 without their body.\n")
+    assert scanbench("check", str(tmp_path / "line"), "--model", "GENERIC-IEC").returncode == 0
+    again = scanbench("import", str(LINE), str(tmp_path / "line"))
+    assert again.returncode == 2
+    assert "give an empty folder" in again.stderr
+
+
+def test_a_file_that_is_no_plcopen_file_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "half.xml"
+    file.write_bytes(LINE.read_bytes()[:2000])
+    told = scanbench("import", str(file), str(tmp_path / "out"))
+    assert told.returncode == 2
+    assert "this PLCopen file cannot be read: this is no XML" in told.stderr
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,98 @@
+"""A PLCopen file as a project: its five languages run as the drawings say, and what cannot be read is told."""
+
+from pathlib import Path
+
+import pytest
+
+from scanbench.check.build import check_sources
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.syntax.plcopen.document import BadPlcOpen, is_plcopen
+from scanbench.syntax.plcopen.project import read_project
+from tests.caseformat import MODELS, find, first_difference, write
+
+LINE = (Path(__file__).parent / "line.xml").read_bytes()
+LD = LINE[LINE.index(b"<body><LD>") : LINE.index(b"</LD></body>")]
+
+
+def test_all_of_a_project_is_kept() -> None:
+    made = read_project(LINE)
+    assert made.name == "Line"
+    assert list(made.files) == ["Types.st", "Latch.st", "Ramp.st", "Main.st", "Configuration.st"]
+    assert [(each.pou, each.language, each.notes) for each in made.pous] == [
+        ("Latch", "LD", []), ("Ramp", "FBD", []), ("Main", "SFC", []),
+    ]  # fmt: skip
+    assert "    < [start] | [motor] > [/stop] (motor)\n" in made.files["Latch.st"]
+    assert "    [motor] jam(IN := ~, PT := T#20ms, ET => seen).Q (S late)\n" in made.files["Latch.st"]
+    assert "TRANSITION FROM Wait TO (Left, Right) := go; END_TRANSITION\n" in made.files["Main.st"]
+
+
+def test_it_runs_on_both_engines_as_it_is_drawn() -> None:
+    checked = check_sources(read_project(LINE).files, MODELS["GENERIC-IEC"])
+    assert checked.problems == ()
+    program = checked.program
+    assert program is not None
+    memories = [bytearray(program.initial_image) for _ in range(2)]
+    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
+
+    def run(**inputs: str) -> list[str]:
+        for name, value in inputs.items():
+            for memory in memories:
+                write(program, f"main.{name}", value, memory)
+        for engine in engines:
+            engine.run(1)
+        assert not first_difference(program, *memories)
+        names = ("lamp", "speed", "latch.motor", "latch.late", "Wait.X", "Right.X")
+        return [find(program, f"main.{name}", memories[0])[2] for name in names]
+
+    assert run(go="TRUE") == ["FALSE", "0", "FALSE", "FALSE", "FALSE", "TRUE"]
+    assert run() == ["TRUE", "40", "TRUE", "FALSE", "FALSE", "TRUE"]
+    run()
+    assert run() == ["TRUE", "40", "TRUE", "TRUE", "FALSE", "TRUE"]
+    assert run(go="FALSE") == ["TRUE", "40", "TRUE", "TRUE", "TRUE", "FALSE"]
+    assert run() == ["FALSE", "40", "TRUE", "TRUE", "TRUE", "FALSE"]
+
+
+def test_a_ladder_with_values_between_boxes_becomes_a_block_diagram_and_says_so() -> None:
+    drawn = LD.replace(b'<connection refLocalId="8"/>', b'<connection refLocalId="12"/>').replace(
+        b"<outVariable", b'<block localId="12" typeName="ADD"><inputVariables><variable formalParameter="IN1">'
+        b'<connectionPointIn><connection refLocalId="8"/></connectionPointIn></variable><variable formalParameter="IN2">'
+        b'<connectionPointIn><connection refLocalId="8"/></connectionPointIn></variable></inputVariables><inOutVariables/>'
+        b'<outputVariables><variable formalParameter="OUT"><connectionPointOut/></variable></outputVariables></block><outVariable', 1,
+    )  # fmt: skip
+    made = read_project(LINE.replace(LD, drawn))
+    assert made.pous[0].notes == ["the network of line 29 is a function block diagram here"]
+    assert "#w2 = ADD(IN1 := T#20ms, IN2 := T#20ms);" in made.files["Latch.st"]
+    assert check_sources(made.files, MODELS["GENERIC-IEC"]).problems == ()
+
+
+@pytest.mark.parametrize("version", [b"tc6.xsd", b"tc6_0200", b"tc6_0201"])
+def test_the_versions_are_known(version: bytes) -> None:
+    data = LINE.replace(b"tc6_0201", version)
+    assert is_plcopen(data)
+    assert len(read_project(data).files) == 5
+
+
+@pytest.mark.parametrize(
+    ("data", "why"),
+    [
+        (LINE[:2000], "this is no XML: "),
+        (LINE.replace(b"<project ", b"<other ").replace(b"</project>", b"</other>"), "not with <other>"),
+        (LINE.replace(b"<project ", b'<!DOCTYPE project [<!ENTITY a "b">]><project ', 1), "DOCTYPE"),
+    ],
+)
+def test_what_is_none_is_refused(data: bytes, why: str) -> None:
+    with pytest.raises(BadPlcOpen, match=why):
+        read_project(data)
+
+
+@pytest.mark.parametrize("cut", range(0, len(LINE), 997))
+def test_no_part_that_is_missing_breaks_it(cut: int) -> None:
+    """A stretch of elements is gone: it is read all the same, or refused with words."""
+    end = LINE.find(b">", cut + 300)
+    begin = LINE.find(b"<", cut)
+    try:
+        made = read_project(LINE[:begin] + LINE[end + 1 :])
+    except BadPlcOpen:
+        return
+    check_sources(made.files, MODELS["GENERIC-IEC"])
