@@ -1,0 +1,49 @@
+import { readFileSync } from 'node:fs';
+import { expect, test } from '../fixtures/test';
+
+const LINE = readFileSync(new URL('../../backend/tests/syntax/plcopen/line.xml', import.meta.url), 'utf8');
+const DRAWN = '<condition><inline name=""><ST><xhtml:p>NOT go</xhtml:p></ST></inline></condition>';
+
+test('a PLCopen file becomes a project that runs, drawn; what is not as it was is told', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const { page } = mika;
+  const dialog = page.getByRole('dialog', { name: 'New project' });
+  const choose = (name: string, text: string) =>
+    dialog
+      .getByLabel(/^Program files/)
+      .setInputFiles({ name, mimeType: 'application/xml', buffer: Buffer.from(text, 'utf8') });
+
+  await test.step('half a file is refused with words, and one with a drawn condition tells it', async () => {
+    await mika.top.picker.click();
+    await page.getByRole('menuitem', { name: 'New project…' }).click();
+    await choose('half.xml', LINE.slice(0, 3000));
+    await expect(dialog.getByRole('alert')).toContainText('this PLCopen file cannot be read: this is no XML');
+    expect(LINE).toContain(DRAWN);
+    await choose('drawn.xml', LINE.replace(DRAWN, '<condition><connectionPointIn/></condition>'));
+    await expect(dialog.getByRole('list', { name: 'What is not as it was' })).toContainText(
+      /Main: the condition of the transition of line \d+ is drawn; it is FALSE until it is written/,
+    );
+  });
+
+  await test.step('the whole file is taken, built and runs', async () => {
+    await choose('line.xml', LINE);
+    await expect(dialog).toContainText('5 files');
+    await expect(dialog.getByRole('list', { name: 'What is not as it was' })).toHaveCount(0);
+    await dialog.getByRole('button', { name: 'Create' }).click();
+    await expect(mika.top.picker).toContainText('Line');
+    await mika.runs();
+  });
+
+  await test.step('its ladder is drawn, with power', async () => {
+    await mika.explorer.item('Latch').first().dblclick();
+    const sheet = page.getByRole('listbox', { name: 'Ladder diagrams of Latch.st' });
+    await expect(sheet.getByRole('option', { name: 'Closed contact stop' })).toBeVisible();
+    await expect(sheet.getByRole('option', { name: 'Coil late, set' })).toBeVisible();
+    await mika.watch.add('main.go');
+    await mika.watch.set('main.go', 'TRUE');
+    await expect(sheet.locator('.el.on')).toHaveCount(6);
+  });
+});
