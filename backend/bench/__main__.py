@@ -24,6 +24,7 @@ SUBJECTS = (
     "sweep",
     "events",
     "pou",
+    "graphic",
 )
 BUILDING = (
     ("cold", "text to first scan, cold", "ms"),

@@ -79,6 +79,27 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(sheet.getByText('next element')).toHaveCount(0);
   });
 
+  await test.step('a coil that two rungs write is told in both', async () => {
+    await sheet.focus();
+    await keyboard.press('Control+I');
+    for (const [key, name] of [
+      ['c', 'halt'],
+      ['w', 'on'],
+    ] as const) {
+      await keyboard.press(key);
+      await keyboard.type(name);
+      await keyboard.press('Enter');
+      await expect(sheet).toBeFocused();
+    }
+    await keyboard.press('End');
+    await keyboard.press('o');
+    await keyboard.type('on');
+    await keyboard.press('Enter');
+    await expect(sheet.getByText('Rungs 1, 2 write on; the last one counts')).toHaveCount(2);
+    for (let edits = 0; edits < 4; edits += 1) await keyboard.press('Control+Z');
+    await expect(sheet.getByText('Rungs 1, 2 write on')).toHaveCount(0);
+  });
+
   await test.step('it is the text of the file', async () => {
     await page.getByRole('radio', { name: 'Both' }).click();
     await expect(mika.editor('Latch.st').line('| [on]')).toBeVisible();

@@ -169,6 +169,8 @@ export const project = {
   "graphic.return": "RETURN",
   "graphic.rung": "Rung {number} {title}",
   "graphic.send": "Power to the link {name}",
+  "graphic.twice": "Rungs {rungs} write {name}; the last one counts",
+  "graphic.twice.here": "Two coils write {name}; the last one counts",
   "graphic.unread": "cannot be drawn; this is its text",
   "graphic.view": "View",
   "graphic.view.both": "Both",

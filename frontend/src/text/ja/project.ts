@@ -169,6 +169,8 @@ export const project: Record<keyof typeof english, string> = {
   "graphic.return": "RETURN",
   "graphic.rung": "ラング {number} {title}",
   "graphic.send": "リンク {name} へ電力を送る",
+  "graphic.twice": "ラング {rungs} が {name} に書き込みます（最後が有効）",
+  "graphic.twice.here": "2つのコイルが {name} に書き込みます（最後が有効）",
   "graphic.unread": "描画できないため、テキストを表示",
   "graphic.view": "表示",
   "graphic.view.both": "両方",

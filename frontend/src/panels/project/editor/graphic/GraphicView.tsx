@@ -3,6 +3,7 @@ import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef,
 import { type Drawn, layOut } from "../../../../logic/graphic/ladderLayout";
 import { holds, inText } from "../../../../logic/graphic/places";
 import { type DrawnRung, heightOf, Rungs } from "../../../../logic/graphic/rungs";
+import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
 import { seenAsNow } from "../../../../store/debug/seenAs";
@@ -23,6 +24,8 @@ import { type Cursor, useEditing } from "./useEditing";
 
 /** Marks, number and margins left and right of a drawing. */
 const BESIDE = 22 + 34 + 20 + 18;
+
+const NONE: readonly Twice[] = [];
 
 interface Props {
   path: string;
@@ -45,6 +48,12 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const room = Math.max(320, width - BESIDE);
   const drawn = useMemo(() => rungs.current.of(text, room), [text, room]);
   const pous = shownText(path).pous;
+
+  const twice = useMemo(
+    () =>
+      writtenTwice(drawn.map((each) => ({ drawn: each, pou: pouAt(pous, path, each.found.line, text)?.name ?? "" }))),
+    [drawn, pous, path, text],
+  );
 
   useEffect(() => {
     if (!sheet.current) return;
@@ -185,6 +194,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                   naming={
                     naming?.rung === item.index && named ? { drawing: named, field: field(named, pou?.name) } : null
                   }
+                  twice={twice[item.index] ?? NONE}
                   marks={marksOf(rung, path, breakpoints, halt)}
                 />
               </div>

@@ -1,6 +1,7 @@
 import { type ReactNode, useEffect, useRef } from "react";
 import type { Drawing, Place } from "../../../../logic/graphic/ladderLayout";
 import type { DrawnRung } from "../../../../logic/graphic/rungs";
+import type { Twice } from "../../../../logic/graphic/writers";
 import { loadNames, seenAs, useSeenAs } from "../../../../store/debug/seenAs";
 import { useMembers } from "../../../../store/plc/members";
 import { useForces } from "../../../../store/watch/forces";
@@ -22,10 +23,11 @@ interface Props {
   /** While an element is named: how the rung will be, and the field. */
   naming: { drawing: Drawing; field: ReactNode } | null;
   marks: RungMarks;
+  twice: readonly Twice[];
 }
 
 /** One rung: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function RungRow({ rung, number, pou, id, cursor, naming, marks }: Props) {
+export function RungRow({ rung, number, pou, id, cursor, naming, marks, twice }: Props) {
   const { found, path } = rung;
   const drawing = naming?.drawing ?? rung.drawing;
   const { label, title, comment, off } = found.head;
@@ -60,6 +62,7 @@ export function RungRow({ rung, number, pou, id, cursor, naming, marks }: Props)
           <b className="cut">{title}</b>
           <span className="cm cut">{comment.join(" ")}</span>
           {off && <span className="st faint">{t("graphic.off")}</span>}
+          {twice.length > 0 && <span className="st warn cut">{twice.map(sayTwice).join("; ")}</span>}
           {marks.halt && <span className="st halted">{marks.next === "" ? marks.halt.text : t("graphic.next")}</span>}
           {path === null && <span className="st bad">{t("graphic.unread")}</span>}
         </div>
@@ -80,3 +83,8 @@ export function RungRow({ rung, number, pou, id, cursor, naming, marks }: Props)
     </div>
   );
 }
+
+const sayTwice = ({ name, rungs }: Twice) =>
+  rungs.length === 1
+    ? t("graphic.twice.here", { name })
+    : t("graphic.twice", { name, rungs: rungs.map((index) => index + 1).join(", ") });

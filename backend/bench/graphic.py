@@ -1,0 +1,95 @@
+"""`python -m bench graphic`: 500 rungs of 12 elements, held against the same logic as expressions of ST.
+
+Each figure is the rungs' divided by the expressions': a scan of run code, a scan of the interpreter, from text to a program that was checked, and to
+machine code.
+"""
+
+import argparse
+import json
+import random
+import sys
+from collections.abc import Callable
+from functools import partial
+from statistics import median
+from time import perf_counter_ns
+
+from bench.run import MODEL
+from scanbench.check.build import check_sources
+from scanbench.engines.engine import Engine
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.plcmodel.load import model_named
+from scanbench.program.program import Program
+
+RUNGS, CONTACTS, COILS = 500, 11, 500
+NAMES = [f"x{number}" for number in range(300)]
+SCANS, ROUNDS = 2_000, 7
+
+
+def programs() -> tuple[str, str]:
+    """The rungs, and the expressions: two branches of three contacts, and five contacts after them, for each coil."""
+    chance = random.Random(18)
+    rungs, lines = [], []
+    for number in range(RUNGS):
+        named = [(chance.choice(NAMES), chance.random() < 0.3) for _ in range(CONTACTS)]
+        drawn = [f"[{'/' if negated else ''}{name}]" for name, negated in named]
+        said = [f"{'NOT ' if negated else ''}{name}" for name, negated in named]
+        rungs.append(
+            f"RUNG\n  < {' '.join(drawn[:3])} | {' '.join(drawn[3:6])} > {' '.join(drawn[6:])} (q{number})\nEND_RUNG\n"
+        )
+        lines.append(
+            f"q{number} := ({' AND '.join(said[:3])} OR {' AND '.join(said[3:6])}) AND {' AND '.join(said[6:])};\n"
+        )
+    head = f"PROGRAM Main\nVAR {', '.join(NAMES)} : BOOL; {', '.join(f'q{each}' for each in range(COILS))} : BOOL; END_VAR\n"
+    return f"{head}{''.join(rungs)}END_PROGRAM\n", f"{head}{''.join(lines)}END_PROGRAM\n"
+
+
+def checked(text: str) -> Program:
+    program = check_sources({"main.st": text}, model_named(MODEL)).program
+    assert program is not None
+    return program
+
+
+def made(program: Program) -> Engine:
+    return NativeEngine(program, bytearray(program.initial_image))
+
+
+def took(work: Callable[[], object]) -> float:
+    """ms."""
+    begin = perf_counter_ns()
+    work()
+    return (perf_counter_ns() - begin) / 1e6
+
+
+def measured(scans: int) -> dict[str, float]:
+    """Ratios, rungs to expressions, each the median of rounds that take turns; and µs a scan of the rungs."""
+    texts = programs()
+    both = [checked(text) for text in texts]
+    native = [made(program) for program in both]
+    slow: list[Engine] = [
+        ReferenceEngine(program, bytearray(program.initial_image)) for program in both
+    ]  # fmt: skip
+    times: dict[str, list[list[float]]] = {"run code": [], "interpreter": [], "check": [], "build": []}
+    for _ in range(ROUNDS):
+        times["run code"].append([took(partial(each.run, scans)) for each in native])
+        times["interpreter"].append([took(partial(each.run, 1)) for each in slow])
+    for _ in range(3):
+        times["check"].append([took(partial(checked, text)) for text in texts])
+        times["build"].append([took(partial(made, program)) for program in both])
+    found = {name: median(rungs / lines for rungs, lines in pairs) for name, pairs in times.items()}
+    found["us a scan"] = median(pair[0] for pair in times["run code"]) * 1000 / scans
+    return found
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scans", type=int, default=SCANS)
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    given = parser.parse_args()
+    found = measured(given.scans)
+    lines = [json.dumps(found)] if given.json else [f"{name:<12} {value:8.2f}" for name, value in found.items()]
+    sys.stdout.write("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()
