@@ -77,6 +77,7 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(sheet.getByRole('option', { name: 'Coil on, next element' })).toBeVisible();
     await keyboard.press('F5');
     await expect(sheet.getByText('next element')).toHaveCount(0);
+    await expect(mika.statusBar).not.toContainText('earlier halt');
   });
 
   await test.step('a coil that two rungs write is told in both', async () => {

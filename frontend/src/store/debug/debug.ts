@@ -54,14 +54,14 @@ export function onBreakpoints(breakpoints: readonly BreakpointInfo[]): void {
   set({ breakpoints });
 }
 
-/** A request whose refusal is shown in the status bar; the result is null when it was refused. */
-export async function ask<T = object>(command: string, args: object = {}): Promise<T | null> {
+/** A request whose refusal is shown in the status bar, as long as it is `wanted`; the result is null when it was refused. */
+export async function ask<T = object>(command: string, args: object = {}, wanted = () => true): Promise<T | null> {
   try {
     const body = (await dap.request<T | undefined>(command, args)) ?? ({} as T);
     if (get().refused !== null) set({ refused: null });
     return body;
   } catch (error) {
-    set({ refused: reasonOf(error) });
+    if (wanted()) set({ refused: reasonOf(error) });
     return null;
   }
 }

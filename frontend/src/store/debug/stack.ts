@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { type DebugProtocol, dap } from "../../wire/dap";
 import { usePlc } from "../plc/plc";
 import { onInstanceChange } from "../plc/reset";
-import { ask, reasonOf } from "./debug";
+import { ask, reasonOf, useDebug } from "./debug";
 
 /** What this adapter sends about a frame beyond the protocol. */
 export interface Frame extends DebugProtocol.StackFrame {
@@ -73,12 +73,20 @@ usePlc.subscribe(({ state: now }, { state: before }) => {
 function resetWhileRunning(): void {
   turn += 1;
   set(nothing);
+  // What was refused of this halt means nothing any more.
+  useDebug.setState({ refused: null });
+}
+
+/** Asks about the present halt: a refusal that comes after its end is told to nobody. */
+function askNow<T>(command: string, args: object): Promise<T | null> {
+  const mine = turn;
+  return ask<T>(command, args, () => mine === turn);
 }
 
 async function load(threadId: number): Promise<void> {
   turn += 1;
   const mine = turn;
-  const body = await ask<DebugProtocol.StackTraceResponse["body"]>("stackTrace", { threadId, levels: 200 });
+  const body = await askNow<DebugProtocol.StackTraceResponse["body"]>("stackTrace", { threadId, levels: 200 });
   if (mine !== turn || !body) return;
   const frames = body.stackFrames as Frame[];
   set({ ...nothing, frames, frame: frames[0]?.id ?? null });
@@ -100,7 +108,7 @@ async function loadFrame(): Promise<void> {
   const mine = turn;
   const { frame } = get();
   if (frame === null) return;
-  const body = await ask<DebugProtocol.ScopesResponse["body"]>("scopes", { frameId: frame });
+  const body = await askNow<DebugProtocol.ScopesResponse["body"]>("scopes", { frameId: frame });
   if (mine !== turn || get().frame !== frame || !body) return;
   const below = new Map<string, readonly Variable[]>();
   for (const scope of body.scopes) {
@@ -128,7 +136,7 @@ async function fill(below: Map<string, readonly Variable[]>, key: string, refere
 }
 
 async function fetchBelow(reference: number, start: number): Promise<readonly Variable[]> {
-  const body = await ask<DebugProtocol.VariablesResponse["body"]>("variables", {
+  const body = await askNow<DebugProtocol.VariablesResponse["body"]>("variables", {
     variablesReference: reference,
     start,
     count: PAGE,
