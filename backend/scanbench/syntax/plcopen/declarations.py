@@ -83,15 +83,16 @@ def variable_lines(section: Element) -> Iterator[str]:
 
 def sections_text(interface: Element | None) -> str:
     """The variables of a POU, or global ones."""
-    made = []
-    for section in children(interface, *SECTIONS):
-        lines = "".join(f"{INDENT}{line}\n" for line in variable_lines(section))
-        words = [word.upper() for word in ("constant", "retain", "persistent") if attribute(section, word) == "true"]
-        if attribute(section, "nonretain") == "true":
-            words.append("NON_RETAIN")
-        if lines:
-            made.append(f"{' '.join((SECTIONS[kind(section)], *words))}\n{lines}END_VAR\n")
-    return "".join(made)
+    return "".join(section_text(each) for each in children(interface, *SECTIONS))
+
+
+def section_text(section: Element) -> str:
+    """One section; empty without a variable."""
+    lines = "".join(f"{INDENT}{line}\n" for line in variable_lines(section))
+    words = [word.upper() for word in ("constant", "retain", "persistent") if attribute(section, word) == "true"]
+    if attribute(section, "nonretain") == "true":
+        words.append("NON_RETAIN")
+    return f"{' '.join((SECTIONS[kind(section)], *words))}\n{lines}END_VAR\n" if lines else ""
 
 
 def type_declaration(node: Element) -> str:

@@ -58,6 +58,13 @@ def child(node: Element | None, *path: str) -> Element | None:
     return node
 
 
+def own_data(node: Element, *names: str) -> Iterator[Element]:
+    """What a tool keeps in data of its own, inside of `addData`."""
+    for each in node.iter(etree.Element):
+        if kind(each) in names and any(kind(above) == "addData" for above in each.iterancestors()):
+            yield each
+
+
 def text_of(node: Element | None) -> str:
     """All text inside, as of ST in its XHTML."""
     return "" if node is None else "".join(str(each) for each in node.itertext())

@@ -5,6 +5,10 @@ NO_LANGUAGE = "a body in a language that is not known is left out"
 NO_SOURCE = "a connection leads to nothing; it is FALSE"
 
 
+def no_methods(names: str) -> str:
+    return f"its methods and properties are left out: {names}"
+
+
 def no_transition(line: int) -> str:
     return f"the transition of line {line} is left out: it does not lead from a step to a step"
 

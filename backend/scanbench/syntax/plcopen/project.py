@@ -3,10 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 from scanbench.syntax.plcopen import notes
 from scanbench.syntax.plcopen.chart import Chart, expression
 from scanbench.syntax.plcopen.declarations import (
     duration_text,
+    section_text,
     sections_text,
     type_declaration,
     type_text,
@@ -19,6 +21,7 @@ from scanbench.syntax.plcopen.document import (
     children,
     kind,
     line_of,
+    own_data,
     parse,
     text_of,
 )
@@ -67,7 +70,22 @@ def read_project(data: bytes) -> Project:
     )
     if configurations:
         made.files["Configuration.st"] = configurations
+    for each in own_data(root, "globalVars"):
+        name = attribute(each, "name") or "GVL"
+        made.files[f"{name}.TcGVL"] = _global_list(name, each)
+    product = attribute(child(root, "fileHeader"), "productName")
+    if "codesys" in product.lower():
+        made.files[LANGUAGE_FILE] = language_text("codesys")
     return made
+
+
+def _global_list(name: str, node: Element) -> str:
+    """A list of global variables that is named in the program: only files of this kind have a name for their variables."""
+    text = section_text(node).replace("]]>", "]] >")
+    return (
+        f'<?xml version="1.0" encoding="utf-8"?>\n<TcPlcObject>\n  <GVL Name="{name}">\n'
+        f"    <Declaration><![CDATA[{text}]]></Declaration>\n  </GVL>\n</TcPlcObject>\n"
+    )
 
 
 def _pou(node: Element, read: Read) -> str:
@@ -84,6 +102,9 @@ def _pou(node: Element, read: Read) -> str:
         for each in children(child(node, "actions"), "action")
     )
     body = "".join(_body(each, read, conditions) for each in children(node, "body"))
+    methods = ", ".join(attribute(each, "name") for each in own_data(node, "Method", "Property"))
+    if methods:
+        read.notes.append(notes.no_methods(methods))
     return f"{head}{sections_text(interface)}{actions}{body}END_{word}\n"
 
 

@@ -66,6 +66,25 @@ def test_a_ladder_with_values_between_boxes_becomes_a_block_diagram_and_says_so(
     assert check_sources(made.files, MODELS["GENERIC-IEC"]).problems == ()
 
 
+def test_what_codesys_keeps_in_data_of_its_own_is_read_or_told() -> None:
+    lists = (
+        b'<addData><data name="http://www.3s-software.com/plcopenxml/globalvars" handleUnknown="implementation"><globalVars name="GVL">'
+        b'<variable name="limit"><type><INT/></type><initialValue><simpleValue value="7"/></initialValue></variable></globalVars></data></addData>'
+    )
+    method = b'<addData><data name="http://www.3s-software.com/plcopenxml/method" handleUnknown="implementation"><Method name="Reset"/></data></addData>'
+    data = LINE.replace(b'productName="by hand"', b'productName="CODESYS"').replace(
+        b"</instances>", b"</instances>" + lists
+    )
+    data = data.replace(b"speed := Ramp(speed, 40)", b"speed := Ramp(speed, GVL.limit)").replace(
+        b"</LD></body>", b"</LD></body>" + method
+    )
+    made = read_project(data)
+    assert made.pous[0].notes == ["its methods and properties are left out: Reset"]
+    assert '"codesys"' in made.files["language.json"]
+    checked = check_sources(made.files, MODELS["GENERIC-IEC"])
+    assert checked.problems == ()
+
+
 @pytest.mark.parametrize("version", [b"tc6.xsd", b"tc6_0200", b"tc6_0201"])
 def test_the_versions_are_known(version: bytes) -> None:
     data = LINE.replace(b"tc6_0201", version)
