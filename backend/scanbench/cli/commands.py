@@ -8,6 +8,7 @@ from scanbench.cli.dap import dap
 from scanbench.cli.device import clear, log, present
 from scanbench.cli.diff import diff
 from scanbench.cli.errors import errors
+from scanbench.cli.export_file import export_file
 from scanbench.cli.format import format
 from scanbench.cli.import_file import import_file
 from scanbench.cli.library import library
@@ -29,6 +30,7 @@ app = typer.Typer(
 for command in (serve, check, format, run, verify, replay, diff, dap, lsp):
     app.command()(command)
 app.command("import")(import_file)
+app.command("export")(export_file)
 for command in (present, log, clear):
     errors.command()(command)
 app.add_typer(model, name="model")

@@ -23,3 +23,16 @@ def test_a_file_that_is_no_plcopen_file_is_refused(tmp_path: Path) -> None:
     assert told.returncode == 2
     assert "this PLCopen file cannot be read: this is no XML" in told.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_becomes_a_plcopen_file_and_what_has_no_place_there_is_told(tmp_path: Path) -> None:
+    scanbench("import", str(LINE), str(tmp_path / "line"))
+    told = scanbench("export", str(tmp_path / "line"), str(tmp_path / "again.xml"))
+    assert (told.returncode, told.stdout) == (0, "")
+    assert scanbench("import", str(tmp_path / "again.xml"), str(tmp_path / "again")).returncode == 0
+    for name in ("Latch.st", "Ramp.st", "Types.st", "Configuration.st"):
+        assert (tmp_path / "again" / name).read_text() == (tmp_path / "line" / name).read_text()
+    (tmp_path / "line" / "Own.st").write_text("FUNCTION_BLOCK Own EXTENDS Latch\nEND_FUNCTION_BLOCK\n")
+    told = scanbench("export", str(tmp_path / "line"), str(tmp_path / "more.xml"))
+    assert told.returncode == 1
+    assert told.stdout == "left out: Own: a function_block with EXTENDS, IMPLEMENTS or in a NAMESPACE\n"

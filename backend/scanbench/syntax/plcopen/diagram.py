@@ -1,5 +1,6 @@
 """Connected objects of an FBD, or of a ladder that is none by itself -> the text of a NETWORK, one box a line."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from scanbench.syntax.plcopen import notes
@@ -17,25 +18,49 @@ class Diagram:
 
     group: list[Thing]
     rails: set[str]
+    numbers: Iterator[int]
+    """Of the wires of the body."""
     lines: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     """What could not be kept as it was."""
     _wires: dict[End, str] = field(default_factory=dict)
     _things: dict[str, Thing] = field(default_factory=dict)
     _used: set[End] = field(default_factory=set)
-    _count: int = 0
+    _taken: dict[End, str] = field(default_factory=dict)
+    _inside: set[str] = field(default_factory=set)
+    """Objects that are written in the call of a box."""
 
     def text(self, head: str) -> str:
         self._things = {each.id: each for each in self.group}
         for each in self.group:
             for pin in each.inputs:
                 self._used |= {self._end(end) for end in pin.ends if end[0] in self._things}
+        self._find_taken()
         for each in self.group:
-            self._line(each)
+            if each.id not in self._inside:
+                self._line(each)
         if not self.lines:
             return ""
         inner = "".join(f"{INDENT}{line}\n" for line in self.lines)
         return f"NETWORK{head}\n{inner}END_NETWORK\n"
+
+    def _find_taken(self) -> None:
+        """A variable that takes an output right after its box is written in the call."""
+        box: Thing | None = None
+        for each in self.group:
+            if each.kind == "block":
+                box = each
+            elif each.kind == "outVariable" and box is not None and not (each.negated or each.storage or each.edge):
+                ends = [self._end(end) for pin in each.inputs for end in pin.ends if not (pin.negated or pin.edge)]
+                output = box.output(ends[0][1]) if len(ends) == 1 and ends[0][0] == box.id else None
+                if output is not None and not output.negated and self._uses(ends[0]) == 1:
+                    self._taken[ends[0]] = each.name
+                    self._inside.add(each.id)
+            elif each.kind != "inVariable":
+                box = None
+
+    def _uses(self, end: End) -> int:
+        return sum(self._end(one) == end for each in self.group for pin in each.inputs for one in pin.ends)
 
     # ---- values -----------------------------------------------------------------------------------------------
 
@@ -47,8 +72,7 @@ class Diagram:
     def _wire(self, end: End) -> str:
         end = self._end(end)
         if end not in self._wires:
-            self._count += 1
-            self._wires[end] = f"#w{self._count}"
+            self._wires[end] = f"#w{next(self.numbers)}"
         return self._wires[end]
 
     def _value(self, end: End) -> str:
@@ -82,8 +106,7 @@ class Diagram:
     def _joined(self, values: list[str]) -> str:
         if "TRUE" in values:
             return "TRUE"
-        self._count += 1
-        wire = f"#w{self._count}"
+        wire = f"#w{next(self.numbers)}"
         self.lines.append(f"{wire} = OR({', '.join(values)});")
         return wire
 
@@ -134,7 +157,9 @@ class Diagram:
             end = (each.id, pin.name)
             if pin is result or any(pin.name == one.name for one in each.inputs):
                 continue
-            if end in self._used:
+            if end in self._taken:
+                arguments.append(f"{pin.name} => {self._taken[end]}")
+            elif end in self._used:
                 wire = self._wire(end)
                 arguments.append(f"{pin.name} => {wire}")
                 if pin.negated:
@@ -142,7 +167,10 @@ class Diagram:
             elif pin.expression:
                 arguments.append(f"{pin.name} => {pin.expression}")
         call = f"{each.instance or each.name}({', '.join(arguments)})"
-        if result is not None and (each.id, result.name) in self._used:
+        taken = "" if result is None else self._taken.get((each.id, result.name), "")
+        if taken:
+            self.lines.append(f"{taken} := {call};")
+        elif result is not None and ((each.id, result.name) in self._used or not result.expression):
             wire = self._wire((each.id, result.name))
             self.lines.append(f"{wire} = {call};")
             if result.negated:
@@ -154,8 +182,7 @@ class Diagram:
         self.lines += after
 
     def _negated(self, end: End, wire: str) -> str:
-        self._count += 1
-        self._wires[end] = f"#w{self._count}"
+        self._wires[end] = f"#w{next(self.numbers)}"
         return f"{self._wires[end]} = NOT {wire};"
 
 

@@ -112,9 +112,9 @@ def _ends(point: Element) -> tuple[tuple[str, str], ...]:
     return tuple((attribute(each, "refLocalId"), attribute(each, "formalParameter")) for each in found)
 
 
-def networks_of(things: list[Thing]) -> Iterator[list[Thing]]:
+def networks_of(things: list[Thing], in_order: bool = False) -> Iterator[list[Thing]]:
     """What is connected, as one network each, from top to bottom; a power rail connects nothing. Inside they are in the order in which
-    they run: sources before what they lead to, else by their place."""
+    they run: sources before what they lead to, else by their place. `in_order`: networks do not run in turn."""
     by_id = {each.id: each for each in things}
     leader = {each.id: each.id for each in things}
 
@@ -136,8 +136,20 @@ def networks_of(things: list[Thing]) -> Iterator[list[Thing]]:
     for each in things:
         if each.id not in rails and each.kind not in ("comment", "vendorElement", "error"):
             groups.setdefault(find(each.id), []).append(each)
-    for group in sorted(groups.values(), key=lambda one: min(each.place for each in one)):
-        yield ordered(group)
+    found = sorted(groups.values(), key=lambda one: min(each.place for each in one))
+    yield from (ordered(group) for group in (_apart(found) if in_order else found))
+
+
+def _apart(groups: list[list[Thing]]) -> list[list[Thing]]:
+    """Groups that run in turn are one network: what one writes, the other may read between two of its own boxes."""
+    made: list[list[Thing]] = []
+    for group in groups:
+        last = max((each.place for each in made[-1] if each.kind != "inVariable"), default=None) if made else None
+        if last is not None and min(each.place for each in group) < last:
+            made[-1] += group
+        else:
+            made.append(list(group))
+    return made
 
 
 def ordered(group: list[Thing]) -> list[Thing]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import count
 
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 from scanbench.syntax.plcopen import notes
@@ -118,7 +119,8 @@ def _body(body: Element | None, read: Read, conditions: dict[str, str] | None = 
         return ""
     language = kind(found)
     if language in ("ST", "IL"):
-        text = text_of(found).replace("\r\n", "\n").strip("\n")
+        paragraphs = [text_of(each) for each in children(found)] or [text_of(found)]
+        text = "\n".join(paragraphs).replace("\r\n", "\n").strip("\n")
         return f"{text}\n" if text.strip() else ""
     if language == "SFC":
         chart = Chart(found, lambda inline: _body(inline, read), conditions or {})
@@ -131,8 +133,8 @@ def _body(body: Element | None, read: Read, conditions: dict[str, str] | None = 
 def _networks(body: Element, language: str, read: Read) -> Iterator[str]:
     things = things_in(body)
     rails = {each.id for each in things if each.kind in ("leftPowerRail", "rightPowerRail")}
-    label = ""
-    for group in networks_of(things):
+    label, numbers = "", count(1)
+    for group in networks_of(things, language == "FBD"):
         names = [each.name for each in group if each.kind == "label"]
         own = [each for each in group if each.kind != "label"]
         label = names[0] if names else label
@@ -140,20 +142,20 @@ def _networks(body: Element, language: str, read: Read) -> Iterator[str]:
             continue
         head = f" {label}:" if label else ""
         label = ""
-        yield _network(own, rails, head, language, read)
+        yield _network(own, rails, head, language, numbers, read)
 
 
 def _does_something(group: list[Thing]) -> bool:
     return any(each.kind not in ("inVariable", "continuation", "connector") for each in group)
 
 
-def _network(group: list[Thing], rails: set[str], head: str, language: str, read: Read) -> str:
+def _network(group: list[Thing], rails: set[str], head: str, language: str, numbers: Iterator[int], read: Read) -> str:
     if language == "LD":
         try:
             return f"RUNG{head}\n    {Rung(group, rails).elements()}\nEND_RUNG\n"
         except NoLadder:
             read.notes.append(notes.no_ladder(min(each.line for each in group)))
-    diagram = Diagram(group, rails)
+    diagram = Diagram(group, rails, numbers)
     text = diagram.text(head)
     read.notes += diagram.notes
     return text

@@ -1,0 +1,106 @@
+"""A chart -> objects of SFC."""
+
+from collections.abc import Sequence
+
+from scanbench.syntax import chart, networks
+from scanbench.syntax.plcopen.document import Element
+from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Objects, add, text
+
+
+def write_chart(objects: Objects, written: chart.Chart) -> None:
+    """Steps and transitions in the order of the text; a transition to a step above is a jump."""
+    _Writer(objects, written).write()
+
+
+class _Writer:
+    def __init__(self, objects: Objects, written: chart.Chart) -> None:
+        self._objects, self._chart = objects, written
+        self._order = {each.name.name.upper(): number for number, each in enumerate(written.steps)}
+        self._steps: dict[str, str] = {}
+        self._after: dict[str, End] = {}
+        """What transitions from a step begin at."""
+        self._into: dict[str, list[End]] = {name: [] for name in self._order}
+
+    def write(self) -> None:
+        nodes = {}
+        for step in self._chart.steps:
+            name = step.name.name.upper()
+            marks = {"initialStep": "true"} if step.initial else {}
+            id, nodes[name] = self._objects.make("step", name=step.name.name, **marks)
+            self._steps[name] = id
+        for name, id in self._steps.items():
+            self._after[name] = self._divergence(name, (id, ""))
+        for transition in self._chart.in_order:
+            self._transition(transition)
+        for name, node in nodes.items():
+            ends = self._into[name]
+            if len(ends) > 1:
+                joined, made = self._objects.make("selectionConvergence")
+                for end in ends:
+                    self._objects.connect(made, [end])
+                add(made, "connectionPointOut")
+                ends = [(joined, "")]
+            if ends:
+                self._objects.connect(node, ends)
+            add(node, "connectionPointOut", formalParameter="sfc")
+        for step in self._chart.steps:
+            self._actions(step)
+
+    def _divergence(self, name: str, end: End) -> End:
+        leading = [each for each in self._chart.transitions if [one.name.upper() for one in each.sources] == [name]]
+        if len(leading) < 2:
+            return end
+        id, made = self._objects.make("selectionDivergence")
+        self._objects.connect(made, [end])
+        for _ in leading:
+            add(made, "connectionPointOut")
+        return id, ""
+
+    def _transition(self, each: chart.Transition) -> None:
+        if each.condition is None or isinstance(each.condition, networks.Rung):
+            raise CannotWrite("the condition of a transition as a rung")
+        names = [one.name.upper() for one in each.sources]
+        if len(names) == 1:
+            before = self._after[names[0]]
+        else:
+            id, made = self._objects.make("simultaneousConvergence")
+            for name in names:
+                self._objects.connect(made, [(self._steps[name], "")])
+            add(made, "connectionPointOut")
+            before = (id, "")
+        priority = {"priority": str(each.priority)} if each.priority is not None else {}
+        id, made = self._objects.make("transition", **priority)
+        self._objects.connect(made, [before])
+        add(made, "connectionPointOut")
+        inline = add(add(made, "condition"), "inline", name=each.name)
+        paragraph(add(inline, "ST"), text(each.condition))
+        self._lead([one.name.upper() for one in each.targets], (id, ""), max(self._order[name] for name in names))
+
+    def _lead(self, targets: Sequence[str], end: End, above: int) -> None:
+        if len(targets) > 1:
+            id, made = self._objects.make("simultaneousDivergence")
+            self._objects.connect(made, [end])
+            for _ in targets:
+                add(made, "connectionPointOut")
+            end = (id, "")
+        for name in targets:
+            if self._order[name] > above:
+                self._into[name].append(end)
+                continue
+            _, made = self._objects.make("jumpStep", targetName=self._chart.steps[self._order[name]].name.name)
+            self._objects.connect(made, [end])
+
+    def _actions(self, step: chart.Step) -> None:
+        if not step.actions:
+            return
+        _, made = self._objects.make("actionBlock")
+        self._objects.connect(made, [(self._steps[step.name.name.upper()], "")])
+        for each in step.actions:
+            time = {"duration": text(each.duration)} if each.duration is not None else {}
+            add(add(made, "action", qualifier=each.qualifier, **time), "reference", name=each.name)
+
+
+def paragraph(parent: Element, written: str) -> None:
+    made = parent.makeelement("{http://www.w3.org/1999/xhtml}p", {}, nsmap={"xhtml": "http://www.w3.org/1999/xhtml"})
+    made.text = written
+    parent.append(made)

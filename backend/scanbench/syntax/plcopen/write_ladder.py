@@ -1,0 +1,118 @@
+"""A rung -> objects of LD."""
+
+from scanbench.syntax import networks, tree
+from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Known, Objects, text
+
+EDGES = {"P": "rising", "N": "falling"}
+STORED = {"S": "set", "R": "reset"}
+
+
+class LadderWriter:
+    """The rungs of one body. They share a power rail."""
+
+    def __init__(self, objects: Objects, known: Known) -> None:
+        self._objects = objects
+        self._known = known
+        self._rail: End | None = None
+        self._sent: dict[str, list[End]] = {}
+
+    def rung(self, rung: networks.Rung) -> None:
+        if rung.off:
+            raise CannotWrite("a rung that is switched off")
+        self._objects.next_network()
+        if rung.label:
+            self._objects.make("label", label=rung.label)
+        if len(rung.path) == 1 and any(isinstance(each, networks.Leave) for each in networks.elements(rung.path)):
+            raise CannotWrite("a jump beside other branches of its rung")
+        self._sent = {}
+        self._path(rung.path, [self.rail])
+
+    @property
+    def rail(self) -> End:
+        if self._rail is None:
+            id, made = self._objects.make("leftPowerRail")
+            self._objects.body.remove(made)
+            self._objects.body.insert(0, made)
+            out = made.makeelement("connectionPointOut", {"formalParameter": ""})
+            made.append(out)
+            self._rail = (id, "")
+        return self._rail
+
+    def _path(self, path: networks.Path, power: list[End]) -> list[End]:
+        for each in path:
+            power = self._element(each, power)
+        return power
+
+    def _element(self, each: networks.Element, power: list[End]) -> list[End]:
+        match each:
+            case networks.Contact():
+                return self._symbol("contact", each.mode, text(each.operand), power)
+            case networks.Coil():
+                return self._symbol("coil", each.mode, text(each.target), power)
+            case networks.Parallel():
+                return [end for branch in each.branches for end in self._path(branch, power)]
+            case networks.Link():
+                return self._link(each, power)
+            case networks.Leave():
+                _, made = self._objects.make(
+                    "jump" if each.label else "return", **({"label": each.label} if each.label else {})
+                )
+                self._objects.connect(made, power)
+                return []
+            case networks.Box():
+                return self._box(each, power)
+
+    def _symbol(self, kind: str, mode: str, operand: str, power: list[End]) -> list[End]:
+        marks = {"negated": "true" if mode == "/" else "false"}
+        if mode in EDGES:
+            marks["edge"] = EDGES[mode]
+        if mode in STORED:
+            marks["storage"] = STORED[mode]
+        id, made = self._objects.make(kind, **marks)
+        self._objects.connect(made, power)
+        made.append(made.makeelement("connectionPointOut", {}))
+        variable = made.makeelement("variable", {})
+        variable.text = operand
+        made.append(variable)
+        return [(id, "")]
+
+    def _link(self, each: networks.Link, power: list[End]) -> list[End]:
+        name = each.name.upper()
+        if each.sends:
+            self._sent[name] = power
+            return []
+        if power != [self.rail]:
+            raise CannotWrite(f"the link #{each.name} after contacts")
+        return self._sent.get(name, [])
+
+    def _box(self, each: networks.Box, power: list[End]) -> list[End]:
+        objects, callee = self._objects, text(each.callee)
+        block = self._known.types.get(callee.upper(), "")
+        inputs: list[tuple[str, list[End], str, bool]] = []
+        taken: list[tuple[str, str]] = []
+        links: list[tuple[str, str]] = []
+        count = sum(isinstance(one, networks.Branch) or not one.output for one in each.arguments)
+        for number, argument in enumerate(each.arguments):
+            name = argument.name or self._known.formal(callee, number, count)
+            if isinstance(argument, networks.Branch):
+                inputs.append((name, self._path((argument.parallel,), [self.rail]), "", False))
+            elif argument.output:
+                value = argument.value
+                if isinstance(value, tree.Name) and value.name.startswith(networks.WIRE):
+                    links.append((name, value.name.removeprefix(networks.WIRE)))
+                elif value is not None:
+                    taken.append((name, text(value)))
+            elif isinstance(argument.value, tree.Name) and argument.value.name == networks.POWER:
+                inputs.append((name, power, "", False))
+            elif argument.value is not None:
+                inputs.append((name, [objects.value(text(argument.value))], "", False))
+        outputs = list(dict.fromkeys([*([each.output] if each.output else []), *(name for name, _ in taken + links)]))
+        if each.result is not None:
+            outputs.append("OUT")
+            taken.append(("OUT", text(each.result)))
+        id = objects.block(block or callee, callee if block else "", inputs, outputs)
+        for name, variable in taken:
+            objects.result(variable, [(id, name)])
+        for name, link in links:
+            self._sent[link.upper()] = [(id, name)]
+        return [(id, each.output)] if each.output else power

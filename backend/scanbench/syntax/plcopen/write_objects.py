@@ -1,0 +1,118 @@
+"""Objects of a graphical body, as they are written: local ids, connections, places from left to right and from top to bottom."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from lxml import etree
+
+from scanbench.syntax import tree
+from scanbench.syntax.plcopen.document import Element
+from scanbench.syntax.source import Stretch
+
+End = tuple[str, str]
+"""An object, and its output; empty for the only one."""
+COLUMN, ROW, NETWORK = 120, 40, 2000
+_STANDARD = {"SEL": ("G", "IN0", "IN1"), "MUX": ("K", "IN0"), "LIMIT": ("MN", "IN", "MX")}
+_WIRE = re.compile(r"(?<![\w#])#\w")
+
+
+class CannotWrite(ValueError):
+    """What PLCopen has no form for, for people."""
+
+
+def text(node: tree.Expression | tree.TypeSpec | tree.Initial) -> str:
+    """As it is written in the program."""
+    span = node.span
+    assert isinstance(span, Stretch)
+    return span.source.text[span.start : span.end]
+
+
+def add(parent: Element, name: str, /, **attributes: str) -> Element:
+    return etree.SubElement(parent, name, attributes)
+
+
+class Objects:
+    """What a body is made of."""
+
+    def __init__(self, body: Element) -> None:
+        self.body = body
+        self._count = 0
+        self._row = 0
+        self._column = 0
+
+    def next_network(self) -> None:
+        """What comes now is below all that was there."""
+        self._row = (self._row // NETWORK + 1) * NETWORK if self._count else 0
+        self._column = 0
+
+    def make(self, kind: str, **attributes: str) -> tuple[str, Element]:
+        """A new object with its place."""
+        self._count += 1
+        id = str(self._count)
+        made = add(self.body, kind, localId=id, **attributes)
+        self._row, self._column = self._row + ROW, self._column + 1
+        add(made, "position", x=str(self._column * COLUMN), y=str(self._row))
+        return id, made
+
+    def connect(self, node: Element, ends: Sequence[End]) -> None:
+        """Its input, with all that leads there."""
+        into = add(node, "connectionPointIn")
+        for id, output in ends:
+            add(into, "connection", refLocalId=id, **({"formalParameter": output} if output else {}))
+
+    def value(self, written: str, negated: bool = False) -> End:
+        """An object that gives a value."""
+        id, made = self.make("inVariable", negated="true" if negated else "false")
+        add(made, "connectionPointOut")
+        add(made, "expression").text = written
+        return id, ""
+
+    def result(self, written: str, ends: Sequence[End], storage: str = "none") -> None:
+        """An object that takes one."""
+        _, made = self.make("outVariable", storage=storage)
+        self.connect(made, ends)
+        add(made, "expression").text = written
+
+    def block(
+        self,
+        callee: str,
+        instance: str,
+        inputs: Sequence[tuple[str, Sequence[End], str, bool]],
+        outputs: Sequence[str],
+        id: str = "",
+    ) -> str:
+        """A box; an input has its name, what leads to it, its edge, and whether it is negated."""
+        own, made = self.make("block", typeName=callee, **({"instanceName": instance} if instance else {}))
+        if id:
+            made.set("localId", id)
+        pins = add(made, "inputVariables")
+        for name, ends, edge, negated in inputs:
+            marks = ({"edge": edge} if edge else {}) | ({"negated": "true"} if negated else {})
+            self.connect(add(pins, "variable", formalParameter=name, **marks), ends)
+        add(made, "inOutVariables")
+        pins = add(made, "outputVariables")
+        for name in outputs:
+            add(add(pins, "variable", formalParameter=name), "connectionPointOut")
+        return id or own
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What the boxes of a body call."""
+
+    types: Mapping[str, str]
+    """Of instances of blocks, by upper-case name."""
+    inputs: Mapping[str, tuple[str, ...]]
+    """Of functions of the project, by upper-case name."""
+
+    def formal(self, function: str, number: int, count: int) -> str:
+        """The name of an input that the text gives by its place."""
+        names = self.inputs.get(function.upper()) or _STANDARD.get(function.upper())
+        if names is not None:
+            return names[number] if number < len(names) else f"IN{number - 1}"
+        return "IN" if count == 1 else f"IN{number + 1}"
+
+
+def uses_wires(expression: tree.Expression) -> bool:
+    return _WIRE.search(text(expression)) is not None
