@@ -50,10 +50,13 @@ class DiagramWriter:
             end = self._box(item.value, item.target is not None)
         elif item.value is not None:
             pin = self._input("", item.value)
-            if wire and not pin[2]:
+            of_wire = _is_wire(item.value.operand if isinstance(item.value, tree.UnaryOp) else item.value)
+            if wire and of_wire:
                 self._wires[wire.upper()] = (pin[1][0], pin[3])
                 return
             end = self._plain(pin)
+            if wire and not pin[2]:  # the variable is read now, wherever the wire leads to
+                end = self._objects.block("MOVE", "", [("IN", [end], "", False)], ["OUT"]), "OUT"
         else:
             return
         if wire:
@@ -114,5 +117,5 @@ class DiagramWriter:
         return id, "OUT"
 
 
-def _is_wire(value: tree.Expression) -> bool:
+def _is_wire(value: networks.Pin | networks.Function | tree.Expression) -> bool:
     return isinstance(value, tree.Name) and value.name.startswith(networks.WIRE)
