@@ -17,7 +17,7 @@ MEMORIES = {
     "N": (), "R": (), "S": ("S",), "P": ("P",), "P0": ("P0",), "P1": ("P1",), "L": (), "D": (),
     "SD": ("SD",), "DS": ("DS",), "SL": ("SL",),
 }  # fmt: skip
-"""What an action keeps for each of its qualifiers, BOOL each; a timed one has a timer and a duration as well."""
+"""What an action keeps for each of its qualifiers, BOOL each; a timed one also has whether its time runs, since when, and how long."""
 
 
 @node
@@ -103,7 +103,7 @@ def uses(chart: Chart) -> tuple[Use, ...]:
 
 
 def kept(name: str, what: str) -> str:
-    """The hidden variable of an action: its Q, what a qualifier remembers, `L.timer` and `L.time`."""
+    """The hidden variable of an action: its Q, what a qualifier remembers; of a timed one `L.on`, `L.since` and `L.time`."""
     return f"${name}.{what}"
 
 
@@ -130,5 +130,6 @@ def _variables(chart: Chart) -> Iterator[tree.Variable]:
             for memory in MEMORIES[qualifier]:
                 yield made(kept(use.name, memory), "BOOL", use.first.span)
             if qualifier in TIMED:
-                yield made(kept(use.name, f"{qualifier}.timer"), "TON", use.first.span)
+                yield made(kept(use.name, f"{qualifier}.on"), "BOOL", use.first.span)
+                yield made(kept(use.name, f"{qualifier}.since"), "TIME", use.first.span)
                 yield made(kept(use.name, f"{qualifier}.time"), "TIME", use.first.span)

@@ -25,6 +25,7 @@ from scanbench.syntax import chart, tree
 from scanbench.syntax.networks import Rung
 
 TRUE, FALSE = Const(BOOL, 1), Const(BOOL, 0)
+TIME = ELEMENTARY["TIME"]
 
 
 def chart_statements(body: Body, written: chart.Chart) -> tuple[Stmt, ...]:
@@ -49,6 +50,10 @@ class ChartCode:
 
     def statements(self) -> tuple[Stmt, ...]:
         self._begin()
+        if any(each in chart.TIMED for use in self._uses for each in use.by_qualifier):
+            self._temporary("$now", TIME)
+            clock = tree.Call(tree.Name("TIME", self._made), (), self._made)
+            self._code.run(tree.Assignment(tree.Name("$now", self._made), clock, self._made))
         for step in self._steps.values():
             self._when(self._active(step), partial(self._call, step.name, step.span))
         for use in self._uses:
@@ -174,15 +179,17 @@ class ChartCode:
 
     def _timer(self, use: chart.Use, qualifier: str, value: Expr) -> Expr:
         """Whether the time of the association is over that began last."""
-        name, time = chart.kept(use.name, f"{qualifier}.timer"), chart.kept(use.name, f"{qualifier}.time")
+        time = chart.kept(use.name, f"{qualifier}.time")
         for step, each in use.by_qualifier[qualifier]:
             if each.duration is not None:
                 wanted = tree.Assignment(tree.Name(time, each.span), each.duration, self._made)
                 self._when(self._active(step), partial(self._code.run, wanted))
-        self._set(self._of(name, "IN"), value)
-        self._set(self._of(name, "PT"), Load(self._place(time)))
-        self._call(tree.Name(name, use.first.span), self._made)
-        return Load(self._of(name, "Q"))
+        on, since = self._kept(use, f"{qualifier}.on"), self._kept(use, f"{qualifier}.since")
+        now = Load(self._temporary("$now", TIME))
+        self._when(both(value, no(Load(on))), partial(self._set, since, now))
+        self._set(on, value)
+        elapsed = fold.binary("sub", TIME, now, Load(since))
+        return both(Load(on), fold.compare("ge", TIME, elapsed, Load(self._place(time))))
 
     def _is_variable(self, use: chart.Use) -> bool:
         if not isinstance(use.first.action, tree.Name):
@@ -243,7 +250,7 @@ class ChartCode:
     def _enter(self, step: chart.Step) -> None:
         """Its time begins with its first evaluation."""
         time = self._step(step, "T")
-        self._set(time, Const(ELEMENTARY["TIME"], 0))
+        self._set(time, Const(TIME, 0))
         self._set(self._step(step, "SEEN"), FALSE)
 
     def _test(self, each: chart.Transition, sources: list[chart.Step], targets: list[chart.Step]) -> None:
