@@ -25,7 +25,7 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
   ] as const)
     expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
 
-  const sheet = page.getByRole('listbox', { name: 'Ladder diagrams of Latch.st' });
+  const sheet = page.getByRole('listbox', { name: 'Drawing of Latch.st' });
   await test.step('a motor that holds itself, from nothing, by the keyboard alone', async () => {
     await mika.explorer.item('Latch').dblclick();
     await expect(sheet).toContainText('The motor holds itself');

@@ -39,7 +39,7 @@ test('a PLCopen file becomes a project that runs, drawn; what is not as it was i
 
   await test.step('its ladder is drawn, with power', async () => {
     await mika.explorer.item('Latch').first().dblclick();
-    const sheet = page.getByRole('listbox', { name: 'Ladder diagrams of Latch.st' });
+    const sheet = page.getByRole('listbox', { name: 'Drawing of Latch.st' });
     await expect(sheet.getByRole('option', { name: 'Closed contact stop' })).toBeVisible();
     await expect(sheet.getByRole('option', { name: 'Coil late, set' })).toBeVisible();
     await mika.watch.add('main.go');

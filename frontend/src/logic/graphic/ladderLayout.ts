@@ -61,6 +61,8 @@ export interface Drawing {
   /** Starts of branches without an element, which a cursor can be at. */
   empty: readonly { place: Place; x: number; y: number; width: number }[];
   rail: { left: number; right: number; top: number; bottom: number };
+  /** The node at the end of the rung. */
+  end: number;
 }
 
 const LEFT = 4;
@@ -91,7 +93,7 @@ export function layOut(path: Path, width: number): Drawing {
   const whole = Math.max(width, Math.ceil(size.width) + LEFT + RIGHT + 2 * LEAD);
   const y = size.up + 2;
   const drawer = new Drawer(path);
-  drawer.draw(LEFT, whole - RIGHT, y);
+  const end = drawer.draw(LEFT, whole - RIGHT, y);
   const bottom = y + size.down;
   return {
     width: whole,
@@ -102,6 +104,7 @@ export function layOut(path: Path, width: number): Drawing {
     sends: drawer.sends,
     empty: drawer.empty,
     rail: { left: LEFT, right: whole - RIGHT, top: y - 13, bottom: Math.max(y + 14, bottom) },
+    end,
   };
 }
 
@@ -198,12 +201,12 @@ class Drawer {
 
   constructor(private readonly path: Path) {}
 
-  draw(left: number, right: number, y: number): void {
-    this.flush(this.path, [], left, right, y, 0);
+  draw(left: number, right: number, y: number): number {
+    return this.flush(this.path, [], left, right, y, 0);
   }
 
   /** Draws a path between two rails: what ends it is at the right one. */
-  private flush(path: Path, place: Place, left: number, right: number, y: number, node: number): void {
+  private flush(path: Path, place: Place, left: number, right: number, y: number, node: number): number {
     const tail = tailOf(path);
     const main = this.run(path.slice(0, tail), place, 0, left, y, node);
     const rest = path.slice(tail);
@@ -212,6 +215,7 @@ class Drawer {
     if (path.length === 0) this.empty.push({ place, x: left, y, width: right - left });
     const end = this.run(rest, place, tail, start, y, main.node);
     if (end.x < right) this.wire(end.x, right, y, end.node);
+    return end.node;
   }
 
   /** Draws elements one after the other. */

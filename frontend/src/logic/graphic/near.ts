@@ -1,13 +1,13 @@
 /** Where the cursor goes from an element of a drawing. */
 
-import type { Drawing, Drawn } from "./ladderLayout";
+import type { Spot } from "./sheet";
 
 export type Way = "left" | "right" | "up" | "down";
 
-const middle = ({ x, y, width }: Drawn) => [x + width / 2, y] as const;
+const middle = ({ x, y, width, axis }: Spot) => [axis ?? x + width / 2, y] as const;
 
 /** The index of the next element in a direction; null where there is none. */
-export function next({ elements }: Drawing, from: number, way: Way): number | null {
+export function next(elements: readonly Spot[], from: number, way: Way): number | null {
   const here = elements[from];
   if (!here) return null;
   const [x, y] = middle(here);

@@ -1,13 +1,13 @@
 /** Where the rungs and networks of a file are. A network is found by its first line, so that one that cannot be read hides no other. */
 
-import { commentEnd, stringEnd } from "./reader";
+import { commentEnd, stringEnd, wordsIn } from "./reader";
 import type { Head } from "./tree";
 
 /** A network in the text of a file; offsets are those of the file, lines count from 1. */
 export interface Found {
-  kind: "rung" | "network";
+  kind: "rung" | "network" | "chart";
   head: Head;
-  /** From the word RUNG or NETWORK up to the end of END_RUNG or END_NETWORK. */
+  /** From the word RUNG or NETWORK up to the end of END_RUNG or END_NETWORK; of a chart from its first part to the end of its POU. */
   from: number;
   to: number;
   line: number;
@@ -92,31 +92,21 @@ function commentBelow(text: string, at: number): { comment: string[]; at: number
 
 /** Where the word that ends the network begins and ends; where the next network or the POU begins if it is missing. */
 function endOf(text: string, from: number, kind: "rung" | "network"): { at: number; to: number } {
-  const word = kind === "rung" ? "END_RUNG" : "END_NETWORK";
-  let at = from;
-  while (at < text.length) {
-    const here = text[at] ?? "";
-    const comment = commentEnd(text, at);
-    if (comment !== at) at = comment;
-    else if (here === "'" || here === '"') at = stringEnd(text, at);
-    else if (/[A-Za-z_]/.test(here) && !/[\p{L}\p{N}_]/u.test(text[at - 1] ?? " ")) {
-      const found = /^[\p{L}_][\p{L}\p{N}_]*/u.exec(text.slice(at, at + 200))?.[0] ?? here;
-      const upper = found.toUpperCase();
-      if (upper === word) return { at, to: at + found.length };
-      if (upper.startsWith("END_")) return { at, to: at };
-      if ((upper === "RUNG" || upper === "NETWORK") && startsLine(text, at))
-        return { at: lineStartOf(text, at), to: lineStartOf(text, at) };
-      at += found.length;
-    } else at += 1;
+  const wanted = kind === "rung" ? "END_RUNG" : "END_NETWORK";
+  for (const { word, at } of wordsIn(text, from)) {
+    if (word === wanted) return { at, to: at + word.length };
+    if (word.startsWith("END_")) return { at, to: at };
+    if ((word === "RUNG" || word === "NETWORK") && startsLine(text, at))
+      return { at: lineStartOf(text, at), to: lineStartOf(text, at) };
   }
-  return { at, to: at };
+  return { at: text.length, to: text.length };
 }
 
-const lineStartOf = (text: string, at: number) => text.lastIndexOf("\n", at - 1) + 1;
-const startsLine = (text: string, at: number) => text.slice(lineStartOf(text, at), at).trim() === "";
+export const lineStartOf = (text: string, at: number) => text.lastIndexOf("\n", at - 1) + 1;
+export const startsLine = (text: string, at: number) => text.slice(lineStartOf(text, at), at).trim() === "";
 const unescaped = (title: string) => title.replace(/\$(.)/g, "$1");
 
-function count(text: string, from: number, to: number): number {
+export function count(text: string, from: number, to: number): number {
   let lines = 0;
   for (let at = text.indexOf("\n", from); at >= 0 && at < to; at = text.indexOf("\n", at + 1)) lines += 1;
   return lines;

@@ -99,6 +99,23 @@ export class Reader {
   }
 }
 
+/** The words of a text in capitals, without those in comments and strings. */
+export function* wordsIn(text: string, from = 0, end = text.length): Generator<{ word: string; at: number }> {
+  let at = from;
+  while (at < end) {
+    const here = text[at] ?? "";
+    const comment = commentEnd(text, at, end);
+    WORD.lastIndex = at;
+    if (comment !== at) at = comment;
+    else if (here === "'" || here === '"') at = stringEnd(text, at, end);
+    else if (WORD.test(text)) {
+      const next = WORD.lastIndex;
+      if (!/[\p{N}]/u.test(text[at - 1] ?? " ")) yield { word: text.slice(at, next).toUpperCase(), at };
+      at = next;
+    } else at += 1;
+  }
+}
+
 /** The end of the comment that begins here; the same place when none does. */
 export function commentEnd(text: string, at: number, end = text.length): number {
   const two = text.slice(at, at + 2);

@@ -4,7 +4,7 @@
  */
 
 /** The part of a text that an element is written in: offsets from the start of its network. */
-interface Span {
+export interface Span {
   at: number;
   end: number;
 }

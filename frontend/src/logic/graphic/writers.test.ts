@@ -1,9 +1,9 @@
 import { expect, test } from "vitest";
-import { Rungs } from "./rungs";
+import { Sheet } from "./sheet";
 import { writtenTwice } from "./writers";
 
 const rungs = (...texts: string[]) =>
-  new Rungs()
+  new Sheet()
     .of(texts.map((text) => `RUNG\n  ${text}\nEND_RUNG\n`).join(""), 800)
     .map((drawn, index) => ({ drawn, pou: index < 3 ? "Main" : "Other" }));
 

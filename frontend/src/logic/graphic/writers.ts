@@ -1,6 +1,6 @@
 /** Coils of one variable in several rungs: the last one counts, which people take for a fault of the machine. */
 
-import type { DrawnRung } from "./rungs";
+import type { DrawnPart } from "./sheet";
 
 export interface Twice {
   name: string;
@@ -12,11 +12,11 @@ export interface Twice {
  * For each rung its coils whose variable other coils of the same POU write, too. Coils that only set and reset a variable belong
  * together: one at least must be plain.
  */
-export function writtenTwice(rungs: readonly { drawn: DrawnRung; pou: string }[]): readonly (readonly Twice[])[] {
+export function writtenTwice(rungs: readonly { drawn: DrawnPart; pou: string }[]): readonly (readonly Twice[])[] {
   const byName = new Map<string, { name: string; rungs: number[]; coils: number; plain: boolean }>();
   const keysOf: string[][] = rungs.map(() => []);
   for (const [index, { drawn, pou }] of rungs.entries()) {
-    if (drawn.path === null || drawn.found.head.off) continue;
+    if (drawn.kind !== "rung" || drawn.path === null || drawn.found.head.off) continue;
     for (const { element } of drawn.drawing?.elements ?? []) {
       if (element.kind !== "coil") continue;
       const key = `${pou}.${element.operand}`.toUpperCase();

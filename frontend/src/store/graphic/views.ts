@@ -1,7 +1,7 @@
 /** How each file is shown: as text, as a drawing of its networks, or both beside each other. */
 
 import { create } from "zustand";
-import { networksIn } from "../../logic/graphic/networks";
+import { partsIn } from "../../logic/graphic/charts";
 import { keep, recall } from "../page/localStorage";
 
 type View = "text" | "graphic" | "both";
@@ -21,11 +21,27 @@ export function showAs(path: string, view: View): void {
   keep(KEY, useViews.getState().of);
 }
 
-/** Whether a text has ladder diagrams. */
-export const hasRungs = (text: string): boolean => /^[ \t]*RUNG\b/im.test(text) && networksIn(text).length > 0;
+/** What a text has that is drawn: rungs or charts, both (`mixed`), or nothing. */
+type DrawnKind = "rung" | "chart" | "mixed" | null;
 
-/** The view of a file: where it has ladder diagrams the drawing, until somebody chooses; else the text. */
+/** Those of the last texts: they are asked for whenever a caret moves. */
+const kinds = new Map<string, DrawnKind>();
+
+export function drawnKind(text: string): DrawnKind {
+  const known = kinds.get(text);
+  if (known !== undefined) return known;
+  const found = /^[ \t]*(?:RUNG|STEP|INITIAL_STEP|TRANSITION)\b/im.test(text)
+    ? partsIn(text).map(({ kind }) => kind)
+    : [];
+  const drawn = (["rung", "chart"] as const).filter((kind) => found.includes(kind));
+  const made = drawn.length > 1 ? "mixed" : (drawn[0] ?? null);
+  if (kinds.size >= 8) kinds.clear();
+  kinds.set(text, made);
+  return made;
+}
+
+/** The view of a file: where it has something to draw the drawing, until somebody chooses; else the text. */
 export function useViewOf(path: string, text: string): View {
   const chosen = useViews(({ of }) => of[path] ?? "graphic");
-  return hasRungs(text) ? chosen : "text";
+  return drawnKind(text) ? chosen : "text";
 }

@@ -4,6 +4,7 @@ import { common } from "./common";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
+import { graphic } from "./graphic";
 import { hardware } from "./hardware";
 import { operator } from "./operator";
 import { past } from "./past";
@@ -24,6 +25,7 @@ export const english = {
   ...project,
   ...watch,
   ...errors,
+  ...graphic,
   ...hardware,
   ...sweep,
   ...userErrors,

@@ -5,6 +5,7 @@ import { common } from "./common";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
+import { graphic } from "./graphic";
 import { hardware } from "./hardware";
 import { operator } from "./operator";
 import { past } from "./past";
@@ -25,6 +26,7 @@ export const japanese: Record<TextKey, string> = {
   ...project,
   ...watch,
   ...errors,
+  ...graphic,
   ...hardware,
   ...sweep,
   ...userErrors,

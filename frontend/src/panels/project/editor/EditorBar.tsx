@@ -2,7 +2,7 @@ import { useState } from "react";
 import { pouAt } from "../../../logic/plc/sourceLines";
 import { builtNote, changeNote } from "../../../logic/project/change";
 import { rollBack } from "../../../store/debug/run";
-import { hasRungs, showAs, useViewOf } from "../../../store/graphic/views";
+import { drawnKind, showAs, useViewOf } from "../../../store/graphic/views";
 import { showPanel } from "../../../store/page/navigate";
 import { toggleChecks, toggleFormatOnType, toggleLenses, usePrefs } from "../../../store/page/prefs";
 import { useBench } from "../../../store/plc/bench";
@@ -57,7 +57,7 @@ export function EditorBar({ path }: { path: string }) {
           <BuildOutcome />
         </span>
         <span className="edtools">
-          {hasRungs(text) && <ViewChoice path={path} text={text} />}
+          {drawnKind(text) && <ViewChoice path={path} text={text} />}
           <span className="edextra">
             <RollBack />
           </span>
@@ -92,14 +92,15 @@ export function EditorBar({ path }: { path: string }) {
   );
 }
 
-/** The drawing of the ladder diagrams, the text, or both. */
+/** The drawing of what a file has of ladders and charts, the text, or both. */
 function ViewChoice({ path, text }: { path: string; text: string }) {
   const view = useViewOf(path, text);
+  const drawing = t(`graphic.view.${drawnKind(text) ?? "mixed"}`);
   return (
     <Segments
       label={t("graphic.view")}
       value={view}
-      options={VIEWS.map((value) => ({ value, word: t(`graphic.view.${value}`) }))}
+      options={VIEWS.map((value) => ({ value, word: value === "graphic" ? drawing : t(`graphic.view.${value}`) }))}
       onChoose={(chosen) => showAs(path, chosen)}
     />
   );

@@ -62,7 +62,7 @@ function RefusedNote({ path }: { path: string }) {
   );
 }
 
-/** The text of a file, its drawing where it has ladder diagrams, or both. The text stays in the page: it is what is edited. */
+/** The text of a file, its drawing where it has ladders or charts, or both. The text stays in the page: it is what is edited. */
 function Views({ path, past }: { path: string; past: string | null }) {
   const edited = useDocuments((documents) => documents.open[path]?.text ?? "");
   const text = past ?? edited;

@@ -1,8 +1,8 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef, useState } from "react";
 import { type Drawn, layOut } from "../../../../logic/graphic/ladderLayout";
-import { holds, inText } from "../../../../logic/graphic/places";
-import { type DrawnRung, heightOf, Rungs } from "../../../../logic/graphic/rungs";
+import { elementIn, holds, inText } from "../../../../logic/graphic/places";
+import { type DrawnPart, heightOf, Sheet, spotsOf } from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
@@ -16,10 +16,10 @@ import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
-import { elementBeside, inOrder, moved, sameElement } from "./cursor";
-import { marksOf, toggleRung } from "./marks";
+import { elementBeside, moved, sameElement } from "./cursor";
+import { marksOf, togglePart } from "./marks";
 import { NameField } from "./NameField";
-import { RungRow } from "./RungRow";
+import { PartRow } from "./PartRow";
 import { type Cursor, useEditing } from "./useEditing";
 
 /** Marks, number and margins left and right of a drawing. */
@@ -34,10 +34,10 @@ interface Props {
   readOnly: boolean;
 }
 
-/** The ladder diagrams of a file, drawn: a second view of its text. */
+/** The ladder diagrams and charts of a file, drawn: a second view of its text. */
 export default function GraphicView({ path, text, readOnly }: Props) {
   const sheet = useRef<HTMLDivElement>(null);
-  const rungs = useRef(new Rungs());
+  const parts = useRef(new Sheet());
   const [width, setWidth] = useState(640);
   const [cursor, setCursor] = useState<Cursor>({ rung: 0, place: [0] });
   const id = useId();
@@ -46,7 +46,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const breakpoints = useDebug((debug) => debug.breakpoints);
   const halt = useHaltedLine(path);
   const room = Math.max(320, width - BESIDE);
-  const drawn = useMemo(() => rungs.current.of(text, room), [text, room]);
+  const drawn = useMemo(() => parts.current.of(text, room), [text, room]);
   const pous = shownText(path).pous;
 
   const twice = useMemo(
@@ -84,9 +84,11 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   useEffect(() => {
     if (!target || target.path !== path || target.turn === turn.current) return;
     turn.current = target.turn;
-    const at = drawn.findIndex((rung) => holds(rung, target.line));
+    // The rungs of an action come after their chart, which holds their lines, too.
+    const at = drawn.findLastIndex((part) => holds(part, target.line));
     const opened = pous.some((pou) => pou.file === path && pou.line === target.line);
-    if (at >= 0) go({ rung: at, place: [0] });
+    const part = drawn[at];
+    if (part) go({ rung: at, place: elementIn(part, { line: target.line, column: target.column ?? 1 }) ?? [0] });
     // A variable's declaration is in the text only; who opens a POU looks at its rungs.
     else if (view === "graphic" && !opened) showAs(path, "both");
   });
@@ -126,7 +128,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     const index = Number(rung.dataset.index);
     const clicked = drawn[index];
     if (clicked && on.closest(".g")) {
-      toggleRung(path, clicked, placeInText(clicked, { rung: index, place: [0] }));
+      togglePart(path, clicked, placeInText(clicked, { rung: index, place: [0] }));
       return;
     }
     setCursor({ rung: index, place: hit === undefined ? [] : hit.split(".").map(Number) });
@@ -157,7 +159,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     );
   }
 
-  const active = inOrder(drawn[cursor.rung]).find((each) => sameElement(each.place, cursor.place));
+  const editable = drawn[cursor.rung]?.kind !== "chart";
+  const active = spotsOf(drawn[cursor.rung]).find((each) => sameElement(each.place, cursor.place));
   return (
     <div className="graphicview">
       <div
@@ -185,8 +188,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                 className="netplace"
                 style={{ transform: `translateY(${item.start}px)`, height: item.size }}
               >
-                <RungRow
-                  rung={rung}
+                <PartRow
+                  part={rung}
                   number={item.index + 1}
                   pou={pou}
                   id={`${id}${item.index}`}
@@ -207,14 +210,16 @@ export default function GraphicView({ path, text, readOnly }: Props) {
           <Icon name="info" small />
           {t("graphic.fromvalues")}
         </span>
-        <span className="cut">{editing.refused || t(readOnly ? "graphic.readonly" : "graphic.keys")}</span>
+        <span className="cut">
+          {editing.refused || t(readOnly ? "graphic.readonly" : editable ? "graphic.keys" : "graphic.keys.look")}
+        </span>
       </p>
     </div>
   );
 }
 
 /** Where the element at the cursor begins in the file. */
-function placeInText(rung: DrawnRung | undefined, { place }: Cursor): { line: number; column: number } {
-  if (!rung) return { line: 1, column: 1 };
-  return inText(rung, inOrder(rung).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
+function placeInText(part: DrawnPart | undefined, { place }: Cursor): { line: number; column: number } {
+  if (!part) return { line: 1, column: 1 };
+  return inText(part, spotsOf(part).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
 }

@@ -1,31 +1,16 @@
 import { memo } from "react";
 import type { Drawing, Drawn, Frame } from "../../../../logic/graphic/ladderLayout";
 import { widthOf } from "../../../../logic/graphic/measure";
-import { t } from "../../../../text";
 import { nameOf } from "./names";
+import { type Marked, SpotGroup, sharp } from "./SpotGroup";
 
-/** Lines of one pixel are sharp in the middle of a pixel. */
-const sharp = (value: number) => Math.round(value) + 0.5;
-
-interface Props {
+interface Props extends Marked {
   drawing: Drawing;
-  id: string;
-  /** The place of the cursor, joined by points; null where it is elsewhere. */
-  cursor: string | null;
-  /** The element at which the program is halted, and those with breakpoints: see `RungMarks`. */
-  next: string;
-  points: string;
 }
 
 /** A rung as it is drawn. Its values are written to the elements directly, twenty times a second: see `live.ts`. */
-export const RungDrawing = memo(function RungDrawing({ drawing, id, cursor, next, points }: Props) {
+export const RungDrawing = memo(function RungDrawing({ drawing, ...marked }: Props) {
   const { width, height, wires, elements, rail } = drawing;
-  const shapes = new Map(
-    points.split(",").map((each) => {
-      const [place = "", shape = ""] = each.split(" ");
-      return [place, shape] as const;
-    }),
-  );
   return (
     <svg className="draw" width={width} height={height} role="presentation">
       {wires.map(({ points, node }, index) => (
@@ -40,45 +25,24 @@ export const RungDrawing = memo(function RungDrawing({ drawing, id, cursor, next
       <path className="rail2" data-node={0} d={`M${sharp(rail.left)} ${rail.top}V${rail.bottom}`} />
       <path className="rail2" d={`M${sharp(rail.right)} ${rail.top}V${rail.bottom}`} />
       {elements.map((drawn) => (
-        <Element
-          key={drawn.place.join(".")}
-          drawn={drawn}
-          id={`${id}-${drawn.place.join(".")}`}
-          selected={drawn.place.join(".") === cursor}
-          halted={drawn.place.join(".") === next}
-          point={shapes.get(drawn.place.join("."))}
-        />
+        <Element key={drawn.place.join(".")} drawn={drawn} {...marked} />
       ))}
     </svg>
   );
 });
 
-interface ElementProps {
-  drawn: Drawn;
-  id: string;
-  selected: boolean;
-  halted: boolean;
-  /** The shape of its breakpoint. */
-  point: string | undefined;
-}
-
-function Element({ drawn, id, selected, halted, point }: ElementProps) {
+function Element({ drawn, ...marked }: { drawn: Drawn } & Marked) {
   const { element, x, y, width, up, down, place, frame } = drawn;
   return (
-    <g
-      id={id}
-      className={`el${selected ? " sel" : ""}${halted ? " next" : ""}`}
-      role="option"
-      aria-selected={selected}
-      aria-label={[nameOf(element), halted && t("graphic.next"), point && t("graphic.point")]
-        .filter(Boolean)
-        .join(", ")}
-      data-element={place.join(".")}
+    <SpotGroup
+      {...marked}
+      place={place}
+      name={nameOf(element)}
+      box={{ x: x + 1, y: y - up - 4, width: width - 2, height: up + down + 4 }}
+      dot={{ x: x + 6, y: y - (frame ? up : 9) }}
     >
-      <rect className="hit" x={x + 1} y={y - up - 4} width={width - 2} height={up + down + 4} rx={3} />
       {element.kind === "box" && frame ? <BoxDrawing frame={frame} callee={element.callee} /> : <Shape drawn={drawn} />}
-      {point && <circle className={`dot ${point}`} cx={x + 6} cy={y - (frame ? up : 9)} r={3.5} />}
-    </g>
+    </SpotGroup>
   );
 }
 

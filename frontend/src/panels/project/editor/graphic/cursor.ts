@@ -1,37 +1,34 @@
 /** The cursor of a drawing: at an element, or at the start of an empty rung. */
 
 import type { KeyboardEvent } from "react";
-import type { Drawn, Place } from "../../../../logic/graphic/ladderLayout";
+import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { next, type Way } from "../../../../logic/graphic/near";
-import type { DrawnRung } from "../../../../logic/graphic/rungs";
+import { type DrawnPart, type Spot, spotsOf } from "../../../../logic/graphic/sheet";
 import type { Cursor } from "./useEditing";
 
 const WAYS: Record<string, Way> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
 
 export const sameElement = (a: Place, b: Place) => a.join(".") === b.join(".");
 
-export const inOrder = (rung: DrawnRung | undefined): readonly Drawn[] => rung?.drawing?.elements ?? [];
-
 /** The place of the next element in the order of the text; the same one at the end. */
-export function elementBeside({ elements }: { elements: readonly Drawn[] }, place: Place): Place {
+export function elementBeside({ elements }: { elements: readonly Spot[] }, place: Place): Place {
   const at = elements.findIndex((each) => sameElement(each.place, place));
   return elements[at + 1]?.place ?? place;
 }
 
 /** Where a key moves the cursor to; null where it is no key for that. */
-export function moved(event: KeyboardEvent, { rung, place }: Cursor, drawn: readonly DrawnRung[]): Cursor | null {
-  const elements = inOrder(drawn[rung]);
+export function moved(event: KeyboardEvent, { rung, place }: Cursor, drawn: readonly DrawnPart[]): Cursor | null {
+  const elements = spotsOf(drawn[rung]);
   const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
   const other = step === undefined ? rung : Math.max(0, Math.min(drawn.length - 1, rung + step));
-  const startOf = (at: number): Cursor => ({ rung: at, place: inOrder(drawn[at])[0]?.place ?? [] });
+  const startOf = (at: number): Cursor => ({ rung: at, place: spotsOf(drawn[at])[0]?.place ?? [] });
   if (event.ctrlKey) return step === undefined ? null : startOf(other);
   if (event.key === "Home") return startOf(rung);
   if (event.key === "End") return { rung, place: elements.at(-1)?.place ?? [] };
   const way = WAYS[event.key];
   if (way === undefined) return null;
-  const drawing = drawn[rung]?.drawing;
   const from = elements.findIndex((each) => sameElement(each.place, place));
-  const found = drawing && from >= 0 ? next(drawing, from, way) : null;
+  const found = from >= 0 ? next(elements, from, way) : null;
   if (found !== null && elements[found]) return { rung, place: elements[found].place };
   return other === rung ? { rung, place: from < 0 ? startOf(rung).place : place } : startOf(other);
 }

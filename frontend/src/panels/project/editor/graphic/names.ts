@@ -1,5 +1,6 @@
 /** What readers say about an element: its kind, its operand, its mode. Its value is said when it is selected. */
 
+import type { ChartElement } from "../../../../logic/graphic/chartLayout";
 import type { Drawn } from "../../../../logic/graphic/ladderLayout";
 import { type TextKey, t } from "../../../../text";
 
@@ -32,5 +33,24 @@ export function nameOf(element: Drawn["element"]): string {
       return t("graphic.receive", { name: element.name });
     case "jump":
       return element.label === null ? t("graphic.return") : t("graphic.jump", { label: element.label });
+  }
+}
+
+export function nameOfChartElement(element: ChartElement): string {
+  switch (element.kind) {
+    case "step":
+      return t(element.initial ? "graphic.step.initial" : "graphic.step", { name: element.name });
+    case "transition":
+      return t("graphic.transition", {
+        from: element.from.join(", "),
+        to: element.to.join(", "),
+        condition: element.condition,
+      });
+    case "action":
+      return t("graphic.action", {
+        name: element.action,
+        qualifier: `${element.qualifier} ${element.duration}`.trim(),
+        step: element.step,
+      });
   }
 }

@@ -2,7 +2,7 @@ import { type KeyboardEvent, useState } from "react";
 import { afterKey } from "../../../../logic/graphic/keys";
 import { elementAt, replace } from "../../../../logic/graphic/ladderEdit";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
-import type { DrawnRung } from "../../../../logic/graphic/rungs";
+import type { DrawnPart, DrawnRung } from "../../../../logic/graphic/sheet";
 import type { Element, Path } from "../../../../logic/graphic/tree";
 import { t } from "../../../../text";
 import { addRungBelow, takeBack, writePath } from "./write";
@@ -20,7 +20,7 @@ interface Naming {
 }
 
 /** Edits rungs by keys; `go` moves the cursor. */
-export function useEditing(path: string, drawn: readonly DrawnRung[], readOnly: boolean, go: (to: Cursor) => void) {
+export function useEditing(path: string, drawn: readonly DrawnPart[], readOnly: boolean, go: (to: Cursor) => void) {
   const [naming, setNaming] = useState<Naming | null>(null);
   const [refused, setRefused] = useState("");
 
@@ -28,6 +28,7 @@ export function useEditing(path: string, drawn: readonly DrawnRung[], readOnly: 
   function onKey(event: KeyboardEvent, { rung: at, place: wanted }: Cursor): boolean {
     const rung = drawn[at];
     if (!rung || readOnly) return false;
+    if (rung.kind !== "rung") return event.ctrlKey && undone(event.key.toLowerCase());
     if (event.ctrlKey) return withControl(event.key.toLowerCase(), at, rung);
     if (rung.path === null) return false;
     // The element at the cursor may be gone: somebody else edits the same rung.
@@ -48,8 +49,13 @@ export function useEditing(path: string, drawn: readonly DrawnRung[], readOnly: 
     if (key === "i") {
       addRungBelow(path, rung.found);
       go({ rung: at + 1, place: [] });
-    } else if (key === "z" || key === "y") takeBack(path, key === "y");
-    else return false;
+    } else return undone(key);
+    return true;
+  }
+
+  function undone(key: string): boolean {
+    if (key !== "z" && key !== "y") return false;
+    takeBack(path, key === "y");
     return true;
   }
 

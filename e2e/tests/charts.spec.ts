@@ -1,0 +1,82 @@
+import { expect, test } from '../fixtures/test';
+
+const BATCH = `FUNCTION_BLOCK Batch
+VAR_INPUT start, empty : BOOL; level : INT; END_VAR
+VAR_OUTPUT inlet, heater : BOOL; END_VAR
+INITIAL_STEP Idle: END_STEP
+STEP Fill:
+    inlet(N);
+END_STEP
+STEP Heat:
+    heater(N);
+END_STEP
+STEP Mix: END_STEP
+TRANSITION FROM Idle TO (Fill, Heat) := start; END_TRANSITION
+TRANSITION FROM (Fill, Heat) TO Mix := level >= 80; END_TRANSITION
+TRANSITION FROM Mix TO Idle := empty; END_TRANSITION
+END_FUNCTION_BLOCK
+`;
+
+test('a chart with a simultaneous branch is drawn, shows what is active, and halts at a step', async ({
+  openAs,
+  server,
+}) => {
+  const mika = await openAs('Mika');
+  const { page } = mika;
+  await mika.runs();
+  const project = (await server.get<{ id: number; name: string }[]>('/projects'))[0]?.id;
+  const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
+  const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
+  const main = text
+    .replace('END_VAR', '  batch : Batch; level : INT;\nEND_VAR')
+    .replace('END_PROGRAM', 'batch(start := start, level := level);\nEND_PROGRAM');
+  for (const [file, data] of [
+    ['Batch.st', { text: BATCH, version: 0 }],
+    ['Main.st', { text: main, version }],
+  ] as const)
+    expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
+
+  const sheet = page.getByRole('listbox', { name: 'Drawing of Batch.st' });
+  const step = (name: string) => sheet.getByRole('option', { name: new RegExp(`^(Initial s|S)tep ${name}\\b`) });
+  const active = sheet.locator('.step.on');
+  await test.step('it is drawn, and the first step is active', async () => {
+    await mika.explorer.item('Batch').dblclick();
+    await expect(step('Idle')).toBeVisible();
+    await mika.editor('Batch.st').build();
+    await expect(active).toHaveCount(1);
+    await expect(step('Idle')).toContainText('T#');
+  });
+
+  await test.step('two steps become active together, with their actions', async () => {
+    await mika.watch.set('start', 'TRUE');
+    await expect(active).toHaveCount(2);
+    await expect(sheet.locator('.action.closes')).toHaveCount(2);
+    await expect(sheet.getByRole('option', { name: 'Transition from Fill, Heat to Mix: level >= 80' })).toHaveClass(
+      /enabled/,
+    );
+  });
+
+  await test.step('a breakpoint halts at a step, marked in the drawing', async () => {
+    await step('Heat').click();
+    await page.keyboard.press('F9');
+    await expect(sheet.getByRole('option', { name: 'Step Heat, next element, breakpoint' })).toBeVisible();
+    await step('Heat').click();
+    await page.keyboard.press('F9');
+    await page.keyboard.press('F5');
+    await expect(sheet.getByText('next element')).toHaveCount(0);
+  });
+
+  await test.step('a text that cannot be read is shown below the last drawing', async () => {
+    await page.getByRole('radio', { name: 'Both' }).click();
+    const line = mika.editor('Batch.st').line('TRANSITION FROM Mix TO Idle');
+    await line.click();
+    await page.keyboard.press('End');
+    await page.keyboard.type(' )');
+    await expect(sheet.getByText('cannot be drawn')).toBeVisible();
+    await expect(step('Mix')).toBeVisible();
+    await page.keyboard.press('Control+Z');
+    await expect(sheet.getByText('cannot be drawn')).toHaveCount(0);
+    await line.click();
+    await expect(line).toBeVisible();
+  });
+});

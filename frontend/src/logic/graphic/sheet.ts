@@ -1,0 +1,92 @@
+/** The rungs and charts of a text as they are drawn. What did not change is not laid out again. */
+
+import type { Chart } from "./chart";
+import { type ChartDrawing, layOutChart } from "./chartLayout";
+import { partsIn, readChart } from "./charts";
+import { type Drawing, layOut, type Place } from "./ladderLayout";
+import { readRung } from "./ladderRead";
+import type { Found } from "./networks";
+import type { Path, Span } from "./tree";
+
+interface Drawn<Kind, Picture> {
+  kind: Kind;
+  found: Found;
+  /** While the text cannot be read `drawing` is the last one of this part, if there was any. */
+  readable: boolean;
+  drawing: Picture | null;
+}
+
+export interface DrawnRung extends Drawn<"rung", Drawing> {
+  /** Null where the text cannot be read. */
+  path: Path | null;
+  /** Comments are between its elements, which the drawing does not have: only its text can be edited. */
+  comments: boolean;
+}
+
+interface DrawnChart extends Drawn<"chart", ChartDrawing> {
+  /** Where the statements of its actions are written. */
+  bodies: Chart["bodies"];
+}
+
+export type DrawnPart = DrawnRung | DrawnChart;
+
+/** What a cursor can be at: an element and its place in the drawing. */
+export interface Spot {
+  place: Place;
+  /** The left end, and the height of its middle or of its wire. */
+  x: number;
+  y: number;
+  width: number;
+  /** The line that it is on, where that is not in its middle. */
+  axis?: number;
+  element: { kind: string; span: Span };
+}
+
+export const spotsOf = (part: DrawnPart | undefined): readonly Spot[] => part?.drawing?.elements ?? [];
+
+const HEAD = 28;
+const PLAIN_LINE = 18;
+
+/** How high a part is with its head, in pixels. */
+export function heightOf({ found, readable, drawing }: Pick<DrawnPart, "found" | "readable" | "drawing">): number {
+  return HEAD + (drawing?.height ?? 0) + (readable ? 0 : PLAIN_LINE * found.text.split("\n").length + 12);
+}
+
+/** Draws texts of one file, one after the other. */
+export class Sheet {
+  private known = new Map<string, DrawnPart>();
+  private drawn: readonly DrawnPart[] = [];
+  private width = 0;
+
+  of(text: string, width: number): readonly DrawnPart[] {
+    const before = this.width === width ? this.known : new Map<string, DrawnPart>();
+    const last = this.drawn;
+    this.width = width;
+    this.known = new Map();
+    this.drawn = partsIn(text).map((found, index) => {
+      const same = before.get(found.text);
+      const part = same ? { ...same, found } : draw(found, width, last[index]);
+      this.known.set(found.text, part);
+      return part;
+    });
+    return this.drawn;
+  }
+}
+
+function draw(found: Found, width: number, last: DrawnPart | undefined): DrawnPart {
+  if (found.kind === "chart") {
+    const read = readChart(found);
+    if (read.kind === "chart")
+      return { kind: "chart", found, readable: true, bodies: read.bodies, drawing: layOutChart(read) };
+    const drawing = last?.kind === "chart" ? last.drawing : null;
+    return { kind: "chart", found, readable: false, bodies: [], drawing };
+  }
+  const read = found.closed ? readRung(found) : null;
+  if (read?.kind === "rung")
+    return {
+      ...{ kind: "rung", found, readable: true, path: read.path, comments: read.comments },
+      drawing: layOut(read.path, width),
+    };
+  const drawing = last?.kind === "rung" ? last.drawing : null;
+  return { kind: "rung", found, readable: false, path: null, comments: false, drawing };
+}

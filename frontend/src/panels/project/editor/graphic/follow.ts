@@ -1,0 +1,58 @@
+/** Values of variables as they are written in a POU, followed for a drawing: twenty times a second React would draw it again. */
+
+import { pathOf } from "../../../../store/debug/seenAs";
+import { bindCell } from "../../../../store/plc/values";
+import { watch } from "../../../../store/plc/watches";
+import { forcedAt } from "../../../../store/watch/forces";
+import type { Pou } from "../../../../wire/types";
+
+/** A variable as it may be written: `s[2].ready`. An expression is none. */
+const VARIABLE = /^[\p{L}_%][\p{L}\p{N}_.]*(?:\[[\p{N}\s,-]+\][\p{L}\p{N}_.]*)*$/u;
+
+export interface Values {
+  /** The text of a value; null where it is not known. */
+  text: (variable: string) => string | null;
+  /** The value of a BOOL; null where it is none, or not known. */
+  truth: (variable: string) => boolean | null;
+  forced: (variable: string) => boolean;
+}
+
+const truthOf = (text: string | null) => (text === "TRUE" ? true : text === "FALSE" ? false : null);
+
+/** Calls `paint` now and with each change, at most once a frame, until the returned function is called. */
+export function follow(pou: Pou, variables: Iterable<string>, paint: (values: Values) => void): () => void {
+  const paths = new Map<string, string>();
+  for (const variable of variables) {
+    const path = VARIABLE.test(variable) ? pathOf(pou, variable) : undefined;
+    if (path !== undefined) paths.set(variable, path);
+  }
+  const known = new Map<string, string>();
+  const text = (variable: string) => known.get(variable) ?? null;
+  const values: Values = {
+    text,
+    truth: (variable) => truthOf(text(variable)),
+    forced: (variable) => {
+      const path = paths.get(variable);
+      return path !== undefined && forcedAt(path) !== undefined;
+    },
+  };
+  let due = 0;
+  const now = () => {
+    due = 0;
+    paint(values);
+  };
+  const unwatch = watch([...paths.values()]);
+  const unbind = [...paths].map(([variable, path]) =>
+    bindCell(path, "default", (reading) => {
+      if (reading.text === "") known.delete(variable);
+      else known.set(variable, reading.text);
+      due ||= requestAnimationFrame(now);
+    }),
+  );
+  now();
+  return () => {
+    cancelAnimationFrame(due);
+    for (const each of unbind) each();
+    unwatch();
+  };
+}
