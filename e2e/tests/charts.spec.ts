@@ -28,8 +28,8 @@ test('a chart with a simultaneous branch is drawn, shows what is active, and hal
   const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
   const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
   const main = text
-    .replace('END_VAR', '  batch : Batch; level : INT;\nEND_VAR')
-    .replace('END_PROGRAM', 'batch(start := start, level := level);\nEND_PROGRAM');
+    .replace('END_VAR', '  batch : Batch;\nEND_VAR')
+    .replace('END_PROGRAM', 'batch(start := start, level := SEL(stop, 0, 80));\nEND_PROGRAM');
   for (const [file, data] of [
     ['Batch.st', { text: BATCH, version: 0 }],
     ['Main.st', { text: main, version }],
@@ -64,6 +64,19 @@ test('a chart with a simultaneous branch is drawn, shows what is active, and hal
     await page.keyboard.press('F9');
     await page.keyboard.press('F5');
     await expect(sheet.getByText('next element')).toHaveCount(0);
+  });
+
+  await test.step('the lanes show when each step was active', async () => {
+    await page.getByRole('tab', { name: 'Steps', exact: true }).click();
+    await page.getByRole('button', { name: 'Record the steps' }).click();
+    const lane = (name: string) => page.getByRole('table', { name: 'Times of the steps' }).getByRole('row', { name });
+    await expect(lane('Fill')).toHaveClass('on');
+    await expect(lane('Idle')).not.toHaveClass('on');
+    await page.getByRole('tab', { name: 'Watch', exact: true }).click();
+    await mika.watch.set('stop', 'TRUE');
+    await page.getByRole('tab', { name: 'Steps', exact: true }).click();
+    await expect(lane('Mix')).toHaveClass('on');
+    await expect(lane('Fill').getByRole('cell').nth(1)).toHaveText('1');
   });
 
   await test.step('a text that cannot be read is shown below the last drawing', async () => {

@@ -14,6 +14,7 @@ import { ConsolePanel } from "../panels/debug/console/ConsolePanel";
 import { HistoryPanel } from "../panels/errors/history/HistoryPanel";
 import { ErrorsPanel } from "../panels/errors/tree/ErrorsPanel";
 import { PanelEnd } from "../panels/errors/tree/PanelEnd";
+import { StepsPanel } from "../panels/graphic/StepsPanel";
 import { OperatorPanel } from "../panels/operator/OperatorPanel";
 import { EditorPanel } from "../panels/project/editor/EditorPanel";
 import { ProblemsPanel } from "../panels/project/problems/ProblemsPanel";
@@ -46,6 +47,7 @@ const panels = {
     isPanelFile(path) ? <PanelFile path={path} /> : <EditorPanel path={path} />,
   watch: WatchPanel,
   trace: TracePanel,
+  steps: StepsPanel,
   verify: VerifyPanel,
   forces: ForcesPanel,
   problems: ProblemsPanel,

@@ -26,7 +26,18 @@ export function standardLayout(dock: DockviewApi): void {
     position: { referencePanel: "start", direction: "below" },
     initialHeight: innerHeight < 800 ? 248 : 340,
   });
-  for (const id of ["trace", "verify", "forces", "problems", "search", "diagnostics", "log", "history", "console"]) {
+  for (const id of [
+    "trace",
+    "steps",
+    "verify",
+    "forces",
+    "problems",
+    "search",
+    "diagnostics",
+    "log",
+    "history",
+    "console",
+  ]) {
     dock.addPanel({ id, component: id, position: { referencePanel: "watch" }, inactive: true });
   }
   dock.getPanel("start")?.api.setActive();
@@ -36,6 +47,7 @@ const FIXED = [
   "errors",
   "disturb",
   "watch",
+  "steps",
   "trace",
   "verify",
   "forces",

@@ -41,6 +41,7 @@ const TOPICS: Readonly<Record<string, string>> = {
   search: "projects.md#search-and-replace-in-all-files",
   start: "window.md",
   status: "window.md",
+  steps: "charts.md#the-lanes-of-the-steps",
   sweep: "error-sweep.md",
   timeline: "virtual-plc.md#timeline",
   topbar: "virtual-plc.md#modes",

@@ -12,6 +12,7 @@ export const PANELS = [
   "log",
   "problems",
   "search",
+  "steps",
   "trace",
   "verify",
   "watch",

@@ -229,8 +229,8 @@ function freshName(): string {
 }
 
 /** Makes a new trace of these signals; recording begins now. */
-export function newTrace(signals: readonly string[]): Promise<boolean> {
-  const wanted = { ...PLAIN, name: freshName(), signals: [...signals], start: true };
+export function newTrace(signals: readonly string[], name = freshName()): Promise<boolean> {
+  const wanted = { ...PLAIN, name, signals: [...signals], start: true };
   return define((instance) => wire.make(instance, wanted), signals[0]);
 }
 
