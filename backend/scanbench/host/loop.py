@@ -14,6 +14,7 @@ from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.present import Active
 from scanbench.host.answers import Answers
+from scanbench.host.communication import Communication
 from scanbench.host.covering import Covering
 from scanbench.host.debugcode import Debuggable, Probed
 from scanbench.host.debugging import Debugging
@@ -64,6 +65,7 @@ class Loop:
         self._services = Services(timeline, self._pacer, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
         self._answers = Answers(timeline, self._services, link, self._wants_tick)
+        self._communication = Communication(timeline, self._debugger, self._services, link)
         self._driving = Driving(
             timeline, self._pacer, self._debugger, self._services, self._answers, self.traces, driven
         )
@@ -152,7 +154,9 @@ class Loop:
     def _served(self) -> bool:
         """Serves what was given; false after `Quit`."""
         while self._inbox:
-            self._serve(self._inbox.popleft())
+            message = self._inbox.popleft()
+            if not self._communication.serve(message):
+                self._serve(message)
         return not self._quit
 
     def _run(self) -> None:

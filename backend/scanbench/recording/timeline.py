@@ -111,6 +111,13 @@ class Timeline:
         return live.loaded if live is not None else self.resource.loaded
 
     @property
+    def live_image(self) -> tuple[Loaded, bytes | bytearray]:
+        """That program, and its image where the PLC is or waits."""
+        if self._live is not None:
+            return self._live.loaded, self._live.state
+        return self.resource.loaded, self.resource.memory
+
+    @property
     def live_inside(self) -> Inside | None:
         """Where the PLC's next scan is halted, if it is."""
         return self._live.inside if self._live is not None else self.resource.listening.inside

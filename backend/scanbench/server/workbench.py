@@ -19,6 +19,7 @@ from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
+from scanbench.server.communication import Communication
 from scanbench.server.history import RunHistory
 from scanbench.server.looks import Looks
 from scanbench.server.missing import stand_in, why_missing
@@ -69,6 +70,7 @@ class Workbench:
         self.repositories = Repositories(store, data / "projects")
         self._reactions = SharedJob(self._cache)
         self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
+        self.communication = Communication(store)
         self.watch_lists = WatchLists(store, self._sessions_of)
         self.states = States(store, data / "states")
         self.trace_records = TraceRecords(store, data / "traces", self._cache)
@@ -114,6 +116,7 @@ class Workbench:
         if self._warming is not None:
             self._warming.cancel()
             await asyncio.gather(self._warming, return_exceptions=True)
+        await self.communication.close()
         await self.looks.close()
         await self.sweeps.close()
         await self.trace_records.close()
@@ -277,6 +280,7 @@ class Workbench:
         session = self._sessions.pop(id, None)
         if session is None:
             raise NotFound(f"there is no instance {id}")
+        await self.communication.end(id)
         await self.verifications.forget_instance(id)
         await self.history.forget_instance(id)
         await session.stop()
@@ -307,6 +311,7 @@ class Workbench:
         )  # fmt: skip
         self._sessions[row.id] = session
         await self.sweeps.show([session])
+        await self.communication.begin(session)
         if row.powered:
             session.instance.start()
         return session

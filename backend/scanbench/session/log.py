@@ -6,6 +6,7 @@ from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry
 from scanbench.session.errors import LIVING
 from scanbench.session.marks import Marks
+from scanbench.session.tool_writes import ToolWrites
 from scanbench.symbols.violations import Violations
 from scanbench.wire import events
 from scanbench.wire.events import Event, LogEntry
@@ -14,11 +15,6 @@ from scanbench.wire.host import Diagnosed, MarkKind, PlcState, RunMarks
 LOG_LINES = 500
 LISTED = 100
 """Entries of one moment that get a line each in the browsers."""
-
-
-def _line(entry: Entry) -> LogEntry:
-    command = entry.command
-    return LogEntry(entry.at, entry.scan, command.author, entry.plan.message, command.category)
 
 
 class Log:
@@ -30,7 +26,7 @@ class Log:
     ) -> None:  # fmt: skip
         self._lines = list(lines)[-LOG_LINES:]
         self._publish, self._keep, self._state = publish, keep, state
-        self._marks = Marks()
+        self._marks, self._tool_writes = Marks(), ToolWrites()
         self._violations = Violations()
         self._halted = 0
         """The number of the halt that was told last."""
@@ -87,13 +83,19 @@ class Log:
     def on_entries(self, entries: Sequence[Entry]) -> None:
         """What was entered: all of it is kept; of a program that raises errors all the time most is summed up, not shown."""
         self._publish(self._marks.add(entries))
-        for entry in entries[:LISTED]:
-            self._add(_line(entry))
-        if len(entries) > LISTED:
-            for entry in entries[LISTED:]:
-                self._keep(_line(entry))
-            last, more = entries[-1], len(entries) - LISTED
-            self._show(LogEntry(last.at, last.scan, last.command.author, f"... and {more} more entries", "system"))
+        lines = [line for line in map(self._line, entries) if line is not None]
+        for line in lines[:LISTED]:
+            self._add(line)
+        if len(lines) > LISTED:
+            for line in lines[LISTED:]:
+                self._keep(line)
+            last, more = lines[-1], len(lines) - LISTED
+            self._show(LogEntry(last.at, last.scan, last.author, f"... and {more} more entries", "system"))
+
+    def _line(self, entry: Entry) -> LogEntry | None:
+        text = self._tool_writes.text(entry)
+        command = entry.command
+        return None if text is None else LogEntry(entry.at, entry.scan, command.author, text, command.category)
 
     def on_message(self, message: object) -> bool:
         """What the host says; whether it was for the log."""

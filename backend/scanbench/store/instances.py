@@ -9,7 +9,7 @@ from sqlalchemy.exc import IntegrityError
 from scanbench.runtime.clock import wall_time
 from scanbench.store import rows
 from scanbench.store.connected import Repository, check, the_instance, the_project
-from scanbench.store.records import InstanceRow, Limits, LogRow, NameTaken, NotFound
+from scanbench.store.records import InstanceRow, Json, Limits, LogRow, NameTaken, NotFound
 from scanbench.store.tables import AUTHOR, NAME, Instance, Log
 
 
@@ -53,6 +53,11 @@ class Instances(Repository):
                 return rows.instance(row)
         except IntegrityError as error:
             raise NameTaken(f"there is an instance {name!r} already: choose another name") from error
+
+    def keep_communication(self, instance: int, content: Json) -> None:
+        """Its servers of protocols."""
+        with self._database.writing() as session:
+            the_instance(session, instance, lock=True).communication = dict(content)
 
     def delete(self, instance: int) -> None:
         """Deletes it with its history and log."""

@@ -116,6 +116,8 @@ class InstanceRow:
     limits: Limits = Limits()
     look: bool = False
     """A look at the past, of one person: it ends when nobody is there any more."""
+    communication: Json | None = None
+    """Its servers of protocols, as `server.communication` keeps them; None: nobody has switched one on."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,7 +64,7 @@ def build(row: ProgramVersion) -> BuildRow:
 def instance(row: Instance) -> InstanceRow:
     """An instance."""
     limits = Limits(row.memory_mib, row.cpu_percent, row.run_mib)
-    return InstanceRow(row.id, row.project_id, row.name, row.created, row.powered, limits, row.look)
+    return InstanceRow(row.id, row.project_id, row.name, row.created, row.powered, limits, row.look, row.communication)
 
 
 def history(row: ErrorHistory) -> HistoryRow:

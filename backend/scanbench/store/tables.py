@@ -151,6 +151,7 @@ class Instance(Base):
     cpu_percent: Mapped[int | None]
     run_mib: Mapped[int | None]
     look: Mapped[bool] = mapped_column(server_default=false())
+    communication: Mapped[dict[str, object] | None] = mapped_column(JSON(none_as_null=True))
 
 
 class Person(Base):

@@ -26,6 +26,7 @@ from scanbench.web.operations import Api, operation_id
 from scanbench.web.pages import frontend_directory, not_built_page
 from scanbench.web.routes import archives as routes_archives
 from scanbench.web.routes import binding as routes_binding
+from scanbench.web.routes import communication as routes_communication
 from scanbench.web.routes import debug as routes_debug
 from scanbench.web.routes import dialects as routes_dialects
 from scanbench.web.routes import errors as routes_errors
@@ -98,7 +99,7 @@ def bare_app() -> FastAPI:
     )  # fmt: skip
     for routes in (
         routes_instances, routes_dap, routes_lsp, routes_errors, routes_sweeps, routes_records, routes_projects, routes_archives, routes_git, routes_user_errors,
-        routes_models, routes_invitations, routes_memory, routes_binding, routes_debug, routes_dialects, routes_libraries, routes_traces, routes_values, routes_watch, routes_verify,
+        routes_models, routes_invitations, routes_memory, routes_communication, routes_binding, routes_debug, routes_dialects, routes_libraries, routes_traces, routes_values, routes_watch, routes_verify,
         routes_past,
     ):  # fmt: skip
         app.include_router(routes.router)

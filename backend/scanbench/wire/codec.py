@@ -63,6 +63,7 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
+from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
@@ -94,7 +95,7 @@ _CLASSES: dict[str, type] = {
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.InEffect, protocol.Start, protocol.StartFailed,
         protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
-        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
+        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, AreaWrite, WriteAreas, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, OutputRestart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,

@@ -70,3 +70,38 @@ class WordsFound:
     scan: int
     words: tuple[int, ...]
     message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class AreaSpan:
+    """`size` bytes of a memory area from `byte` on, as they lie there: words little endian."""
+
+    area: str
+    byte: int
+    size: int
+    forced: bool = False
+    """Which bits of them are forced is asked, not what they are."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadAreas:
+    """Bytes of memory areas, all of one seam of the PLC that runs, also while its past is shown; answered with `AreasAre`."""
+
+    ref: int
+    spans: tuple[AreaSpan, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AreasAre:
+    """Answer to `ReadAreas`, as it is before `scan`; `message` says why nothing was read."""
+
+    ref: int
+    scan: int
+    mode: str
+    """PROGRAM, MONITOR or RUN."""
+    stopped: bool
+    """A fatal error or a trap keeps the program from running."""
+    clock_ns: int
+    """What the PLC's own clock shows, since 1970."""
+    data: tuple[bytes, ...]
+    message: str = ""

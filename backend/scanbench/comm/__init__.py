@@ -1,0 +1,1 @@
+"""The virtual communication unit: protocols that tools, HMIs and SCADA speak to a PLC."""

@@ -1,0 +1,131 @@
+"""Who is at a server of the communication unit, what was asked lately, and what was refused."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from typing import ClassVar
+
+from scanbench.comm.door import Door
+from scanbench.public import Moment, Public
+from scanbench.runtime.clock import monotonic_ns, wall_time
+
+FRAMES_KEPT = 200
+CLIENTS_KEPT = 64
+IDLE_NS = 60_000_000_000
+"""Who has asked nothing for so long is not there any more, where nothing else says that a client went."""
+_WINDOW_NS = 2_000_000_000
+_SECOND_NS = 1_000_000_000
+_HEX_SHOWN = 48
+"""Bytes of a frame that are shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class FrameSeen(Public):
+    """A request, and how it was answered."""
+
+    PUBLIC: ClassVar = "CommunicationFrame"
+
+    at: Moment
+    client: str
+    text: str
+    """Decoded: `memory area read D100, 3`."""
+    outcome: str
+    """Empty where it was done; else why not, with the code of the protocol."""
+    request: str
+    """Bytes in hexadecimal, as many as there is room for."""
+    answer: str
+
+
+@dataclass(frozen=True, slots=True)
+class ClientSeen(Public):
+    """A client of a server."""
+
+    PUBLIC: ClassVar = "CommunicationClient"
+
+    name: str
+    """As commands have it for their author."""
+    since: Moment
+    requests: int
+    refused: int
+    last_refused: str
+    """Empty: nothing was."""
+
+
+@dataclass(slots=True)
+class _Client:
+    seen: ClientSeen
+    last_ns: int
+
+
+@dataclass(slots=True)
+class Desk:
+    """Of one server. `make_door` gives a client its door, by name; `on_clients` is called when one comes or goes."""
+
+    make_door: Callable[[str], Door]
+    on_clients: Callable[[], None]
+    read_only: bool
+    _clients: dict[str, _Client] = field(default_factory=dict)
+    _frames: deque[FrameSeen] = field(default_factory=lambda: deque(maxlen=FRAMES_KEPT))
+    _answered: deque[int] = field(default_factory=lambda: deque(maxlen=1 << 14))
+
+    @property
+    def clients(self) -> tuple[ClientSeen, ...]:
+        """Who is there, the first first."""
+        return tuple(each.seen for each in self._clients.values())
+
+    @property
+    def frames(self) -> tuple[FrameSeen, ...]:
+        """The last requests, the oldest first."""
+        return tuple(self._frames)
+
+    @property
+    def per_second(self) -> float:
+        """Requests a second, lately."""
+        begin = monotonic_ns() - _WINDOW_NS
+        while self._answered and self._answered[0] < begin:
+            self._answered.popleft()
+        return len(self._answered) * _SECOND_NS / _WINDOW_NS
+
+    def arrive(self, name: str) -> bool:
+        """A client is there; false where there is no room for one more."""
+        known = self._clients.get(name)
+        if known is not None:
+            known.last_ns = monotonic_ns()
+            return True
+        if len(self._clients) >= CLIENTS_KEPT:
+            self.tidy()
+        if len(self._clients) >= CLIENTS_KEPT:
+            return False
+        self._clients[name] = _Client(ClientSeen(name, wall_time(), 0, 0, ""), monotonic_ns())
+        self.on_clients()
+        return True
+
+    def leave(self, name: str) -> None:
+        """A client is gone."""
+        if self._clients.pop(name, None) is not None:
+            self.on_clients()
+
+    def tidy(self) -> None:
+        """Those that were not heard for long are gone."""
+        now = monotonic_ns()
+        for name in [name for name, each in self._clients.items() if now - each.last_ns > IDLE_NS]:
+            self.leave(name)
+
+    def note(self, name: str, text: str, outcome: str, request: bytes, answer: bytes) -> None:
+        """A request was answered; `outcome` is empty where it was done."""
+        at: datetime = wall_time()
+        self._answered.append(monotonic_ns())
+        self._frames.append(FrameSeen(at, name, text, outcome, _shown(request), _shown(answer)))
+        client = self._clients.get(name)
+        if client is None:
+            return
+        client.last_ns, seen = monotonic_ns(), client.seen
+        client.seen = replace(
+            seen, requests=seen.requests + 1, refused=seen.refused + bool(outcome),
+            last_refused=f"{text}: {outcome}" if outcome else seen.last_refused,
+        )  # fmt: skip
+
+
+def _shown(data: bytes) -> str:
+    return data[:_HEX_SHOWN].hex(" ") + (" ..." if len(data) > _HEX_SHOWN else "")

@@ -1,0 +1,1 @@
+"""FINS, which Omron's tools and many others speak: over UDP and over TCP."""

@@ -1,0 +1,61 @@
+"""Forces over FINS: 2301 forced set and reset, 2302 forced cancel."""
+
+from scanbench.comm.door import Door
+from scanbench.comm.fins.areas import Element, Form, element
+from scanbench.comm.fins.codes import End, Refused
+from scanbench.comm.fins.outcome import enter
+from scanbench.runtime.command import Command
+from scanbench.runtime.forces import Force, Release
+
+_ENTRY = 6
+_RESET, _SET = 0x0000, 0x0001
+_RELEASES = (0x8000, 0x8001, 0xFFFF)
+
+
+async def on_force(door: Door, body: bytes) -> bytes:
+    """Bits that are set, reset or released, one after the other: the first that cannot be ends it, and those before it stay."""
+    count = int.from_bytes(body[:2], "big")
+    if len(body) != 2 + count * _ENTRY:
+        raise Refused(End.NOT_AS_MANY)
+    entries = [body[at : at + _ENTRY] for at in range(2, len(body), _ENTRY)]
+    commands = [_command(door, entry) for entry in entries]
+    await _permitted(door)
+    for command in commands:
+        if isinstance(command, Release):
+            await door.submit(command)  # one that is not forced is released already
+        else:
+            await enter(door, command)
+    return b""
+
+
+async def on_force_cancel(door: Door, _body: bytes) -> bytes:
+    """All forces are released, whoever made them, as at the device."""
+    await _permitted(door)
+    await enter(door, Release(door.author, None))
+    return b""
+
+
+async def _permitted(door: Door) -> None:
+    if (await door.read(())).mode == "RUN":
+        raise Refused(End.NOT_IN_RUN)
+
+
+def _command(door: Door, entry: bytes) -> Command:
+    what = int.from_bytes(entry[:2], "big")
+    place = element(door.model, entry[2], int.from_bytes(entry[3:5], "big"), entry[5])
+    path = _path(door, place)
+    if what in _RELEASES:
+        return Release(door.author, path)
+    if what not in (_RESET, _SET):
+        raise Refused(End.PARAMETER)
+    return Force(door.author, path, "TRUE" if what == _SET else "FALSE")
+
+
+def _path(door: Door, place: Element) -> str:
+    """The address of a bit of CIO, W or H; there are no flags of timers that could be forced."""
+    if place.form is Form.UNUSED:
+        raise Refused(End.CANNOT_CHANGE)
+    if place.form is not Form.BIT or place.area is None or place.area.name not in ("CIO", "W", "H"):
+        raise Refused(End.NO_AREA)
+    place.spans(1)
+    return door.model.format(place.area, 2 * place.word + place.bit // 8, place.bit % 8, 1)

@@ -1,0 +1,1 @@
+"""Modbus TCP, which nearly every HMI and SCADA speaks."""

@@ -1,0 +1,204 @@
+"""The communication units of all PLCs: which servers of protocols are on, who is connected, and that it outlives a restart."""
+
+import asyncio
+import logging
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from ipaddress import ip_address
+from typing import Protocol
+
+from scanbench.comm.desk import Desk
+from scanbench.comm.fins.service import FinsServer
+from scanbench.comm.modbus.mapping import Mapped, default
+from scanbench.comm.modbus.service import ModbusServer
+from scanbench.plcmodel.model import Model
+from scanbench.server.communication_door import ErrorReaders, SessionDoor
+from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerSeen, ServerWanted
+from scanbench.session.session import Session
+from scanbench.store.store import Store
+from scanbench.typed import BadValue, make_kept
+from scanbench.wire.refused import Refused
+
+log = logging.getLogger("scanbench")
+_PORTS = 1 << 16
+_NODES = range(1, 255)
+
+
+class Server(Protocol):
+    """What serves one protocol."""
+
+    port: int
+
+    async def open(self, host: str, port: int) -> None:
+        """Listens. `OSError`."""
+
+    async def close(self) -> None:
+        """Ends, and every connection with it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A protocol: the models that speak it, the port that clients expect, and how its server is made."""
+
+    spoken_by: Callable[[Model], bool]
+    port: int
+    make: Callable[[Desk, ServerWanted], Server]
+
+
+KINDS: Mapping[ServerKind, Kind] = {
+    "fins": Kind(lambda model: model.vendor == "omron", 9600, lambda desk, wanted: FinsServer(desk, wanted.node)),
+    "modbus": Kind(lambda model: True, 502, lambda desk, _wanted: ModbusServer(desk)),
+}
+
+
+@dataclass(slots=True)
+class _Running:
+    """A server of a PLC."""
+
+    wanted: ServerWanted
+    desk: Desk | None = None
+    server: Server | None = None
+    trouble: str = ""
+
+
+@dataclass(slots=True)
+class _Unit:
+    """The communication unit of a PLC."""
+
+    session: Session
+    readers: ErrorReaders
+    servers: dict[ServerKind, _Running] = field(default_factory=dict)
+    turning: asyncio.Lock = field(default_factory=asyncio.Lock)
+
+
+class Communication:
+    """Of all PLCs of this server."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._units: dict[int, _Unit] = {}
+
+    async def begin(self, session: Session) -> None:
+        """A PLC is there: opens the servers that were on."""
+        unit = self._units[session.id] = _Unit(session, ErrorReaders(session.model))
+        kept = session.row.communication or {}
+        for kind in self._kinds(session):
+            unit.servers[kind] = _Running(_read(kept.get(kind)))
+            await self._turn(unit, kind)
+
+    async def end(self, id: int) -> None:
+        """A PLC is gone: closes its servers."""
+        unit = self._units.pop(id, None)
+        if unit is not None:
+            for running in unit.servers.values():
+                await _close(running)
+
+    async def close(self) -> None:
+        """Closes all servers."""
+        for id in list(self._units):
+            await self.end(id)
+
+    def seen(self, session: Session) -> CommunicationSeen:
+        """As it is now."""
+        unit = self._units[session.id]
+        servers = tuple(_seen(kind, running) for kind, running in unit.servers.items())
+        return CommunicationSeen(servers, unit.readers.all)
+
+    async def set(self, session: Session, kind: ServerKind, wanted: ServerWanted, author: str) -> CommunicationSeen:
+        """Switches a server on or off, or gives it other settings; they are kept. `Refused`."""
+        unit = self._units[session.id]
+        if kind not in unit.servers:
+            raise Refused(f"{session.model.name} does not speak {kind}", tuple(unit.servers))
+        _refuse_wrong(wanted)
+        async with unit.turning:
+            await _close(unit.servers[kind])
+            unit.servers[kind] = _Running(wanted)
+            await self._turn(unit, kind)
+            kept: dict[str, object] = {each: asdict(running.wanted) for each, running in unit.servers.items()}
+            await asyncio.to_thread(self._store.instances.keep_communication, session.id, kept)
+        running = unit.servers[kind]
+        told = f"{kind} server {'on at ' + _address(running) if running.server else 'off'}"
+        session.log.add(author, f"{told}{': ' * bool(running.trouble)}{running.trouble}", "system")
+        return self.seen(session)
+
+    def modbus_table(self, session: Session) -> tuple[Mapped, ...]:
+        """Which memory each coil and register means."""
+        return default(session.model)
+
+    def _kinds(self, session: Session) -> list[ServerKind]:
+        return [kind for kind, each in KINDS.items() if each.spoken_by(session.model)]
+
+    async def _turn(self, unit: _Unit, kind: ServerKind) -> None:
+        """Opens a server that is wanted on; where that cannot be, its trouble says why."""
+        running = unit.servers[kind]
+        wanted = running.wanted
+        if not wanted.on:
+            return
+        desk = Desk(
+            lambda name: SessionDoor(unit.session, name, unit.readers),
+            lambda: _tell_clients(unit),
+            wanted.access == "read",
+        )
+        server = KINDS[kind].make(desk, wanted)
+        try:
+            await server.open(wanted.host, wanted.port)
+        except OSError as error:
+            why = error.strerror or str(error)
+            running.trouble = (
+                f"{wanted.host}:{wanted.port} cannot be listened on: {why}. Choose a different port or address"
+            )
+            return
+        running.desk, running.server = desk, server
+
+
+def _tell_clients(unit: _Unit) -> None:
+    """Everybody at the PLC sees who is connected."""
+    names = (
+        client.name for running in unit.servers.values() if running.desk is not None for client in running.desk.clients
+    )
+    unit.session.set_tools(tuple(names))
+
+
+async def _close(running: _Running) -> None:
+    server, running.server = running.server, None
+    if server is not None:
+        await server.close()
+    running.desk = None
+
+
+def _read(kept: object) -> ServerWanted:
+    """What was kept; what cannot be understood is off."""
+    if not isinstance(kept, dict):
+        return ServerWanted()
+    try:
+        return make_kept(ServerWanted, kept)
+    except BadValue as error:
+        log.error("the settings of a server cannot be read: %s", error)
+        return ServerWanted()
+
+
+def _refuse_wrong(wanted: ServerWanted) -> None:
+    try:
+        ip_address(wanted.host)
+    except ValueError:
+        raise Refused(f"{wanted.host!r} is no IP address: 127.0.0.1 is this machine alone") from None
+    if not 0 <= wanted.port < _PORTS:
+        raise Refused(f"port {wanted.port} is outside of 1 to {_PORTS - 1}; 0 is one that is free")
+    if wanted.node not in _NODES:
+        raise Refused(f"node {wanted.node} is outside of 1 to {_NODES[-1]}")
+
+
+def _address(running: _Running) -> str:
+    if running.server is None:
+        return ""
+    host = running.wanted.host
+    return f"[{host}]:{running.server.port}" if ":" in host else f"{host}:{running.server.port}"
+
+
+def _seen(kind: ServerKind, running: _Running) -> ServerSeen:
+    desk = running.desk
+    if desk is None:
+        return ServerSeen(kind, running.wanted, False, "", running.trouble, 0.0, (), ())
+    return ServerSeen(
+        kind, running.wanted, True, _address(running), "", desk.per_second, desk.clients, desk.frames
+    )  # fmt: skip

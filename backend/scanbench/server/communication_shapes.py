@@ -1,0 +1,69 @@
+"""The servers of the communication unit of a PLC, as they are set and as people see them."""
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from scanbench.comm.desk import ClientSeen, FrameSeen
+from scanbench.public import Public
+
+ServerKind = Literal["fins", "modbus"]
+
+
+@dataclass(frozen=True, slots=True)
+class ServerWanted(Public):
+    """A server as somebody sets it."""
+
+    PUBLIC: ClassVar = "CommunicationServerSettings"
+    GIVEN: ClassVar = True
+
+    on: bool = False
+    host: str = "127.0.0.1"
+    """The address it listens on: a loopback address of its own for each PLC (127.0.0.11), or one of the machine's."""
+    port: int = 0
+    """0: one that is free."""
+    access: Literal["read", "write"] = "read"
+    """What clients may do."""
+    node: int = 1
+    """The node number of the PLC; of FINS only."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServerSeen(Public):
+    """A server as it is."""
+
+    PUBLIC: ClassVar = "CommunicationServer"
+
+    kind: ServerKind
+    settings: ServerWanted
+    listening: bool
+    address: str
+    """What to type into a client: `127.0.0.1:9600`; empty while it does not listen."""
+    trouble: str
+    """Why it does not listen although it is on."""
+    per_second: float
+    """Requests, lately."""
+    clients: tuple[ClientSeen, ...]
+    frames: tuple[FrameSeen, ...]
+    """The last ones, the oldest first."""
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorReader(Public):
+    """A word of error memory that clients have read since their server was switched on."""
+
+    PUBLIC: ClassVar = "ErrorMemoryReader"
+
+    word: str
+    """In the vendor's notation."""
+    clients: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CommunicationSeen(Public):
+    """The communication unit of a PLC."""
+
+    PUBLIC: ClassVar = "Communication"
+
+    servers: tuple[ServerSeen, ...]
+    """Those that the model can have."""
+    error_readers: tuple[ErrorReader, ...]

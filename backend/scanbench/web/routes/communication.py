@@ -1,0 +1,42 @@
+"""REST: the communication unit of a PLC: servers that protocol clients connect to."""
+
+from fastapi import APIRouter, Request
+from fastapi.responses import Response
+
+from scanbench.comm.modbus.mapping import Mapped, as_csv
+from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerWanted
+from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id
+from scanbench.web.reach import Bench
+
+router = APIRouter(prefix="/api/instances/{instance}/communication", tags=["communication"])
+
+
+@router.get("")
+async def on_communication(bench: Bench, instance: Id) -> CommunicationSeen:
+    """Its servers, who is connected, what was asked lately, and who reads the error memory."""
+    return bench.communication.seen(bench.session(instance))
+
+
+@router.put("/{kind}")
+async def on_set(
+    bench: Bench, request: Request, instance: Id, kind: ServerKind, wanted: ServerWanted
+) -> CommunicationSeen:
+    """Switches a server on or off, or gives it other settings. They are kept: it is on again when Scanbench starts again."""
+    return await bench.communication.set(bench.session(instance), kind, wanted, user_of(request).name)
+
+
+@router.get("/modbus/map")
+async def on_modbus_map(bench: Bench, instance: Id) -> list[Mapped]:
+    """Which memory each coil and register of Modbus means."""
+    return list(bench.communication.modbus_table(bench.session(instance)))
+
+
+@router.get("/modbus/map.csv", response_class=Response)
+async def on_modbus_csv(bench: Bench, instance: Id) -> Response:
+    """The same as a spreadsheet opens it."""
+    session = bench.session(instance)
+    return Response(
+        as_csv(bench.communication.modbus_table(session)), media_type="text/csv",
+        headers={"content-disposition": f'attachment; filename="modbus-{instance}.csv"'},
+    )  # fmt: skip

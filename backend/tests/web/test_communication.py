@@ -1,0 +1,238 @@
+"""Clients that somebody else wrote, at the servers of a virtual PLC: FINS and Modbus."""
+
+import os
+import signal
+import socket
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fins import FinsClient
+from fins.command import Command
+from pymodbus.client import ModbusTcpClient
+
+from scanbench.recording.blocks import read_contents
+from scanbench.recording.format import RunFile
+from scanbench.runtime.write_areas import WriteAreas
+from scanbench.wire.codec import ENTRIES
+from tests.cli.calling import scanbench
+from tests.web.server import PATIENCE_S, Server
+
+MODEL = "CJ1M-CPU13"
+SOURCE = """
+PROGRAM Main
+VAR level AT D100 : INT; twice AT D101 : INT; raised AT CIO 100.00 : BOOL; errors AT A400 : WORD; n : DINT; END_VAR
+  n := n + 1; twice := 2 * level; raised := errors <> 0;
+END_PROGRAM
+"""
+BATTERY = 0x00F7
+
+
+def switch_on(server: Server, instance: int, kind: str, access: str = "write") -> int:
+    wanted = {"on": True, "host": "127.0.0.1", "port": 0, "access": access, "node": 1}
+    reply = server.http.put(f"/api/instances/{instance}/communication/{kind}", json=wanted)
+    assert reply.status_code == 200, reply.text
+    (seen,) = (each for each in reply.json()["servers"] if each["kind"] == kind)
+    assert seen["listening"], seen
+    return int(seen["address"].rpartition(":")[2])
+
+
+def seen(server: Server, instance: int, kind: str) -> dict[str, Any]:
+    reply = server.http.get(f"/api/instances/{instance}/communication").json()
+    (found,) = (each for each in reply["servers"] if each["kind"] == kind)
+    return dict(found)
+
+
+def fins(port: int) -> FinsClient:
+    client = FinsClient("127.0.0.1", port, timeout=PATIENCE_S)
+    client.connect()
+    return client
+
+
+def words(response: Any) -> list[int]:
+    assert response.code in (b"\x00\x00", b"\x00\x40"), response.code.hex()
+    return [int.from_bytes(response.data[at : at + 2], "big") for at in range(0, len(response.data), 2)]
+
+
+def until(found: Callable[[], bool]) -> None:
+    """Asks again and again: each answer is of a later scan."""
+    for _ in range(10_000):
+        if found():
+            return
+    pytest.fail("it never came true")
+
+
+def raise_battery_error(server: Server, instance: int) -> None:
+    wanted = {"errors": [{"id": "battery-error"}]}
+    server.http.post(f"/api/instances/{instance}/errors/generate", json=wanted).raise_for_status()
+
+
+def test_a_fins_client_reads_writes_is_refused_and_sees_errors(server: Server) -> None:
+    instance = server.instance("fins", MODEL, main=SOURCE)
+    client = fins(switch_on(server, instance, "fins"))
+    assert client.memory_area_write("D100", b"\x00\x15").code == b"\x00\x00"
+    assert words(client.memory_area_read("D100")) == [21]
+    until(lambda: words(client.memory_area_read("D100", 2)) == [21, 42])
+    assert client.memory_area_write("A400", b"\x00\x01").code == b"\x21\x01"
+    assert words(client.memory_area_read("A400")) == [0]
+
+    raise_battery_error(server, instance)
+    until(lambda: words(client.memory_area_read("A400")) == [BATTERY])
+    assert client.memory_area_read("A400").code == b"\x00\x40", "a non-fatal error is told in each answer"
+    until(lambda: client.memory_area_read("CIO100.00").data == b"\x01")
+
+    told = seen(server, instance, "fins")
+    assert [each["name"] for each in told["clients"]] == ["FINS 127.0.0.1, node 1"]
+    assert told["clients"][0]["last_refused"] == "memory area write A400, 1: 2101 this memory is read-only"
+    assert told["frames"][0]["text"] == "memory area write D100, 1"
+    readers = server.http.get(f"/api/instances/{instance}/communication").json()["error_readers"]
+    assert {"word": "A400", "clients": ["FINS 127.0.0.1, node 1"]} in readers
+    log = server.http.get(f"/api/instances/{instance}/log?count=100").json()["lines"]
+    assert [each["author"] for each in log if each["text"] == "D100 := 16#0015"] == ["FINS 127.0.0.1, node 1"]
+    client.close()
+
+
+def test_fins_over_tcp_gives_nodes_and_answers_pieces_in_their_order(server: Server) -> None:
+    instance = server.instance("fins tcp", MODEL, main=SOURCE)
+    port = switch_on(server, instance, "fins")
+    with socket.create_connection(("127.0.0.1", port), PATIENCE_S) as sock:
+        hello = bytes.fromhex("46494e530000000c000000000000000000000000")
+        sock.sendall(hello[:7])
+        sock.sendall(hello[7:])
+        shaken = exactly(sock, 24)
+        assert shaken[:16].hex() == "46494e53000000100000000100000000"
+        node = shaken[19]
+        assert 239 <= node <= 254
+        frames = [
+            bytes.fromhex("800002000100" + f"00{node:02x}00" + f"{sid:02x}" + "0101820064000001") for sid in (1, 2)
+        ]
+        message = b"".join(b"FINS" + (8 + len(each)).to_bytes(4, "big") + b"\0\0\0\2\0\0\0\0" + each for each in frames)
+        sock.sendall(message)
+        answers = [exactly(sock, 16 + 16) for _ in frames]
+        assert [each[16 + 9] for each in answers] == [1, 2]
+        sock.sendall(b"GET / HTTP/1.1\r\n\r\n")
+        assert exactly(sock, 16).hex() == "46494e53000000080000000300000001"
+        assert sock.recv(1) == b""
+
+
+def exactly(sock: socket.socket, size: int) -> bytes:
+    data = b""
+    while len(data) < size:
+        piece = sock.recv(size - len(data))
+        assert piece, "the connection ended"
+        data += piece
+    return data
+
+
+def test_a_modbus_client_reads_writes_and_cannot_write_errors(server: Server) -> None:
+    instance = server.instance("modbus", MODEL, main=SOURCE)
+    port = switch_on(server, instance, "modbus")
+    with ModbusTcpClient("127.0.0.1", port=port, timeout=PATIENCE_S) as client:
+        assert not client.write_registers(100, [7]).isError()
+        assert client.read_holding_registers(100, count=1).registers == [7]
+        until(lambda: client.read_holding_registers(100, count=2).registers == [7, 14])
+        raise_battery_error(server, instance)
+        until(lambda: client.read_input_registers(400, count=1).registers == [BATTERY])
+        assert client.read_discrete_inputs(402 * 16 + 4, count=1).bits[0]
+        until(lambda: bool(client.read_coils(100 * 16, count=1).bits[0]))
+        assert not client.write_coil(16 * 200 + 3, True).isError()
+        assert client.read_coils(16 * 200, count=4).bits[:4] == [False, False, False, True]
+        assert client.read_holding_registers(32768, count=1).exception_code == 2
+        assert client.read_holding_registers(0, count=1, device_id=9).exception_code == 11
+        assert client.mask_write_register(address=100, and_mask=0xFFF0, or_mask=0x0005).isError() is False
+        assert client.read_holding_registers(100, count=1).registers == [5]
+        assert client.readwrite_registers(read_address=100, read_count=1, address=100, values=[9]).registers == [9]
+        assert client.read_device_information().information[1] == MODEL.encode()
+    table = server.http.get(f"/api/instances/{instance}/communication/modbus/map.csv").text.splitlines()
+    assert table[1] == "coil,0,65535,CIO0.00,CIO4095.15,1"
+
+
+def test_who_may_only_read_changes_nothing(server: Server) -> None:
+    instance = server.instance("read only", MODEL, main=SOURCE)
+    client = fins(switch_on(server, instance, "fins", "read"))
+    assert client.memory_area_write("D100", b"\x00\x15").code == b"\x21\x02"
+    assert client.stop().code == b"\x21\x02"
+    assert words(client.memory_area_read("D100")) == [0]
+    with ModbusTcpClient("127.0.0.1", port=switch_on(server, instance, "modbus", "read")) as modbus:
+        assert modbus.write_register(100, 7).exception_code == 1
+    assert server.state(instance)["mode"] == "MONITOR"
+    client.close()
+
+
+def test_modes_forces_and_the_clock_over_fins(server: Server) -> None:
+    instance = server.instance("fins control", MODEL, main=SOURCE)
+    client = fins(switch_on(server, instance, "fins"))
+    assert client.stop().code == b"\x00\x00"
+    assert server.state(instance)["mode"] == "PROGRAM"
+    status = raw(client, "0601")
+    assert (status[0], status[1]) == (0, 0)
+    assert client.run().code == b"\x00\x00"
+    assert raw(client, "0601")[:2] == b"\x01\x02"
+    assert raw(client, "0702", "261128123456") == b""
+    assert raw(client, "0701")[:4] == bytes.fromhex("26112812")
+
+    def forced() -> list[str]:
+        return [each["path"] for each in server.http.get(f"/api/instances/{instance}/forces").json()]
+
+    assert raw(client, "2301", "0001" + "0001" + "30" + "0064" + "03") == b""
+    assert forced() == ["CIO100.03"]
+    assert client.memory_area_write("CIO100.03", b"\x00").code == b"\x00\x00", "a forced bit takes a write, and stays"
+    assert client.memory_area_read("CIO100.03").data == b"\x01"
+    assert raw(client, "0104", "70006403") == bytes.fromhex("7003")
+    assert raw(client, "2302") == b""
+    assert forced() == []
+    client.close()
+
+
+def raw(client: FinsClient, code: str, body: str = "") -> bytes:
+    command = Command(bytes.fromhex(code), bytes.fromhex(body))
+    response = client.send(command)
+    assert response.code == b"\x00\x00", response.code.hex()
+    return bytes(response.data)
+
+
+def test_a_write_that_changes_nothing_is_not_kept_and_a_kill_loses_no_other(server: Server, tmp_path: Path) -> None:
+    instance = server.instance("fins kept", MODEL, main=SOURCE)
+    client = fins(switch_on(server, instance, "fins"))
+    for _ in range(3):
+        assert client.memory_area_write("D200", b"\x12\x34").code == b"\x00\x00"
+    assert client.memory_area_write("D100", b"\x00\x05").code == b"\x00\x00"
+    pid, restarts = server.state(instance)["pid"], server.state(instance)["restarts"]
+    os.kill(pid, signal.SIGKILL)
+    until(lambda: server.state(instance)["restarts"] > restarts and server.state(instance)["state"] == "running")
+    until(lambda: client.memory_area_read("D200").code == b"\x00\x00")
+    assert words(client.memory_area_read("D200")) == [0x1234]
+    until(lambda: words(client.memory_area_read("D100", 2)) == [5, 10])
+    client.close()
+    run = tmp_path / "run.scanrun"
+    run.write_bytes(server.http.get(f"/api/instances/{instance}/export").content)
+    file = RunFile.open(run, read_only=True)
+    entries = read_contents(file, ENTRIES).found.entries
+    file.close()
+    writes = [each.command for each in entries if isinstance(each.command, WriteAreas)]
+    assert [each.author for each in writes] == ["FINS 127.0.0.1, node 1"] * 2
+    replayed = scanbench("replay", str(run))
+    assert replayed.returncode == 0, replayed.stderr
+
+
+def test_servers_that_cannot_be_say_why(server: Server) -> None:
+    instance = server.instance("wrong", MODEL, main=SOURCE)
+    at = f"/api/instances/{instance}/communication"
+    for wanted, why in (
+        ({"on": True, "host": "somewhere"}, "no IP address"),
+        ({"on": True, "port": 70000}, "outside of 1 to 65535"),
+        ({"on": True, "node": 0}, "outside of 1 to 254"),
+    ):
+        refused = server.http.put(f"{at}/fins", json=wanted)
+        assert refused.status_code == 422
+        assert why in refused.json()["message"]
+    port = switch_on(server, instance, "fins")
+    taken = server.http.put(f"{at}/modbus", json={"on": True, "port": port}).json()
+    (modbus,) = (each for each in taken["servers"] if each["kind"] == "modbus")
+    assert "cannot be listened on" in modbus["trouble"]
+    generic = server.instance(
+        "generic", "GENERIC-IEC", main="PROGRAM Main\nVAR n : INT; END_VAR\n n := n + 1;\nEND_PROGRAM\n"
+    )
+    refused = server.http.put(f"/api/instances/{generic}/communication/fins", json={"on": True})
+    assert "does not speak fins" in refused.json()["message"]
