@@ -26,6 +26,8 @@ class FrameSeen(Public):
 
     PUBLIC: ClassVar = "CommunicationFrame"
 
+    number: int
+    """Counts the requests of a server, from 1."""
     at: Moment
     client: str
     text: str
@@ -67,6 +69,7 @@ class Desk:
     read_only: bool
     _clients: dict[str, _Client] = field(default_factory=dict)
     _frames: deque[FrameSeen] = field(default_factory=lambda: deque(maxlen=FRAMES_KEPT))
+    _noted: int = 0
     _answered: deque[int] = field(default_factory=lambda: deque(maxlen=1 << 14))
 
     @property
@@ -116,7 +119,8 @@ class Desk:
         """A request was answered; `outcome` is empty where it was done."""
         at: datetime = wall_time()
         self._answered.append(monotonic_ns())
-        self._frames.append(FrameSeen(at, name, text, outcome, _shown(request), _shown(answer)))
+        self._noted += 1
+        self._frames.append(FrameSeen(self._noted, at, name, text, outcome, _shown(request), _shown(answer)))
         client = self._clients.get(name)
         if client is None:
             return

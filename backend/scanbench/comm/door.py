@@ -48,8 +48,8 @@ class Door(Protocol):
     def model(self) -> Model:
         """The model, with the errors of the project."""
 
-    async def read(self, spans: Sequence[AreaSpan]) -> Read:
-        """Bytes of areas that the model has, in these bounds; `Away`."""
+    async def read(self, spans: Sequence[AreaSpan], asked: bool = True) -> Read:
+        """Bytes of areas that the model has, in these bounds; `Away`. Not `asked`: the protocol itself wants to know."""
 
     async def device(self) -> DeviceErrors:
         """What the device itself says of its errors; `Away`."""

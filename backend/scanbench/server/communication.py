@@ -17,6 +17,7 @@ from scanbench.server.communication_shapes import CommunicationSeen, ServerKind,
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.typed import BadValue, make_kept
+from scanbench.wire.events import User, UsersChanged
 from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
@@ -38,16 +39,16 @@ class Server(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A protocol: the models that speak it, the port that clients expect, and how its server is made."""
+    """A protocol: what it is called, the models that speak it, and how its server is made."""
 
+    name: str
     spoken_by: Callable[[Model], bool]
-    port: int
     make: Callable[[Desk, ServerWanted], Server]
 
 
 KINDS: Mapping[ServerKind, Kind] = {
-    "fins": Kind(lambda model: model.vendor == "omron", 9600, lambda desk, wanted: FinsServer(desk, wanted.node)),
-    "modbus": Kind(lambda model: True, 502, lambda desk, _wanted: ModbusServer(desk)),
+    "fins": Kind("FINS", lambda model: model.vendor == "omron", lambda desk, wanted: FinsServer(desk, wanted.node)),
+    "modbus": Kind("Modbus TCP", lambda model: True, lambda desk, _wanted: ModbusServer(desk)),
 }
 
 
@@ -108,7 +109,7 @@ class Communication:
         """Switches a server on or off, or gives it other settings; they are kept. `Refused`."""
         unit = self._units[session.id]
         if kind not in unit.servers:
-            raise Refused(f"{session.model.name} does not speak {kind}", tuple(unit.servers))
+            raise Refused(f"{session.model.name} does not speak {KINDS[kind].name}", tuple(unit.servers))
         _refuse_wrong(wanted)
         async with unit.turning:
             await _close(unit.servers[kind])
@@ -116,9 +117,7 @@ class Communication:
             await self._turn(unit, kind)
             kept: dict[str, object] = {each: asdict(running.wanted) for each, running in unit.servers.items()}
             await asyncio.to_thread(self._store.instances.keep_communication, session.id, kept)
-        running = unit.servers[kind]
-        told = f"{kind} server {'on at ' + _address(running) if running.server else 'off'}"
-        session.log.add(author, f"{told}{': ' * bool(running.trouble)}{running.trouble}", "system")
+        session.log.add(author, _told(kind, unit.servers[kind]), "system")
         return self.seen(session)
 
     def modbus_table(self, session: Session) -> tuple[Mapped, ...]:
@@ -151,12 +150,21 @@ class Communication:
         running.desk, running.server = desk, server
 
 
+def _told(kind: ServerKind, running: _Running) -> str:
+    """What the log says of a server that was set."""
+    if running.trouble:
+        return running.trouble
+    name = KINDS[kind].name
+    return f"{name} server on: {_address(running)}" if running.server else f"{name} server off"
+
+
 def _tell_clients(unit: _Unit) -> None:
     """Everybody at the PLC sees who is connected."""
     names = (
         client.name for running in unit.servers.values() if running.desk is not None for client in running.desk.clients
     )
-    unit.session.set_tools(tuple(names))
+    unit.session.tools = tuple(map(User, names))
+    unit.session.tell(UsersChanged(unit.session.users))
 
 
 async def _close(running: _Running) -> None:

@@ -75,12 +75,13 @@ class SessionDoor:
         """See `Door`."""
         return self._session.model
 
-    async def read(self, spans: Sequence[AreaSpan]) -> Read:
+    async def read(self, spans: Sequence[AreaSpan], asked: bool = True) -> Read:
         """See `Door`."""
-        self._readers.note(self.author, spans)
-        asked = tuple(spans)
+        if asked:
+            self._readers.note(self.author, spans)
+        wanted = tuple(spans)
         try:
-            found = await self._session.instance.ask(lambda ref: ReadAreas(ref, asked), AreasAre)
+            found = await self._session.instance.ask(lambda ref: ReadAreas(ref, wanted), AreasAre)
         except (Unavailable, Refused) as error:
             raise Away(str(error)) from error
         if found.message:

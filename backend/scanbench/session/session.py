@@ -50,7 +50,8 @@ class Session:
         self._loads = loads
         self._subscribers: dict[int, Subscriber] = {}
         self._next_subscriber = 1
-        self._tools: tuple[User, ...] = ()
+        self.tools: tuple[User, ...] = ()
+        """The clients of protocols that are connected; whoever changes it tells so."""
         self._listeners: list[Callable[[Event], None]] = []
         self.instance = Instance(memory, self._on_state, self._on_message, cache, why_not=why_not)
         self._last_state = self.instance.state
@@ -106,14 +107,7 @@ class Session:
     @property
     def users(self) -> tuple[User, ...]:
         """Who is here, everybody once: people, then the clients of protocols."""
-        return tuple(dict.fromkeys(each.user for each in self._subscribers.values())) + self._tools
-
-    def set_tools(self, names: Sequence[str]) -> None:
-        """The clients of protocols that are connected."""
-        tools = tuple(map(User, names))
-        if tools != self._tools:
-            self._tools = tools
-            self.tell(events.UsersChanged(self.users))
+        return tuple(dict.fromkeys(each.user for each in self._subscribers.values())) + self.tools
 
     # ---- life -----------------------------------------------------------------------------------------------------
 

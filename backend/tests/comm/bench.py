@@ -36,7 +36,7 @@ class LocalDoor:
     def model(self) -> Model:
         return self.resource.program.layout.model
 
-    async def read(self, spans: Sequence[AreaSpan]) -> Read:
+    async def read(self, spans: Sequence[AreaSpan], asked: bool = True) -> Read:
         resource = self.resource
         found = areas_are(ReadAreas(0, tuple(spans)), resource.loaded, resource.memory, resource.journal)
         assert not found.message, found.message

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fins import FinsClient
-from fins.command import Command
+from fins import FinsClient  # type: ignore[import-untyped]
+from fins.command import Command  # type: ignore[import-untyped]
 from pymodbus.client import ModbusTcpClient
 
 from scanbench.recording.blocks import read_contents
@@ -235,4 +235,4 @@ def test_servers_that_cannot_be_say_why(server: Server) -> None:
         "generic", "GENERIC-IEC", main="PROGRAM Main\nVAR n : INT; END_VAR\n n := n + 1;\nEND_PROGRAM\n"
     )
     refused = server.http.put(f"/api/instances/{generic}/communication/fins", json={"on": True})
-    assert "does not speak fins" in refused.json()["message"]
+    assert "does not speak FINS" in refused.json()["message"]

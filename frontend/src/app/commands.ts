@@ -69,6 +69,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "device.open", run: () => openPage("plcerrors") },
     { label: "hardware.open", run: () => openPage("hardware") },
     { label: "rack.open", run: openRack },
+    { label: "communication.open", run: () => openPage("communication") },
     { label: "memory.open", run: () => openPage("memory") },
     { label: "versions.open", run: () => void openVersions() },
     { label: "command.inline", run: toggleInline },

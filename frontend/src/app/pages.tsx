@@ -10,6 +10,7 @@ import { RackPage } from "../panels/operator/RackPage";
 import { CallsPage } from "../panels/project/calls/CallsPage";
 import { CrossPage } from "../panels/project/cross/CrossPage";
 import { VersionsPage } from "../panels/project/editor/VersionsPage";
+import { CommunicationPage } from "../panels/run/communication/CommunicationPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
 import { MemoryPage } from "../panels/watch/memory/MemoryPage";
 import { useHardwareEdited } from "../store/errors/hardware";
@@ -36,6 +37,7 @@ export const PAGES: Record<PageName, Page> = {
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
   cross: { component: CrossPage, icon: "swap", useTitle: () => t("cross.title") },
   calls: { component: CallsPage, icon: "stack", useTitle: () => t("calls.title") },
+  communication: { component: CommunicationPage, icon: "link", useTitle: () => t("communication.title") },
   help: { component: HelpPanel, icon: "help", useTitle: () => t("help.title") },
   memory: { component: MemoryPage, icon: "mem", useTitle: () => t("memory.title") },
   rack: { component: RackPage, icon: "plc", useTitle: () => t("rack.title") },

@@ -213,6 +213,86 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/communication": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Its servers, who is connected, what was asked lately, and who reads the error memory
+         * @description Its servers, who is connected, what was asked lately, and who reads the error memory.
+         */
+        get: operations["get_instance_communication"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/communication/{kind}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Switches a server on or off, or gives it other settings
+         * @description Switches a server on or off, or gives it other settings. They are kept: it is on again when Scanbench starts again.
+         */
+        put: operations["save_instance_communication"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/communication/modbus/map": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Which memory each coil and register of Modbus means
+         * @description Which memory each coil and register of Modbus means.
+         */
+        get: operations["list_instance_communication_modbus_map"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/communication/modbus/map.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The same as a spreadsheet opens it
+         * @description The same as a spreadsheet opens it.
+         */
+        get: operations["get_instance_communication_modbus_map_csv"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/comparisons": {
         parameters: {
             query?: never;
@@ -3352,6 +3432,145 @@ export interface components {
             };
         };
         /**
+         * Communication
+         * @description The communication unit of a PLC.
+         */
+        Communication: {
+            /** Error Readers */
+            error_readers: components["schemas"]["ErrorMemoryReader"][];
+            /**
+             * Servers
+             * @description Those that the model can have.
+             */
+            servers: components["schemas"]["CommunicationServer"][];
+        };
+        /**
+         * CommunicationClient
+         * @description A client of a server.
+         */
+        CommunicationClient: {
+            /**
+             * Last Refused
+             * @description Empty: nothing was.
+             */
+            last_refused: string;
+            /**
+             * Name
+             * @description As commands have it for their author.
+             */
+            name: string;
+            /** Refused */
+            refused: number;
+            /** Requests */
+            requests: number;
+            /** Since */
+            since: string;
+        };
+        /**
+         * CommunicationFrame
+         * @description A request, and how it was answered.
+         */
+        CommunicationFrame: {
+            /** Answer */
+            answer: string;
+            /** At */
+            at: string;
+            /** Client */
+            client: string;
+            /**
+             * Number
+             * @description Counts the requests of a server, from 1.
+             */
+            number: number;
+            /**
+             * Outcome
+             * @description Empty where it was done; else why not, with the code of the protocol.
+             */
+            outcome: string;
+            /**
+             * Request
+             * @description Bytes in hexadecimal, as many as there is room for.
+             */
+            request: string;
+            /**
+             * Text
+             * @description Decoded: `memory area read D100, 3`.
+             */
+            text: string;
+        };
+        /**
+         * CommunicationServer
+         * @description A server as it is.
+         */
+        CommunicationServer: {
+            /**
+             * Address
+             * @description What to type into a client: `127.0.0.1:9600`; empty while it does not listen.
+             */
+            address: string;
+            /** Clients */
+            clients: components["schemas"]["CommunicationClient"][];
+            /**
+             * Frames
+             * @description The last ones, the oldest first.
+             */
+            frames: components["schemas"]["CommunicationFrame"][];
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "fins" | "modbus";
+            /** Listening */
+            listening: boolean;
+            /**
+             * Per Second
+             * @description Requests, lately.
+             */
+            per_second: number;
+            settings: components["schemas"]["CommunicationServerSettings"];
+            /**
+             * Trouble
+             * @description Why it does not listen although it is on.
+             */
+            trouble: string;
+        };
+        /**
+         * CommunicationServerSettings
+         * @description A server as somebody sets it.
+         */
+        CommunicationServerSettings: {
+            /**
+             * Access
+             * @description What clients may do.
+             * @default read
+             * @enum {string}
+             */
+            access: "read" | "write";
+            /**
+             * Host
+             * @description The address it listens on: a loopback address of its own for each PLC (127.0.0.11), or one of the machine's.
+             * @default 127.0.0.1
+             */
+            host: string;
+            /**
+             * Node
+             * @description The node number of the PLC; of FINS only.
+             * @default 1
+             */
+            node: number;
+            /**
+             * On
+             * @default false
+             */
+            on: boolean;
+            /**
+             * Port
+             * @description 0: one that is free.
+             * @default 0
+             */
+            port: number;
+        };
+        /**
          * Comparison
          * @description How far a comparison of the run of instance `a` with that of `b` is, and what came of it. Kept until the server ends, the
          *     last 20 of an instance.
@@ -4341,6 +4560,19 @@ export interface components {
             wordings?: components["schemas"]["Wording"][];
         };
         /**
+         * ErrorMemoryReader
+         * @description A word of error memory that clients have read since their server was switched on.
+         */
+        ErrorMemoryReader: {
+            /** Clients */
+            clients: string[];
+            /**
+             * Word
+             * @description In the vendor's notation.
+             */
+            word: string;
+        };
+        /**
          * Errors
          * @description Rows of the error history that changed.
          */
@@ -5225,6 +5457,43 @@ export interface components {
              * @description variables that lie in it, at least in part
              */
             symbols: components["schemas"]["Symbol"][];
+        };
+        /**
+         * ModbusRange
+         * @description `count` coils or registers from `first` on, counted from 0.
+         */
+        ModbusRange: {
+            /**
+             * Area
+             * @description The memory area.
+             */
+            area: string;
+            /**
+             * Begins
+             * @description The vendor's address of the first one, and of the last one.
+             */
+            begins: string;
+            /** Count */
+            count: number;
+            /** Ends */
+            ends: string;
+            /** First */
+            first: number;
+            /**
+             * Group
+             * @enum {string}
+             */
+            group: "coil" | "discrete input" | "input register" | "holding register";
+            /**
+             * Width
+             * @description Registers of a value: the one with the high word comes first.
+             */
+            width: number;
+            /**
+             * Word
+             * @description In which the first one lies, counted within the area; a coil or discrete input is bit 0 of it.
+             */
+            word: number;
         };
         /** ModelInfo */
         ModelInfo: {
@@ -9266,6 +9535,133 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["CommandResult"];
                 };
+            };
+        };
+    };
+    get_instance_communication: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Communication"];
+                };
+            };
+        };
+    };
+    save_instance_communication: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                kind: "fins" | "modbus";
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CommunicationServerSettings"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Communication"];
+                };
+            };
+        };
+    };
+    list_instance_communication_modbus_map: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModbusRange"][];
+                };
+            };
+        };
+    };
+    get_instance_communication_modbus_map_csv: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };

@@ -29,9 +29,12 @@ class Form(Enum):
 
     BIT = 1
     WORD = 2
-    FORCED_BIT = "bit, and whether it is forced"
-    FORCED_WORD = "word, and which of its bits are forced"
-    UNUSED = "nothing of the image"
+    FORCED_BIT = 3
+    """A bit, and whether it is forced."""
+    FORCED_WORD = 4
+    """A word, and which of its bits are forced."""
+    UNUSED = 5
+    """Nothing of the image."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,5 +18,5 @@ async def flags(door: Door) -> int:
     """The bits of an end code that say that there are errors."""
     if not has_flags(door.model):
         return 0
-    (data,) = (await door.read(FLAGS)).data
+    (data,) = (await door.read(FLAGS, asked=False)).data
     return (any(data[:2]) and FATAL) | (any(data[2:]) and NONFATAL)

@@ -1,4 +1,4 @@
-"""What FINS over TCP puts in front of frames, and the handshake that gives a client its node. (nmap `omron-info`, npm `omron-fins`.)
+"""What FINS over TCP puts before frames, and the handshake that gives a client its node. (nmap `omron-info`, npm `omron-fins`.)
 
 0   FINS
 4   u32  bytes after this field

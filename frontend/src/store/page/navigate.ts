@@ -32,6 +32,7 @@ const PAGES = [
   "memory",
   "cross",
   "calls",
+  "communication",
   "help",
 ] as const;
 export type PageName = (typeof PAGES)[number];

@@ -1,6 +1,7 @@
 /** English, all of it. */
 import { commands } from "./commands";
 import { common } from "./common";
+import { communication } from "./communication";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
@@ -29,6 +30,7 @@ export const english = {
   ...hardware,
   ...sweep,
   ...userErrors,
+  ...communication,
   ...debug,
   ...together,
   ...trace,

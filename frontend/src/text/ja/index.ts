@@ -2,6 +2,7 @@
 import type { TextKey } from "../en";
 import { commands } from "./commands";
 import { common } from "./common";
+import { communication } from "./communication";
 import { debug } from "./debug";
 import { disturb } from "./disturb";
 import { errors } from "./errors";
@@ -30,6 +31,7 @@ export const japanese: Record<TextKey, string> = {
   ...hardware,
   ...sweep,
   ...userErrors,
+  ...communication,
   ...debug,
   ...together,
   ...trace,
