@@ -40,7 +40,8 @@ from scanbench.reports.report import Source
 from scanbench.runtime.programs import NoProgram
 from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.trace.bind import check
-from scanbench.verify.trace.mapping import BadMapping, TraceMapping, propose
+from scanbench.verify.trace.mapping import BadMapping, TraceMapping
+from scanbench.verify.trace.propose import propose
 from scanbench.verify.trace.read import read_trace
 from scanbench.verify.trace.subject import TraceSubject
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
@@ -233,9 +234,12 @@ def _mapping(path: Path | None, table: Table, program: Program) -> tuple[TraceMa
             unreadable(path, error)
         except ValueError as error:  # `BadMapping`, and bytes that are no text
             usage(f"{path}: {error}" if isinstance(error, BadMapping) else f"{path} is not UTF-8: {error}")
-    proposal = propose(table, program)
+    made = propose(table, program)
+    proposal, sure = made.mapping, {each.column: each.score for each in made.guesses}
     said = "; ".join(
-        f"{each.column} is {each.path} ({each.role})" if each.path else f"{each.column} is nothing (ignored)"
+        f"{each.column} is {each.path} ({each.role}{_sure(sure.get(each.column, 1.0))})"
+        if each.path
+        else f"{each.column} is nothing (ignored)"
         for each in proposal.columns
     )
     note = f"Mapped by names: {said}."
@@ -243,10 +247,16 @@ def _mapping(path: Path | None, table: Table, program: Program) -> tuple[TraceMa
     return proposal, note
 
 
+def _sure(score: float) -> str:
+    """What is said of a variable that is only likely."""
+    return "" if score >= 1 else f", {score:.0%} sure"
+
+
 def _refuse(path: Path, problems: tuple[TraceProblem, ...]) -> NoReturn:
     wrong = [each for each in problems if not each.warning]
     for problem in wrong[:PROBLEMS_SHOWN]:
-        typer.echo(f"{_where(path, problem)}: {problem.message}", err=True)
+        again = f" (the same in {problem.more:,} more rows, the last one is {problem.last})" if problem.more else ""
+        typer.echo(f"{_where(path, problem)}: {problem.message}{again}", err=True)
     more = len(wrong) - PROBLEMS_SHOWN
     usage("nothing was verified: the trace cannot be used" + (f" ({more} more problems)" if more > 0 else ""))
 

@@ -19,7 +19,8 @@ from scanbench.store.records import MappingRow, NotFound
 from scanbench.store.store import Store
 from scanbench.typed import BadValue, make_kept
 from scanbench.verify.trace.bind import check
-from scanbench.verify.trace.mapping import BadMapping, TraceMapping, fits, propose
+from scanbench.verify.trace.mapping import BadMapping, TraceMapping, fits
+from scanbench.verify.trace.propose import Guess, Proposal, propose
 from scanbench.verify.trace.read import MAX_BYTES, read_trace
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
 from scanbench.wire.host import Sources
@@ -44,6 +45,11 @@ class TraceFile:
     sample: tuple[tuple[str, ...], ...]
     proposal: TraceMapping
     problems: tuple[TraceProblem, ...]
+    guesses: tuple[Guess, ...] = ()
+    layout: str = ""
+    """Whose layout it has; empty: ours."""
+    left_out: tuple[str, ...] = ()
+    """What the file has besides its columns."""
     at: int = 0
 
 
@@ -104,8 +110,9 @@ class TraceFiles:
                 raise Refused(f"the file cannot be kept: {error.strerror}") from error
         await self._forget()
         file = self._files[handle] = TraceFile(
-            handle, name, path, table.columns, len(table.rows), tuple(table.rows[:SAMPLE]), proposal, (), monotonic_ns()
-        )
+            handle, name, path, table.columns, len(table.rows), tuple(table.rows[:SAMPLE]), proposal.mapping, (),
+            proposal.guesses, table.layout, table.left_out, monotonic_ns(),
+        )  # fmt: skip
         return file
 
     async def check(self, session: Session, file: TraceFile, mapping: TraceMapping) -> Checked:
@@ -125,16 +132,19 @@ class TraceFiles:
         async with self._reading:
             return await asyncio.to_thread(work)
 
-    def _proposal(self, table: Table, saved: list[MappingRow], sources: Sources | None) -> TraceMapping:
+    def _proposal(self, table: Table, saved: list[MappingRow], sources: Sources | None) -> Proposal:
+        """A saved mapping that fits; else by names, where columns that any of them knows are what they were."""
+        learned: dict[str, str] = {}
         for mapping in readable(saved, mapping_of):
             if fits(mapping, table):
-                return mapping
+                return Proposal(mapping, ())
+            learned |= {each.column: each.path for each in mapping.columns if each.path and each.role != "ignore"}
         if sources is None:
-            return TraceMapping()
+            return Proposal(TraceMapping(), ())
         try:
-            return propose(table, self._program(sources))
+            return propose(table, self._program(sources), learned)
         except NoProgram:
-            return TraceMapping()
+            return Proposal(TraceMapping(), ())
 
     def _program(self, sources: Sources) -> Program:
         model = model_of(sources)

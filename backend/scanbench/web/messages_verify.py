@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, StringConstraints
 
 from scanbench.verify.contract import Mismatch
+from scanbench.verify.trace.propose import Guess
 from scanbench.verify.trace.table import TraceProblem
 from scanbench.web.messages_base import Scan, Wire
 
@@ -158,6 +159,9 @@ class TraceColumnMap(Wire):
     column: str = Field(max_length=500, description="as the file names it")
     path: str = Field(default="", max_length=500, description="variable or address of the project")
     role: Role
+    absolute: float = Field(default=0, ge=0, le=1e300, description="by so much the number of an output may differ")
+    relative: float = Field(default=0, ge=0, le=1, description="the same as a part of what was recorded")
+    late_ms: float = Field(default=0, ge=0, le=10_000, description="so much earlier or later it may come")
 
 
 class TraceMapping(Wire):
@@ -170,6 +174,10 @@ class TraceMapping(Wire):
         description="scans that are missing: refuse the file, compare nothing there and begin again, or hold the values",
     )
     columns: list[TraceColumnMap] = Field(max_length=1000)
+    sampled: Literal["end", "begin"] = Field(
+        default="end",
+        description="samples were taken at the end of a scan, or at its beginning: outputs are those of the scan before",
+    )
 
 
 class UploadedTrace(Wire):
@@ -182,6 +190,9 @@ class UploadedTrace(Wire):
     sample: list[list[str]] = Field(description="the first rows, as text")
     mapping: TraceMapping = Field(description="a proposal: a saved mapping that fits, else by names")
     problems: list[TraceProblem]
+    guesses: list[Guess] = Field(description="how sure the proposal is of each column; none with a saved mapping")
+    layout: str = Field(description="whose layout the file has; empty: ours")
+    left_out: list[str] = Field(description="what the file has besides its columns, and is no variable")
 
 
 class CheckTraceMapping(Wire):

@@ -58,6 +58,8 @@ WIRE: tuple[tuple[type[Wire], str], ...] = (
     (messages_errors.SweepProgress, "now"),
     (messages_records.RecordError, "reaction_note"),
     (messages_user_errors.UserProblem, "message"),
+    (messages_verify.UploadedTrace, "layout"),
+    (messages_verify.UploadedTrace, "left_out"),
     (messages_verify.VerificationInfo, "message"),
     (messages_watch.WatchListConflict, "message"),
 )

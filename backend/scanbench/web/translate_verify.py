@@ -1,5 +1,7 @@
 """Verifications and disturbances -> wire shapes, and back. Nothing is decided here."""
 
+from dataclasses import asdict
+
 from scanbench.public import iso
 from scanbench.server.uploads import TraceFile, mapping_of
 from scanbench.server.verifications import Kept
@@ -60,17 +62,15 @@ def record(of: Kept) -> wire.VerificationRecord:
 
 def mapping(of: wire.TraceMapping) -> TraceMapping:
     """How a trace file is meant."""
-    columns = tuple(ColumnMap(each.column, each.path.strip(), each.role) for each in of.columns)
-    return TraceMapping(of.axis, of.unit, of.gaps, columns)
+    columns = tuple(
+        ColumnMap(each.column, each.path.strip(), each.role, each.absolute, each.relative, each.late_ms)
+        for each in of.columns
+    )
+    return TraceMapping(of.axis, of.unit, of.gaps, columns, of.sampled)
 
 
 def _mapping(of: TraceMapping) -> wire.TraceMapping:
-    return wire.TraceMapping.model_validate(
-        {
-            "axis": of.axis, "unit": of.unit, "gaps": of.gaps,
-            "columns": [{"column": each.column, "path": each.path, "role": each.role} for each in of.columns],
-        }
-    )  # fmt: skip
+    return wire.TraceMapping.model_validate({**asdict(of), "columns": [asdict(each) for each in of.columns]})
 
 
 def uploaded(of: TraceFile) -> wire.UploadedTrace:
@@ -78,7 +78,7 @@ def uploaded(of: TraceFile) -> wire.UploadedTrace:
     return wire.UploadedTrace(
         file=of.handle, name=of.name, columns=list(of.columns), rows=of.rows,
         sample=[list(row) for row in of.sample], mapping=_mapping(of.proposal),
-        problems=list(of.problems),
+        problems=list(of.problems), guesses=list(of.guesses), layout=of.layout, left_out=list(of.left_out),
     )  # fmt: skip
 
 

@@ -6,10 +6,13 @@ from dataclasses import replace
 
 import pytest
 
+from scanbench.program.program import Program
 from scanbench.program.types import ELEMENTARY, StringType
 from scanbench.verify.trace.bind import Checked, check
-from scanbench.verify.trace.mapping import BadMapping, ColumnMap, TraceMapping, fits, propose
+from scanbench.verify.trace.mapping import BadMapping, ColumnMap, TraceMapping, fits
+from scanbench.verify.trace.propose import propose as proposal
 from scanbench.verify.trace.read import read_trace
+from scanbench.verify.trace.table import Table
 from scanbench.verify.trace.values import cell_value, exactness
 from tests.verify.trace_parts import checked, conveyor, conveyor_csv, mapped, program_of
 
@@ -24,6 +27,10 @@ VAR CONSTANT LIMIT_OF_IT : INT := 7; END_VAR
   n := n + 1;
 END_PROGRAM
 """
+
+
+def propose(table: Table, program: Program) -> TraceMapping:
+    return proposal(table, program).mapping
 
 
 def problems(found: Checked) -> list[tuple[int | None, str, str]]:

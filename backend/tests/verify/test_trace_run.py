@@ -19,8 +19,9 @@ from scanbench.symbols.values import format_value
 from scanbench.verify.contract import BadRange, Mismatch, Row
 from scanbench.verify.edits import BadEdit
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.trace.mapping import BadMapping, Gaps, TraceMapping, propose
+from scanbench.verify.trace.mapping import BadMapping, Gaps, TraceMapping
 from scanbench.verify.trace.monitor import EVERY
+from scanbench.verify.trace.propose import propose
 from scanbench.verify.trace.read import read_trace
 from scanbench.verify.trace.subject import open_trace
 from scanbench.verify.verifier import Verifier
@@ -29,7 +30,7 @@ from tests.verify.trace_parts import conveyor, conveyor_csv, exported, leaves, p
 
 
 def opened(text: str, program: Program, range: str = "", gaps: Gaps = "refuse", limit: int = 4096) -> Verifier:
-    mapping = propose(read_trace(text.encode(), "trace.csv"), program)
+    mapping = propose(read_trace(text.encode(), "trace.csv"), program).mapping
     verifier = open_trace(text.encode(), "trace.csv", replace(mapping, gaps=gaps).to_json(), program)
     verifier.begin(parse_range(range), limit)
     return verifier

@@ -7632,16 +7632,34 @@ export interface components {
         /** TraceColumnMap */
         TraceColumnMap: {
             /**
+             * Absolute
+             * @description by so much the number of an output may differ
+             * @default 0
+             */
+            absolute: number;
+            /**
              * Column
              * @description as the file names it
              */
             column: string;
+            /**
+             * Late Ms
+             * @description so much earlier or later it may come
+             * @default 0
+             */
+            late_ms: number;
             /**
              * Path
              * @description variable or address of the project
              * @default
              */
             path: string;
+            /**
+             * Relative
+             * @description the same as a part of what was recorded
+             * @default 0
+             */
+            relative: number;
             /**
              * Role
              * @enum {string}
@@ -7680,6 +7698,24 @@ export interface components {
             signals: string[];
             /** @default null */
             trigger: components["schemas"]["TraceTrigger"] | null;
+        };
+        /**
+         * TraceGuess
+         * @description Why a column has its variable in a proposal.
+         */
+        TraceGuess: {
+            /** Column */
+            column: string;
+            /**
+             * Near
+             * @description What else it may be, or, below the score that is used, what it may be at all.
+             */
+            near: string[];
+            /**
+             * Score
+             * @description How sure it is, up to 1: its name is that of the variable.
+             */
+            score: number;
         };
         /**
          * TraceInfo
@@ -7753,6 +7789,13 @@ export interface components {
              */
             gaps: "refuse" | "skip" | "hold";
             /**
+             * Sampled
+             * @description samples were taken at the end of a scan, or at its beginning: outputs are those of the scan before
+             * @default end
+             * @enum {string}
+             */
+            sampled: "end" | "begin";
+            /**
              * Unit
              * @default scan
              * @enum {string}
@@ -7794,8 +7837,18 @@ export interface components {
         TraceProblem: {
             /** Column */
             column: string;
+            /**
+             * Last
+             * @description The last one of those.
+             */
+            last: number | null;
             /** Message */
             message: string;
+            /**
+             * More
+             * @description In so many further rows it is the same.
+             */
+            more: number;
             /**
              * Row
              * @description Line of a CSV file, counted from 1; index in a JSON file, counted from 0; None: the file as a whole.
@@ -8015,6 +8068,21 @@ export interface components {
              * @description handle for NewTraceVerification, good for an hour
              */
             file: string;
+            /**
+             * Guesses
+             * @description how sure the proposal is of each column; none with a saved mapping
+             */
+            guesses: components["schemas"]["TraceGuess"][];
+            /**
+             * Layout
+             * @description whose layout the file has; empty: ours
+             */
+            layout: string;
+            /**
+             * Left Out
+             * @description what the file has besides its columns, and is no variable
+             */
+            left_out: string[];
             /** @description a proposal: a saved mapping that fits, else by names */
             mapping: components["schemas"]["TraceMapping"];
             /** Name */

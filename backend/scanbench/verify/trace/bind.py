@@ -1,7 +1,7 @@
 """A table and its mapping, checked against a program: what the monitor is to be given in each scan, and what is compared."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
 from scanbench.problems import perhaps
@@ -9,10 +9,11 @@ from scanbench.program.program import Program
 from scanbench.program.types import Elementary, StringType
 from scanbench.symbols.sites import sites_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
-from scanbench.verify.trace.axis import Scans, axis_of, plain_name, scans_of
+from scanbench.verify.trace.axis import axis_of, bare_name, plain_name
 from scanbench.verify.trace.mapping import ColumnMap, Gaps, TraceMapping, bits_of, written
+from scanbench.verify.trace.scans import Scans, place
 from scanbench.verify.trace.table import Problems, Table, TraceProblem
-from scanbench.verify.trace.values import Exactness, Leaf, cell_value, exactness
+from scanbench.verify.trace.values import Exactness, Leaf, Tolerance, cell_value, exactness
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ class Signal:
     values: Sequence[bytes | None]
     """Of each row; None: it has no value there."""
     exactness: Exactness = field(default_factory=Exactness)
+    tolerance: Tolerance = field(default_factory=Tolerance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +40,8 @@ class Trace:
     gaps: Gaps
     inputs: tuple[Signal, ...]
     outputs: tuple[Signal, ...]
+    ignored: tuple[str, ...] = ()
+    """Columns that are mapped to nothing: they were not compared."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,20 +66,39 @@ def check(table: Table, mapping: TraceMapping, program: Program) -> Checked:
     _check_columns(table, mapping, problems)
     known = _resolved(table, mapping, program, problems)
     _check_overlaps(table, known, problems)
-    scans = None
+    placed = None
     if not mapping.axis or mapping.axis in table.columns:
-        scans = scans_of(table, mapping.axis, mapping.unit, program.interval_ns, mapping.gaps, problems)
-    signals = {each.column: _signal(table, each, symbol, problems) for each, symbol in known}
-    hindered = bool(problems.found)
+        placed = place(table, mapping.axis, mapping.unit, program.interval_ns, mapping.gaps, problems)
+    rows = table if placed is None else placed.table
+    signals = {each.column: _signal(rows, each, symbol, problems) for each, symbol in known}
+    hindered = problems.any
     _warn(table, known, program, problems)
     trace = None
-    if scans is not None and not hindered:
-        by_role = {
-            role: tuple(signals[each.column] for each, _ in known if each.role == role) for role in ("input", "output")
-        }
-        trace = Trace(table.name, scans, mapping.gaps, by_role["input"], by_role["output"])
-    first, last, missing = (None, None, 0) if scans is None else (scans.first, scans.last, scans.missing)
-    return Checked(tuple(problems.found), first, last, missing, trace)
+    if placed is not None and not hindered:
+        inputs = tuple(signals[each.column] for each, _ in known if each.role == "input")
+        outputs = tuple(
+            _within(signals[each.column], each, mapping, placed.scans, program.interval_ns)
+            for each, _ in known
+            if each.role == "output"
+        )
+        ignored = tuple(
+            each.column for each in mapping.columns if each.role == "ignore" and each.column != mapping.axis
+        )
+        trace = Trace(table.name, placed.scans, mapping.gaps, inputs, outputs, ignored)
+    if placed is None:
+        return Checked(tuple(problems.found), None, None, 0, trace)
+    scans = placed.scans
+    return Checked(tuple(problems.found), scans.first, scans.last, scans.missing, trace)
+
+
+def _within(signal: Signal, column: ColumnMap, mapping: TraceMapping, scans: Scans, interval_ns: int) -> Signal:
+    """An output with what it may differ by, and with its values in the scans that gave them."""
+    values = signal.values
+    if mapping.sampled == "begin":  # what is there before a scan is what the scan before has left
+        follows = [after == scan + 1 for scan, after in zip(scans.of_rows, scans.of_rows[1:], strict=False)]
+        values = [value if one else None for value, one in zip(signal.values[1:], follows, strict=True)] + [None]
+    tolerance = Tolerance(column.absolute, column.relative, round(column.late_ms * 1e6 / interval_ns))
+    return replace(signal, values=values, tolerance=tolerance)
 
 
 def _check_columns(table: Table, mapping: TraceMapping, problems: Problems) -> None:
@@ -113,7 +136,7 @@ def _resolved(
         if each.role == "ignore" or each.column not in table.columns or each.column == mapping.axis:
             continue
         try:
-            symbol = resolve(program, each.path or plain_name(each.column)[0])
+            symbol = resolve(program, each.path or bare_name(each.column))
         except UnknownPath as error:
             why = error.message if each.path else f"Nothing in the program is called `{each.column}`."
             problems.add(
@@ -155,10 +178,11 @@ def _check_overlaps(table: Table, known: Sequence[tuple[ColumnMap, Symbol]], pro
 
 
 def _signal(table: Table, column: ColumnMap, symbol: Symbol, problems: Problems) -> Signal:
-    index, unit = table.columns.index(column.column), plain_name(column.column)[1]
+    index, unit = table.columns.index(column.column), plain_name(column.column)[1] or table.durations
     type = symbol.type
     assert isinstance(type, Elementary | StringType)
     known: dict[str, bytes | None] = {"": None}
+    wrong: dict[str, str] = {}
     values: list[bytes | None] = []
     for row, at in zip(table.rows, table.numbers, strict=True):
         text = row[index]
@@ -166,10 +190,9 @@ def _signal(table: Table, column: ColumnMap, symbol: Symbol, problems: Problems)
             try:
                 known[text] = cell_value(type, text, unit, table.comma)
             except ValueError as error:
-                problems.add(at, column.column, f"{symbol.path}: {error}.")
-                if problems.full:
-                    break
-                continue
+                known[text], wrong[text] = None, f"{symbol.path}: {error}."
+        if text in wrong:
+            problems.add(at, column.column, wrong[text], cause="cell")
         values.append(known[text])
     return Signal(column.column, symbol.path, symbol, type, values, exactness(type, [*known], unit))
 

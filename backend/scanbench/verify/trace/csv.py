@@ -35,9 +35,8 @@ def read_csv(text: str, name: str, note: str = "") -> Table:
                 continue
             row = _cells(cells, len(columns))
             if len(row) != len(columns):
-                problems.add(number, "", f"The row has {len(row)} cells, but there are {len(columns)} columns.")
-                if problems.full:
-                    break
+                message = f"The row has {len(row)} cells, but there are {len(columns)} columns."
+                problems.add(number, "", message, cause="cells")
                 continue
             rows.append(tuple(same.setdefault(each, each) for each in row))
             numbers.append(number)

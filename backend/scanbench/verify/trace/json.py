@@ -64,7 +64,7 @@ def _of_rows(given: dict[str, object], name: str, note: str) -> Table:
     for index, row in enumerate(rows):
         if not isinstance(row, list) or len(row) != len(names):
             count = f"has {len(row)} cells" if isinstance(row, list) else "is no list"
-            problems.add(index, "", f"The row {count}, but there are {len(names)} columns.")
+            problems.add(index, "", f"The row {count}, but there are {len(names)} columns.", cause="cells")
             continue
         made.append(tuple(_cell(cell, index, column, problems) for cell, column in zip(row, names, strict=True)))
     problems.refuse()
@@ -78,7 +78,7 @@ def _of_objects(given: list[object], name: str, note: str) -> Table:
         check_size(1, len(given))
     for index, row in enumerate(given):
         if not isinstance(row, dict):
-            problems.add(index, "", "The row is no object with a value for each column.")
+            problems.add(index, "", "The row is no object with a value for each column.", cause="object")
             continue
         names.update(dict.fromkeys(row))
         if len(names) > MAX_COLUMNS:
@@ -116,5 +116,5 @@ def _cell(value: object, index: int, column: str, problems: Problems) -> str:
         return "TRUE" if value else "FALSE"
     if isinstance(value, str):
         return str(value).strip() or "''"
-    problems.add(index, column, "The cell is a list or an object; write one value.")
+    problems.add(index, column, "The cell is a list or an object; write one value.", cause="value")
     return ""

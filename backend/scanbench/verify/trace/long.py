@@ -1,9 +1,9 @@
 """The long form of a trace: a row is one value of one variable. It comes out wide, a row for each scan."""
 
 from dataclasses import replace
-from decimal import Decimal
 
-from scanbench.verify.trace.axis import axis_of, number
+from scanbench.verify.trace.axis import axis_of
+from scanbench.verify.trace.clock import times_of
 from scanbench.verify.trace.table import Problems, Table, check_size
 
 _VARIABLES = ("variable", "signal", "name", "tag")
@@ -21,20 +21,20 @@ def widened(table: Table) -> Table:
     numbers: dict[str, int] = {}
     problems = Problems()
     for row, at in zip(table.rows, table.numbers, strict=True):
-        if problems.full:
-            break
         key, name = row[axis], row[variable]
         if not key:
-            problems.add(at, table.columns[axis], "The cell is empty: a row needs its scan or time.")
+            message = "The cell is empty: a row needs its scan or time."
+            problems.add(at, table.columns[axis], message, cause="empty")
         if not name:
-            problems.add(at, table.columns[variable], "The cell is empty: a row needs the name of its variable.")
+            message = "The cell is empty: a row needs the name of its variable."
+            problems.add(at, table.columns[variable], message, cause="empty")
         if not key or not name:
             continue
         place = names.setdefault(name, len(names))
         line = cells.setdefault(key, {})
         numbers.setdefault(key, at)
         if place in line:
-            problems.add(at, name, f"`{name}` has two values at {table.columns[axis]} {key}.")
+            problems.add(at, name, f"`{name}` has two values at {table.columns[axis]} {key}.", cause="twice")
         line[place] = row[value]
         if not len(names) % 100:
             check_size(1 + len(names), len(cells))
@@ -58,8 +58,5 @@ def _columns(columns: tuple[str, ...]) -> tuple[int, int, int] | None:
 
 def _ordered(keys: list[str], comma: bool) -> list[str]:
     """Sorted by number, as a file may have the variables one after the other. Unchanged if any is no number: that is reported later."""
-    try:
-        known: dict[str, Decimal] = {key: number(key, comma) for key in keys}
-    except ValueError:
-        return keys
-    return sorted(keys, key=known.__getitem__)
+    known = times_of(keys, comma)
+    return keys if known is None else sorted(keys, key=dict(zip(keys, known, strict=True)).__getitem__)

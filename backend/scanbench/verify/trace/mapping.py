@@ -1,17 +1,15 @@
 """How the columns of a trace file are meant: which variable of the project each one is, and whether it goes in or comes out."""
 
 import json
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from math import inf
 from typing import Literal, TypeVar, get_args
 
-from scanbench.check.typed.condition import BadCondition, compile_signal
 from scanbench.debug.writers import writers
 from scanbench.program.program import Program
-from scanbench.symbols.sites import Sites, sites_of
-from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
-from scanbench.verify.trace.axis import Unit, axis_of, plain_name
-from scanbench.verify.trace.table import Table
+from scanbench.symbols.sites import Sites
+from scanbench.symbols.symbols import Symbol
+from scanbench.verify.trace.table import Table, Unit
 
 T = TypeVar("T", bound=str)
 Role = Literal["input", "output", "ignore"]
@@ -19,6 +17,11 @@ Role = Literal["input", "output", "ignore"]
 Gaps = Literal["refuse", "skip", "hold"]
 """Of scans that are missing. refuse: the file. skip: nothing is run there, and the next row is taken over. hold: they are run
 with the inputs as they were, and nothing is compared."""
+
+Sampled = Literal["end", "begin"]
+"""When in a scan the controller took its samples. end: after the program. begin: before it, so the outputs are those of the scan
+before."""
+MAX_LATE_MS = 10_000.0
 
 
 class BadMapping(ValueError):
@@ -34,6 +37,12 @@ class ColumnMap:
     path: str = ""
     """Variable or address of the project."""
     role: Role = "ignore"
+    absolute: float = 0.0
+    """Of an output: by so much its number may differ."""
+    relative: float = 0.0
+    """The same as a part of what was recorded: 0.01 is one hundredth."""
+    late_ms: float = 0.0
+    """So much earlier or later its value may come, in milliseconds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +54,7 @@ class TraceMapping:
     unit: Unit = "scan"
     gaps: Gaps = "refuse"
     columns: tuple[ColumnMap, ...] = ()
+    sampled: Sampled = "end"
 
     def to_json(self) -> str:
         """As it is saved, and given to `scanbench verify --map`."""
@@ -61,7 +71,7 @@ class TraceMapping:
             raise BadMapping(
                 'A mapping is an object: {"axis": "scan", "unit": "scan", "gaps": "refuse", "columns": [...]}'
             )
-        _only(found, ("axis", "unit", "gaps", "columns"), "a mapping")
+        _only(found, ("axis", "unit", "gaps", "columns", "sampled"), "a mapping")
         columns = found.get("columns", [])
         if not isinstance(columns, list):
             raise BadMapping(
@@ -72,34 +82,8 @@ class TraceMapping:
             _one(found, "unit", get_args(Unit)),
             _one(found, "gaps", get_args(Gaps)),
             tuple(_column(each, index) for index, each in enumerate(columns)),
+            _one(found, "sampled", get_args(Sampled)),
         )
-
-
-def propose(table: Table, program: Program) -> TraceMapping:
-    """By names: `Main.x`, `x`, `0.03`, `D100`, a unit after it in brackets. What the program writes comes out, all else goes
-    in. Of a column that means nothing the path stays empty, and `trace_bind.check` says so, until somebody ignores it."""
-    axes = {
-        each: unit for each in table.columns if (unit := axis_of(each)) is not None and _symbol(program, each) is None
-    }
-    axis = next((each for each, unit in axes.items() if unit == "scan"), next(iter(axes), ""))
-    sites, taken = sites_of(program), set[int]()
-    columns = []
-    for column in table.columns:
-        if column in axes:
-            if column != axis:
-                columns.append(ColumnMap(column))
-            continue
-        symbol = _symbol(program, column)
-        if symbol is None:
-            columns.append(ColumnMap(column, "", "ignore" if _computed(program, column) else "output"))
-        elif (
-            symbol.slots or symbol.constant or not taken.isdisjoint(bits_of(symbol))
-        ):  # of two columns of one variable the first
-            columns.append(ColumnMap(column))
-        else:
-            taken.update(bits_of(symbol))
-            columns.append(ColumnMap(column, symbol.path, role_of(program, sites, symbol)))
-    return TraceMapping(axis, axes.get(axis, "scan"), "refuse", tuple(columns))
 
 
 def fits(mapping: TraceMapping, table: Table) -> bool:
@@ -134,40 +118,20 @@ def _byte(symbol: Symbol) -> Symbol:
     return Symbol(symbol.path, symbol.name, symbol.type, symbol.section, symbol.offset, None, (), symbol.address)
 
 
-def _symbol(program: Program, column: str) -> Symbol | None:
-    """What a column is called after."""
-    for name in dict.fromkeys((column, plain_name(column)[0])):
-        for path in _paths(program, name.strip()):
-            try:
-                return resolve(program, path)
-            except UnknownPath:
-                continue
-    return None
-
-
-def _paths(program: Program, name: str) -> Iterator[str]:
-    yield name
-    for instance in program.shown:
-        yield f"{instance.name}.{name}"
-
-
-def _computed(program: Program, column: str) -> bool:
-    """Whether it is an expression, as our own traces have: the program computes its parts, which have columns of their own."""
-    name = plain_name(column)[0]
-    return not name.isidentifier() and not isinstance(compile_signal(program, name), BadCondition)
-
-
 # ---- reading a mapping ----------------------------------------------------------------------------------------------
 
 
 def _column(given: object, index: int) -> ColumnMap:
     if not isinstance(given, dict):
         raise BadMapping(f"Column {index} of the mapping is no object with column, path and role.")
-    _only(given, ("column", "path", "role"), f"column {index} of the mapping")
+    _only(given, ("column", "path", "role", "absolute", "relative", "late_ms"), f"column {index} of the mapping")
     column = _text(given, "column")
     if not column:
         raise BadMapping(f'Column {index} of the mapping needs its name in the file, "column".')
-    return ColumnMap(column, _text(given, "path"), _one(given, "role", get_args(Role), "ignore"))
+    within = (
+        _number(given, each, most) for each, most in (("absolute", inf), ("relative", 1), ("late_ms", MAX_LATE_MS))
+    )
+    return ColumnMap(column, _text(given, "path"), _one(given, "role", get_args(Role), "ignore"), *within)
 
 
 def _only(given: dict[str, object], names: tuple[str, ...], what: str) -> None:
@@ -189,3 +153,12 @@ def _one(given: dict[str, object], name: str, known: tuple[T, ...], default: str
     if found is None:
         raise BadMapping(f'"{name}" of the mapping is `{text}`; it may be {", ".join(known)}.')
     return found
+
+
+def _number(given: dict[str, object], name: str, most: float) -> float:
+    found = given.get(name, 0)
+    if isinstance(found, bool) or not isinstance(found, int | float) or not 0 <= found <= most or found == inf:
+        if most == inf:
+            raise BadMapping(f'"{name}" of the mapping is `{found}`; it may be a number from 0 on.')
+        raise BadMapping(f'"{name}" of the mapping is `{found}`; it may be a number from 0 to {most:g}.')
+    return float(found)

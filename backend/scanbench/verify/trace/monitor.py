@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason, Stop
 from scanbench.program.program import Program
-from scanbench.program.types import StringType
 from scanbench.recording.programs import reference
 from scanbench.runtime.command import Patch
 from scanbench.runtime.header import pass_time
@@ -16,6 +15,9 @@ from scanbench.runtime.inside import Onlooker
 from scanbench.runtime.resource import Resource
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.trace.bind import Signal, Trace
+from scanbench.verify.trace.lateness import Lateness
+from scanbench.verify.trace.patches import Agrees, patch_of, put, value_of
+from scanbench.verify.trace.rounding import NO_SPREAD, Rounding, Shift, Spread, narrowed
 from scanbench.verify.uses import Recorder
 
 EVERY = 200
@@ -44,13 +46,18 @@ class Result:
     recorded: bytes | None
     """None: the trace has no value of it."""
     found: bytes
+    agrees: Agrees = "same"
+    """How: as it is written; within what somebody allows; within what rounded numbers leave open; or not."""
 
     @property
     def same(self) -> bool:
         """Whether there is nothing to say against it."""
-        if self.recorded is None:
-            return True
-        return self.signal.exactness.same(self.signal.type, self.recorded, self.found)
+        return self.agrees != "no"
+
+    @property
+    def exact(self) -> bool:
+        """Whether the cell can mean the very value that the reference has."""
+        return self.agrees == "same"
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +70,7 @@ class Ran:
     trap: int
     """Number of the run-time error that ended it, or 0."""
     results: tuple[Result, ...]
+    spread: Spread = NO_SPREAD
 
 
 class TraceMonitor:
@@ -80,6 +88,8 @@ class TraceMonitor:
         self._program = program
         self._kept: dict[int, bytes] = {}
         self._every = EVERY
+        self._open = Rounding(self.side, trace)
+        self._late = Lateness(trace)
 
     @property
     def scan(self) -> int:
@@ -102,8 +112,9 @@ class TraceMonitor:
         if scan < self.scan:
             kept = max((each for each in self._kept if each <= scan), default=None)
             assert kept is not None, "the first scan is always kept"
-            state = zlib.decompress(self._kept[kept])
+            state, *others = self._open.parts(zlib.decompress(self._kept[kept]), len(self.side.state))
             self.side.memory[: len(state)] = state
+            self._open.take_up(others)
         while self.scan < scan:
             self.pass_scan()
 
@@ -123,7 +134,8 @@ class TraceMonitor:
         if isinstance(hook, Recorder) and edits:
             hook.on_begin = lambda number, made: put(memory, edits.get(number, ()))
         hook.on_first = lambda: put(memory, patches)  # a plant may have said something else
-        return self._ran(recorded, begin, self.side.run(hook, hook.listen))
+        spread = NO_SPREAD if edits else self._open.run(begin, lambda shift: self.inputs(recorded.scan, shift))
+        return self._ran(recorded, begin, self.side.run(hook, hook.listen), spread)
 
     def run_with(self, hook: Onlooker, listen: Listen) -> Ran:
         """The same with a hook that gives the inputs itself, and may halt."""
@@ -131,18 +143,54 @@ class TraceMonitor:
         self._keep()
         put(self.side.memory, self.inputs(recorded.scan))
         begin = self.side.begin()
-        return self._ran(recorded, begin, self.side.run(hook, listen))
+        spread = self._open.run(begin, lambda shift: self.inputs(recorded.scan, shift))
+        return self._ran(recorded, begin, self.side.run(hook, listen), spread)
 
-    def _ran(self, recorded: Recorded, begin: Begin, stop: Stop) -> Ran:
-        return Ran(recorded, begin, stop.trap if stop.reason is Reason.TRAP else 0, self.results(recorded))
+    def _ran(self, recorded: Recorded, begin: Begin, stop: Stop, spread: Spread = NO_SPREAD) -> Ran:
+        trap = stop.trap if stop.reason is Reason.TRAP else 0
+        return Ran(recorded, begin, trap, self.results(recorded, spread), spread)
 
-    def results(self, recorded: Recorded) -> tuple[Result, ...]:
+    def results(self, recorded: Recorded, spread: Spread = NO_SPREAD) -> tuple[Result, ...]:
         """The mapped outputs as they are now."""
         row = recorded.row
-        return tuple(
-            Result(each, None if row is None else each.values[row], value_of(each, self.side.memory))
-            for each in self.trace.outputs
-        )
+        found = []
+        for at, each in enumerate(self.trace.outputs):
+            was, now = None if row is None else each.values[row], value_of(each, self.side.memory)
+            agrees: Agrees = "same"
+            if was is not None and not recorded.taken_over and not each.exactness.same(each.type, was, now):
+                agrees = self._judge(at, each, was, now, recorded.scan, spread)
+            found.append(Result(each, was, now, agrees))
+        return tuple(found)
+
+    def _judge(self, at: int, signal: Signal, was: bytes, now: bytes, scan: int, spread: Spread) -> Agrees:
+        """How a value that differs agrees, if it does."""
+        if signal.tolerance.allows(signal.type, was, now):
+            return "allowed"
+        if spread.leaves_open(signal, was, now):
+            return "open"
+        if signal.tolerance.scans and self._late.allows(
+            at, was, now, scan, lambda: self._ahead(at, signal.tolerance.scans)
+        ):
+            return "allowed"
+        return "no"
+
+    def _ahead(self, at: int, scans: int) -> list[bytes]:
+        """What an output is in the scans after this one, if nobody corrects the monitor. Afterwards it is where it was."""
+        side, signal = self.side, self.trace.outputs[at]
+        here = side.begin()
+        found: list[bytes] = []
+        try:
+            while len(found) < scans and self.scan < self.end and not self.recorded(self.scan).skipped:
+                patches = self.inputs(self.scan)
+                put(side.memory, patches)
+                nobody = _Nobody()
+                nobody.on_first = lambda patches=patches: put(side.memory, patches)  # type: ignore[misc]
+                if side.run(nobody, nobody.listen).reason is Reason.TRAP:
+                    break
+                found.append(value_of(signal, side.memory))
+        finally:
+            side.restore(here)
+        return found
 
     def back(self, ran: Ran) -> None:
         """Restores the beginning of a scan."""
@@ -153,9 +201,13 @@ class TraceMonitor:
         memory = self.side.memory
         if ran.trap:
             pass_time(memory, 1, self._program.interval_ns)
+        self._late.note(ran.recorded.scan, [each.found for each in ran.results])
+        self._open.settle(ran.spread, ran.results, ran.recorded.taken_over)
         for each in ran.results:
             if each.recorded is not None and (ran.recorded.taken_over or not each.same):
                 put(memory, [patch_of(each.signal, each.recorded)])
+            elif each.recorded is not None and each.agrees == "open":
+                put(memory, [patch_of(each.signal, narrowed(each.signal, each.recorded, each.found))])
         self._skip()
 
     def _skip(self) -> None:
@@ -170,16 +222,20 @@ class TraceMonitor:
         scan = self.scan
         if self._kept and scan < max(self._kept) + self._every:
             return
-        self._kept[scan] = zlib.compress(self.side.state, 1)
+        self._kept[scan] = zlib.compress(b"".join((self.side.state, *self._open.memories)), 1)
         if len(self._kept) > MOST:
             self._every *= 2
             self._kept = {each: self._kept[each] for each in sorted(self._kept)[::2]}
 
-    def inputs(self, scan: int) -> list[Patch]:
-        """What the monitor gets in a scan: what the trace says last."""
+    def inputs(self, scan: int, shift: Shift | None = None) -> list[Patch]:
+        """What the monitor gets in a scan: what the trace says last, or what a run makes of it."""
         row = bisect_right(self.trace.scans.of_rows, scan) - 1
         values = ((signal, filled[row]) for signal, filled in self._inputs)
-        return [patch_of(signal, value) for signal, value in values if value is not None]
+        return [
+            patch_of(signal, value if shift is None else shift(signal, value))
+            for signal, value in values
+            if value is not None
+        ]
 
 
 class _Nobody:
@@ -204,33 +260,6 @@ class _Nobody:
 
 def _nothing() -> None:
     pass
-
-
-def patch_of(signal: Signal, value: bytes) -> Patch:
-    """Gives a variable a value."""
-    symbol = signal.symbol
-    if symbol.bit is not None:
-        return Patch.of_bit(symbol.offset, symbol.bit, value != b"\0")
-    return Patch.whole(symbol.offset, value)
-
-
-def value_of(signal: Signal, memory: bytes | bytearray) -> bytes:
-    """What a variable is."""
-    symbol = signal.symbol
-    if symbol.bit is not None:
-        return bytes((memory[symbol.offset] >> symbol.bit & 1,))
-    value = bytes(memory[symbol.offset : symbol.offset + signal.type.size])
-    if isinstance(signal.type, StringType):  # bytes after its end have no meaning
-        used = 2 + signal.type.width * min(int.from_bytes(value[:2], "little"), signal.type.capacity)
-        return value[:used].ljust(len(value), b"\0")
-    return value
-
-
-def put(memory: bytearray, patches: Sequence[Patch]) -> None:
-    """Applies them."""
-    for patch in patches:
-        for at, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
-            memory[at] = memory[at] & ~mask | data & mask
 
 
 def _filled(values: Sequence[bytes | None]) -> list[bytes | None]:

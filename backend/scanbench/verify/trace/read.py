@@ -1,9 +1,13 @@
-"""Reads a trace file, CSV or JSON, whole or not at all; the format is in docs/trace-format.md."""
+"""Reads a trace file, whole or not at all: CSV or JSON as in docs/trace-format.md, or what a tool of some vendor writes."""
 
 import codecs
 
+from scanbench.verify.trace.clock import is_date
 from scanbench.verify.trace.csv import read_csv
 from scanbench.verify.trace.json import read_json
+from scanbench.verify.trace.layouts.recognise import read_by_shape, read_known
+from scanbench.verify.trace.layouts.shape import is_paired
+from scanbench.verify.trace.layouts.sheet import is_moment
 from scanbench.verify.trace.long import widened
 from scanbench.verify.trace.table import MAX_BYTES, BadTraceFile, Table, bad, check_size
 
@@ -18,12 +22,31 @@ def read_trace(data: bytes, name: str) -> Table:
     if not text.strip():
         raise bad("The file is empty.")
     json = text.lstrip()[0] in "[{" if not name.lower().endswith((".csv", ".txt", ".tsv")) else False
-    table = read_json(text, name, note) if json or name.lower().endswith(".json") else read_csv(text, name, note)
-    table = widened(table)
+    table = widened(read_json(text, name, note)) if json or name.lower().endswith(".json") else _lines(text, name, note)
     check_size(len(table.columns), len(table.rows))
     if not table.rows:
         raise bad("The file has names of columns, but no row with values.", table.header)
     return table
+
+
+def _lines(text: str, name: str, note: str) -> Table:
+    """A file of lines: of a tool that we know, as our format says, or by its shape. What it is if not even that is said of our
+    format."""
+    known = read_known(text, name, note)
+    if known is not None:
+        return known
+    try:
+        table = read_csv(text, name, note)
+    except BadTraceFile:
+        shaped = read_by_shape(text, name, note)
+        if shaped is None:
+            raise
+        return shaped
+    if table.rows and (not is_moment(table.rows[0][0]) or is_date(table.rows[0][0]) or is_paired(table.columns)):
+        shaped = read_by_shape(text, name, note)  # there are lines below the names, or more columns of times
+        if shaped is not None:
+            return shaped
+    return widened(table)
 
 
 def _text(data: bytes) -> tuple[str, str]:

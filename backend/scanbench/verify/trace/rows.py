@@ -12,7 +12,8 @@ from scanbench.verify.contract import ENDED, Input, Mismatch, Output, Place, Row
 from scanbench.verify.ranges import Resolved
 from scanbench.verify.rows import MAX_MISMATCHES, Reader, written_by
 from scanbench.verify.trace.bind import Signal, Trace
-from scanbench.verify.trace.monitor import Ran, Result, TraceMonitor, put
+from scanbench.verify.trace.monitor import Ran, Result, TraceMonitor
+from scanbench.verify.trace.patches import put
 from scanbench.verify.uses import Access, Pass
 
 _HELD = "not in the trace: inputs held"
@@ -72,6 +73,8 @@ class TraceRows:
         compared = any(None not in (each.control, each.monitor) for each in outputs.values())
         if not compared and ran.recorded.row is not None and not ran.recorded.taken_over:
             note = "; ".join(filter(None, (note, _NOTHING)))
+        if not ran.recorded.taken_over:
+            note = "; ".join(filter(None, (note, *_tolerated(known))))
         return Row(
             kind, ran.recorded.scan, call, 0, path, place, outputs, inputs, differences[:MAX_MISMATCHES], (), made.used, note,
             compared,
@@ -238,9 +241,19 @@ def _leaf(names: NamesInside, signal: Signal) -> Leaf:
     return Leaf(signal.path, signal.type, symbol.offset, symbol.bit)
 
 
+def _tolerated(results: Mapping[str, Result]) -> Iterator[str]:
+    """Which results agree only because somebody allows it, or because rounded numbers leave it open."""
+    allowed = [name for name, each in results.items() if each.agrees == "allowed"]
+    left_open = [name for name, each in results.items() if each.agrees == "open"]
+    if allowed:
+        yield f"within the tolerance: {', '.join(allowed)}"
+    if left_open:
+        yield f"within what rounded numbers leave open: {', '.join(left_open)}"
+
+
 def _shown(result: Result, ran: Ran) -> bytes | None:
     """A number that is written with fewer digits than it has is the one that was found."""
-    if result.recorded is not None and result.same and not ran.recorded.taken_over:
+    if result.recorded is not None and result.exact and not ran.recorded.taken_over:
         return result.found
     return result.recorded
 

@@ -1,16 +1,20 @@
 """A trace file as a table of texts: what every format comes to, before anybody says what its columns mean."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 from scanbench.public import Public
+
+Unit = Literal["scan", "ns", "us", "ms", "s"]
+"""What the numbers of a scan or time column count. Where they are seconds, there may be a date and time of day instead, or a time of day."""
 
 MAX_BYTES = 32 << 20
 MAX_ROWS = 500_000
 MAX_COLUMNS = 1000
 MAX_CELLS = 5_000_000
 MAX_PROBLEMS = 200
-"""How many are told: the others go away with them."""
+"""How many causes are told: the others go away with them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,11 +27,16 @@ class TraceProblem(Public):
     message: str
     warning: bool = False
     """It is worth a look, but refuses nothing."""
+    more: int = 0
+    """In so many further rows it is the same."""
+    last: int | None = None
+    """The last one of those."""
 
     def __str__(self) -> str:
         where = [] if self.row is None else [f"row {self.row}"]
         where += [f"column `{self.column}`"] if self.column else []
-        return f"{', '.join(where)}: {self.message}" if where else self.message
+        told = f"{', '.join(where)}: {self.message}" if where else self.message
+        return f"{told} (The same in {self.more:,} more rows, the last one is row {self.last}.)" if self.more else told
 
 
 class BadTraceFile(ValueError):
@@ -54,27 +63,63 @@ class Table:
     """Numbers may have a decimal comma."""
     note: str = ""
     """How it was read, where that is not plain: its encoding was guessed."""
+    layout: str = ""
+    """Whose layout it has; empty: ours (docs/trace-format.md)."""
+    axis: str = ""
+    """The column that is the scan or time, where the layout tells; empty: that is found by the names."""
+    unit: Unit | None = None
+    """Of the axis, where the layout tells."""
+    from_start: bool = True
+    """Scans and times may count from the controller's start; else they count from where the recording began."""
+    durations: Unit | None = None
+    """What a plain number in a column of a TIME counts, where the layout tells."""
+    left_out: tuple[str, ...] = ()
+    """What the file has besides, and is no variable: a sentence for each."""
 
 
 class Problems:
-    """Collects them, and says when there are enough."""
+    """Collects them: one for each cause, however many rows have it."""
 
     def __init__(self) -> None:
-        self.found: list[TraceProblem] = []
+        self._found: list[TraceProblem] = []
+        self._causes: dict[tuple[str, str], int] = {}
+        self._more: dict[int, tuple[int, int | None]] = {}
+        """How many more rows a problem has, and the last one of them."""
+
+    @property
+    def found(self) -> list[TraceProblem]:
+        """All of them, each with the number of rows that have it."""
+        more = ((each, *self._more.get(at, (0, None))) for at, each in enumerate(self._found))
+        return [replace(each, more=count, last=last) for each, count, last in more]
+
+    @property
+    def any(self) -> bool:
+        """Whether there is one."""
+        return bool(self._found)
+
+    @property
+    def count(self) -> int:
+        """How many causes there are."""
+        return len(self._found)
 
     @property
     def full(self) -> bool:
         """Whether any more would not be told."""
-        return len(self.found) >= MAX_PROBLEMS
+        return len(self._found) >= MAX_PROBLEMS
 
-    def add(self, row: int | None, column: str, message: str, warning: bool = False) -> None:
-        """One more, while there is room."""
-        if not self.full:
-            self.found.append(TraceProblem(row, column, message, warning))
+    def add(self, row: int | None, column: str, message: str, warning: bool = False, cause: str = "") -> None:
+        """One more, while there is room. A further one of the same column and `cause` is only counted."""
+        known = self._causes.get((column, cause)) if cause else None
+        if known is not None:
+            self._more[known] = (self._more.get(known, (0, None))[0] + 1, row)
+        elif not self.full:
+            if cause:
+                self._causes[column, cause] = len(self._found)
+            self._found.append(TraceProblem(row, column, message, warning))
 
     def refuse(self) -> None:
         """Raises `BadTraceFile` where there are any."""
-        if self.found:
+        if self._found:
             raise BadTraceFile(self.found)
 
 

@@ -10,12 +10,15 @@ from decimal import Decimal
 from scanbench.program.types import Elementary, Enumeration, Kind, StringType
 from scanbench.symbols.values import parse_value
 from scanbench.syntax.literals import UNITS_NS
-from scanbench.verify.trace.axis import Unit, number
+from scanbench.verify.trace.clock import number
+from scanbench.verify.trace.table import Unit
 
 Leaf = Elementary | StringType
 _PLAIN = re.compile(r"[+-]?\d+")
 _WHOLE = re.compile(r"([+-]?\d+)[.,]0+")
 _DIGITS = re.compile(r"[+-]?(\d*)(?:[.,](\d*))?(?:[eE]([+-]?\d+))?")
+REAL_DIGITS = 9
+"""So many significant digits tell a single-precision number exactly."""
 LEAST_DIGITS = 6
 """Significant digits that a column of numbers has at least: what `%g` writes."""
 
@@ -66,16 +69,43 @@ class Exactness:
             return recorded[:size] == found[:size]
         if recorded == found or not self.digits:
             return recorded == found
-        one, other = _float(type, recorded), _float(type, found)
+        one, other = number_of(type, recorded), number_of(type, found)
         if not (math.isfinite(one) and math.isfinite(other)):
             return (math.isnan(one) and math.isnan(other)) or one == other
-        if one == other == 0:
-            return True
-        largest = max(abs(one), abs(other))
-        step = largest / self.scale and 10.0 ** (math.floor(math.log10(largest / self.scale)) + 1 - self.digits)
+        return abs(one - other) <= self.half(max(abs(one), abs(other)))
+
+    def half(self, value: float) -> float:
+        """By how much a value of about this size may differ from what is written; 0: it is written exactly."""
+        if not self.digits or not math.isfinite(value):
+            return 0.0
+        size = abs(value) / self.scale
+        step = 10.0 ** (math.floor(math.log10(size)) + 1 - self.digits) if size else 0.0
         if self.decimals is not None:
             step = max(step, 10.0**-self.decimals)
-        return abs(one - other) <= 0.5000001 * step * self.scale
+        return 0.5000001 * step * self.scale
+
+    @property
+    def rounds(self) -> bool:
+        """Whether a number is written with fewer digits than a REAL has."""
+        return 0 < self.digits < REAL_DIGITS and self.scale == 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerance:
+    """By what a recorded value may differ from that of the reference, as somebody has chosen."""
+
+    absolute: float = 0.0
+    relative: float = 0.0
+    """A part of the recorded value."""
+    scans: int = 0
+    """So many scans it may come earlier or later."""
+
+    def allows(self, type: Leaf, recorded: bytes, found: bytes) -> bool:
+        """Whether the numbers are near enough to each other. What is no number has no tolerance."""
+        if not (self.absolute or self.relative) or not is_number(type):
+            return False
+        one, other = number_of(type, recorded), number_of(type, found)
+        return abs(one - other) <= max(self.absolute, self.relative * abs(one)) * (1 + 1e-9)
 
 
 def exactness(type: Leaf, texts: Sequence[str], unit: Unit | None) -> Exactness:
@@ -98,7 +128,24 @@ def exactness(type: Leaf, texts: Sequence[str], unit: Unit | None) -> Exactness:
     return Exactness(digits, fixed, float(UNITS_NS[unit]) if timed and unit is not None and unit != "scan" else 1.0)
 
 
-def _float(type: Leaf, data: bytes) -> float:
+def is_number(type: Leaf) -> bool:
+    """Whether values are more or less than others."""
+    return isinstance(type, Elementary) and type.kind in (Kind.REAL, Kind.INT, Kind.UINT, Kind.TIME)
+
+
+def number_of(type: Leaf, data: bytes) -> float:
+    """The number that the bytes of a value are; of a TIME ns."""
     if isinstance(type, Elementary) and type.kind is Kind.REAL:
         return float(struct.unpack("<f" if type.size == 4 else "<d", data)[0])
-    return float(Decimal(int.from_bytes(data, "little", signed=True)))
+    signed = isinstance(type, Elementary) and type.kind is not Kind.UINT
+    return float(Decimal(int.from_bytes(data, "little", signed=signed)))
+
+
+def real_bytes(type: Leaf, value: float) -> bytes:
+    """A REAL or LREAL; what is too large for it is infinite."""
+    if type.size == 8:
+        return struct.pack("<d", value)
+    try:
+        return struct.pack("<f", value)
+    except OverflowError:
+        return struct.pack("<f", math.copysign(math.inf, value))

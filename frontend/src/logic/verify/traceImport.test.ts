@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { TraceMapping } from "../../wire/types";
 import {
+  bounded,
   byColumn,
   carryOver,
   changeAxis,
@@ -10,6 +11,7 @@ import {
   firstValues,
   isProposed,
   takeSaved,
+  unused,
 } from "./traceImport";
 
 const FILE = ["scan", "start", "speed", "note"];
@@ -18,9 +20,10 @@ const proposal: TraceMapping = {
   unit: "scan",
   gaps: "refuse",
   columns: [
-    { column: "start", path: "start", role: "input" },
-    { column: "speed", path: "Main.belt.speed", role: "output" },
+    { ...unused("start"), path: "start", role: "input" },
+    { ...unused("speed"), path: "Main.belt.speed", role: "output" },
   ],
+  sampled: "end",
 };
 const rows = (mapping: TraceMapping) => mapping.columns.map(({ column, path, role }) => `${column}=${path}:${role}`);
 
@@ -66,7 +69,8 @@ describe("choosing a different file", () => {
       axis: "t",
       unit: "ms",
       gaps: "refuse",
-      columns: [{ column: "start", path: "Main.start", role: "input" }],
+      columns: [{ ...unused("start"), path: "Main.start", role: "input" }],
+      sampled: "end",
     };
     const mapping = carryOver({ mapping: changed, proposal }, next, ["t", "speed", "start"]);
     expect(mapping).toMatchObject({ axis: "t", unit: "ms", gaps: "hold" });
@@ -88,7 +92,7 @@ describe("a saved mapping", () => {
     const saved = {
       ...proposal,
       axis: "t",
-      columns: [...proposal.columns, { column: "lift", path: "lift", role: "input" as const }],
+      columns: [...proposal.columns, { ...unused("lift"), path: "lift", role: "input" as const }],
     };
     const taken = takeSaved(saved, FILE);
     expect(taken.lost).toEqual(["t", "lift"]);
@@ -101,12 +105,30 @@ describe("a saved mapping", () => {
   });
 });
 
+it("a tolerance is a number that is not negative; empty is none", () => {
+  expect(["", " 0,5 ", "1e3", "-1", "x", "101"].map((text) => bounded(text, 100))).toEqual([
+    0,
+    0.5,
+    null,
+    null,
+    null,
+    null,
+  ]);
+});
+
 it("the first values of a column show where a cell is empty", () => {
   expect(firstValues([["1", "TRUE"], ["2", ""], ["3"]], 1)).toBe("TRUE · – · –");
 });
 
 it("problems are listed by column; those of the whole file belong to no column", () => {
-  const problem = (row: number | null, column: string) => ({ row, column, message: "?", warning: false });
+  const problem = (row: number | null, column: string) => ({
+    row,
+    column,
+    message: "?",
+    warning: false,
+    more: 0,
+    last: null,
+  });
   const found = byColumn([problem(2, "speed"), problem(null, ""), problem(9, "speed")]);
   expect([...found.keys()]).toEqual(["speed"]);
   expect(found.get("speed")?.map(({ row }) => row)).toEqual([2, 9]);

@@ -4,6 +4,17 @@ import type { NewTraceVerification, TraceColumnMap, TraceMapping, TraceProblem }
 export const ROLES = ["input", "output", "ignore"] as const;
 export const UNITS = ["scan", "ns", "us", "ms", "s"] as const;
 export const GAPS = ["refuse", "skip", "hold"] as const;
+export const SAMPLED = ["end", "begin"] as const;
+
+/** A column that is not used. */
+export const unused = (column: string): TraceColumnMap => ({
+  column,
+  path: "",
+  role: "ignore",
+  absolute: 0,
+  relative: 0,
+  late_ms: 0,
+});
 
 const columnIn = (mapping: TraceMapping, name: string) => mapping.columns.find(({ column }) => column === name);
 
@@ -14,7 +25,7 @@ export function complete(mapping: TraceMapping, columns: readonly string[]): Tra
     axis: columns.includes(mapping.axis) ? mapping.axis : "",
     columns: columns
       .filter((name) => name !== mapping.axis)
-      .map((column) => columnIn(mapping, column) ?? { column, path: "", role: "ignore" }),
+      .map((column) => columnIn(mapping, column) ?? unused(column)),
   };
 }
 
@@ -33,6 +44,7 @@ export function carryOver(
       axis: columns.includes(axis) || axis === "" ? axis : fresh.axis,
       unit: kept(before.mapping.unit, before.proposal.unit, fresh.unit),
       gaps: kept(before.mapping.gaps, before.proposal.gaps, fresh.gaps),
+      sampled: kept(before.mapping.sampled, before.proposal.sampled, fresh.sampled),
       columns: columns.flatMap((name) => {
         const mine = columnIn(before.mapping, name);
         const changed = mine && !isSame(mine, columnIn(before.proposal, name));
@@ -44,11 +56,24 @@ export function carryOver(
 }
 
 const isSame = (one: TraceColumnMap, other: TraceColumnMap | undefined): boolean =>
-  other !== undefined && one.path === other.path && one.role === other.role;
+  other !== undefined &&
+  (["path", "role", "absolute", "relative", "late_ms"] as const).every((each) => one[each] === other[each]);
 
 /** The column is used, and its mapping is still the proposed one. */
 export function isProposed(row: TraceColumnMap, proposal: TraceMapping): boolean {
-  return row.role !== "ignore" && row.path !== "" && isSame(row, columnIn(proposal, row.column));
+  const proposed = columnIn(proposal, row.column);
+  return row.role !== "ignore" && row.path !== "" && row.path === proposed?.path && row.role === proposed.role;
+}
+
+/** What somebody allows an output to differ by. */
+export const hasTolerance = ({ absolute, relative, late_ms }: TraceColumnMap) =>
+  absolute > 0 || relative > 0 || late_ms > 0;
+
+/** A number as it was typed: empty is 0; null: it is none, or not within these bounds. */
+export function bounded(text: string, most: number): number | null {
+  const plain = text.trim().replace(",", ".");
+  const value = plain === "" ? 0 : Number(plain);
+  return Number.isFinite(value) && value >= 0 && value <= most ? value : null;
 }
 
 /** Applies a saved mapping to this file: what it says about columns of the file, and the columns that the file does not have. */

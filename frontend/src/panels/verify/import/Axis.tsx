@@ -1,4 +1,4 @@
-import { changeAxis, GAPS, UNITS } from "../../../logic/verify/traceImport";
+import { changeAxis, GAPS, SAMPLED, UNITS } from "../../../logic/verify/traceImport";
 import { useDocuments } from "../../../store/project/documents";
 import { chooseRange, editMapping, useTraceImport } from "../../../store/verify/traceImport";
 import { t } from "../../../text";
@@ -58,6 +58,20 @@ export function Axis({ trace, mapping }: Props) {
           {GAPS.map((gaps) => (
             <option key={gaps} value={gaps}>
               {t(`import.trace.gaps.${gaps}`)}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label>
+        <span className="faint">{t("import.trace.sampled")}</span>
+        <select
+          className="inp sm"
+          value={mapping.sampled}
+          onChange={(event) => editMapping({ ...mapping, sampled: event.target.value as TraceMapping["sampled"] })}
+        >
+          {SAMPLED.map((sampled) => (
+            <option key={sampled} value={sampled}>
+              {t(`import.trace.sampled.${sampled}`)}
             </option>
           ))}
         </select>

@@ -47,7 +47,13 @@ export function ChooseFile() {
           <b>{trace.name}</b>{" "}
           <span className="muted">
             {t("import.trace.rows", { rows: grouped(trace.rows), columns: trace.columns.length })}
-          </span>
+          </span>{" "}
+          {trace.layout !== "" && <span className="chip">{trace.layout}</span>}{" "}
+          {trace.left_out.length > 0 && (
+            <span className="muted" title={trace.left_out.join("\n")}>
+              {t("import.trace.leftout", { count: trace.left_out.length })}
+            </span>
+          )}
         </span>
       )}
       {reading === null && !trace && (
@@ -62,7 +68,7 @@ export function ChooseFile() {
         type="file"
         hidden
         aria-label={t("import.trace.file")}
-        accept=".csv,.json,.txt,.tsv,text/csv,application/json"
+        accept=".csv,.json,.txt,.tsv,.trace,.xml,text/csv,application/json"
         onChange={(event) => {
           const file = event.target.files?.[0];
           event.target.value = ""; // choosing the same file again, corrected, counts as a change, too

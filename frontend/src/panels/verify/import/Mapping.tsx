@@ -1,4 +1,13 @@
-import { byColumn, changeColumn, countRoles, firstValues, isProposed, ROLES } from "../../../logic/verify/traceImport";
+import { useState } from "react";
+import {
+  byColumn,
+  changeColumn,
+  countRoles,
+  firstValues,
+  hasTolerance,
+  isProposed,
+  ROLES,
+} from "../../../logic/verify/traceImport";
 import { useWidths } from "../../../store/page/columns";
 import { complete } from "../../../store/plc/completion";
 import { editMapping, forgetMapping, loadMapping, useTraceImport } from "../../../store/verify/traceImport";
@@ -9,6 +18,7 @@ import { PathField } from "../../../ui/PathField";
 import { useColumns } from "../../../ui/useColumns";
 import type { TraceColumnMap, TraceMapping, TraceProblem, UploadedTrace } from "../../../wire/types";
 import { placeOf } from "./Problems";
+import { Tolerance, toleranceText } from "./Tolerance";
 
 interface Props {
   trace: UploadedTrace;
@@ -39,6 +49,7 @@ export function Mapping({ trace, mapping, onSave }: Props) {
           {(["column", "values", "role", "variable"] as const).map((column) =>
             head(column, t(`import.trace.${column}`)),
           )}
+          <span role="columnheader">{t("import.trace.tolerance")}</span>
           <span role="columnheader" aria-label={t("import.trace.proposed")} />
         </div>
         {mapping.axis !== "" && <AxisRow trace={trace} axis={mapping.axis} wrong={wrong.get(mapping.axis)} />}
@@ -86,6 +97,7 @@ function AxisRow({ trace, axis, wrong }: AxisRowProps) {
       </span>
       <span role="cell" />
       <span role="cell" />
+      <span role="cell" />
     </div>
   );
 }
@@ -126,14 +138,40 @@ function ColumnRow({ row, trace, wrong, onChange }: ColumnRowProps) {
           onChange={(next) => onChange({ path: next })}
         />
       </span>
-      <span role="cell">
-        {isProposed(row, trace.mapping) && (
-          <span className="chip" title={t("import.trace.proposed.about")}>
-            {t("import.trace.proposed")}
-          </span>
-        )}
-      </span>
+      <span role="cell">{role === "output" && <Within row={row} onChange={onChange} />}</span>
+      <span role="cell">{isProposed(row, trace.mapping) && <Proposed trace={trace} column={column} />}</span>
     </div>
+  );
+}
+
+/** How much the output may differ; the button changes that. */
+function Within({ row, onChange }: Pick<ColumnRowProps, "row" | "onChange">) {
+  const [editing, setEditing] = useState(false);
+  const label = t("import.trace.tolerance.of", { column: row.column });
+  return (
+    <>
+      <button type="button" className="btn quiet sm" aria-label={label} onClick={() => setEditing(true)}>
+        {hasTolerance(row) ? toleranceText(row) : <span className="faint">{t("import.trace.tolerance.none")}</span>}
+      </button>
+      {editing && <Tolerance row={row} onChange={onChange} onClose={() => setEditing(false)} />}
+    </>
+  );
+}
+
+/** The variable is the proposed one; how sure that is, where it is not certain. */
+function Proposed({ trace, column }: { trace: UploadedTrace; column: string }) {
+  const guess = trace.guesses.find((each) => each.column === column);
+  const unsure = guess !== undefined && guess.score < 1;
+  const others = guess?.near.slice(1) ?? [];
+  const about = [
+    t("import.trace.proposed.about"),
+    others.length > 0 ? t("import.trace.proposed.near", { names: others.join(", ") }) : "",
+  ];
+  return (
+    <span className="chip" title={about.filter(Boolean).join(" ")}>
+      {t("import.trace.proposed")}
+      {unsure && ` ${Math.round(guess.score * 100)} %`}
+    </span>
   );
 }
 

@@ -1,3 +1,4 @@
+import { grouped } from "../../../logic/format/numbers";
 import { t } from "../../../text";
 import type { TraceProblem } from "../../../wire/types";
 
@@ -18,7 +19,15 @@ export function Problems({ problems }: { problems: readonly TraceProblem[] }) {
         // biome-ignore lint/suspicious/noArrayIndexKey: the list is always replaced as a whole, and may contain the same problem twice
         <li key={index}>
           <span className="faint mono">{placeOf(problem)}</span>
-          <span className={problem.warning ? "muted" : ""}>{problem.message}</span>
+          <span className={problem.warning ? "muted" : ""}>
+            {problem.message}
+            {problem.more > 0 && (
+              <span className="faint">
+                {" "}
+                {t("import.trace.problem.more", { count: grouped(problem.more), last: problem.last ?? "" })}
+              </span>
+            )}
+          </span>
         </li>
       ))}
     </ul>

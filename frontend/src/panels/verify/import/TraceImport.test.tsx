@@ -1,5 +1,6 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { unused } from "../../../logic/verify/traceImport";
 import { openTraceImport } from "../../../store/verify/traceImport";
 import { box, button, choose, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
@@ -14,6 +15,8 @@ const problem = (message: string, column = "", row: number | null = null): Trace
   column,
   row,
   warning: false,
+  more: 0,
+  last: null,
 });
 
 const MAPPING: TraceMapping = {
@@ -21,9 +24,10 @@ const MAPPING: TraceMapping = {
   unit: "scan",
   gaps: "refuse",
   columns: [
-    { column: "start", path: "start", role: "input" },
-    { column: "sped", path: "", role: "output" },
+    { ...unused("start"), path: "start", role: "input" },
+    { ...unused("sped"), role: "output" },
   ],
+  sampled: "end",
 };
 
 const TRACE: UploadedTrace = {
@@ -34,6 +38,9 @@ const TRACE: UploadedTrace = {
   sample: [["0", "FALSE", "1"]],
   mapping: MAPPING,
   problems: [],
+  guesses: [{ column: "start", score: 0.84, near: ["start", "Main.start"] }],
+  layout: "TwinCAT Scope",
+  left_out: ["`Trigger` is no variable of the program."],
 };
 
 /** A server that wants a variable for each column that is used. */
@@ -150,4 +157,25 @@ test("what the server refuses to begin stays in the dialog", async () => {
     { file: "f1" },
   ]);
   expect(screen.getByRole("dialog")).not.toBeNull();
+});
+
+test("the file says whose it is and how sure a variable is; an output gets a tolerance", async () => {
+  const { server, user, upload } = await openImport();
+  await upload("line.csv");
+  await screen.findByText("TwinCAT Scope");
+  expect(textOf(screen.getByRole("table"))).toContain(`${t("import.trace.proposed")} 84 %`);
+  await user.type(variable("sped"), "speed");
+  await user.click(button(t("import.trace.tolerance.of", { column: "sped" })));
+  const dialog = await screen.findByRole("dialog", { name: t("import.trace.tolerance.of", { column: "sped" }) });
+  const percent = box(t("import.trace.tolerance.relative"), dialog);
+  await user.type(percent, "200");
+  expect(textOf(dialog)).toContain(t("import.trace.tolerance.bad.percent"));
+  await user.clear(percent);
+  await user.type(percent, "1");
+  await user.type(box(t("import.trace.tolerance.late"), dialog), "20");
+  await user.click(button(t("import.trace.tolerance.do"), dialog));
+  await waitFor(() => expect(textOf(screen.getByRole("table"))).toContain("1 %, 20 ms"));
+  await waitFor(() => expect(start()).toHaveProperty("disabled", false));
+  const sent = server.askedOf("POST", `/instances/${server.instance.id}/trace-check`).at(-1);
+  expect(sent).toMatchObject({ mapping: { columns: [{}, { column: "sped", relative: 0.01, late_ms: 20 }] } });
 });
