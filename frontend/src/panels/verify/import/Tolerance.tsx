@@ -14,7 +14,7 @@ const BAD = [
   "import.trace.tolerance.bad.ms",
 ] as const;
 
-export type Within = Pick<TraceColumnMap, "absolute" | "relative" | "late_ms">;
+type Within = Pick<TraceColumnMap, "absolute" | "relative" | "late_ms">;
 
 interface Props {
   row: TraceColumnMap;
