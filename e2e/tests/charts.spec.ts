@@ -15,9 +15,18 @@ TRANSITION FROM Idle TO (Fill, Heat) := start; END_TRANSITION
 TRANSITION FROM (Fill, Heat) TO Mix := level >= 80; END_TRANSITION
 TRANSITION FROM Mix TO Idle := empty; END_TRANSITION
 END_FUNCTION_BLOCK
+FUNCTION_BLOCK Guard
+VAR_INPUT start, stop : BOOL; END_VAR
+VAR_OUTPUT running : BOOL; END_VAR
+NETWORK "Holds itself"
+    #any = OR(start, #run);
+    #run = AND(#any, NOT stop);
+    running := #run;
+END_NETWORK
+END_FUNCTION_BLOCK
 `;
 
-test('a chart with a simultaneous branch is drawn, shows what is active, and halts at a step', async ({
+test('a chart with a simultaneous branch and a network are drawn, live, with lanes and halts @nightly', async ({
   openAs,
   server,
 }) => {
@@ -28,8 +37,11 @@ test('a chart with a simultaneous branch is drawn, shows what is active, and hal
   const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
   const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
   const main = text
-    .replace('END_VAR', '  batch : Batch;\nEND_VAR')
-    .replace('END_PROGRAM', 'batch(start := start, level := SEL(stop, 0, 80));\nEND_PROGRAM');
+    .replace('END_VAR', '  batch : Batch;\n  guard : Guard;\nEND_VAR')
+    .replace(
+      'END_PROGRAM',
+      'batch(start := start, level := SEL(stop, 0, 80));\nguard(start := start, stop := stop);\nEND_PROGRAM',
+    );
   for (const [file, data] of [
     ['Batch.st', { text: BATCH, version: 0 }],
     ['Main.st', { text: main, version }],
@@ -61,6 +73,20 @@ test('a chart with a simultaneous branch is drawn, shows what is active, and hal
     await page.keyboard.press('F9');
     await expect(sheet.getByRole('option', { name: 'Step Heat, next element, breakpoint' })).toBeVisible();
     await step('Heat').click();
+    await page.keyboard.press('F9');
+    await page.keyboard.press('F5');
+    await expect(sheet.getByText('next element')).toHaveCount(0);
+  });
+
+  await test.step('a network beside it is drawn, with what its wires have', async () => {
+    const box = sheet.getByRole('option', { name: '2: box AND to #run' });
+    await box.scrollIntoViewIfNeeded();
+    await expect(sheet.locator('.wire.on[data-wire="#RUN"]')).not.toHaveCount(0);
+    await expect(sheet.getByRole('option', { name: '3: #run to running' })).toContainText('running TRUE');
+    await box.click();
+    await page.keyboard.press('F9');
+    await expect(sheet.getByRole('option', { name: '2: box AND to #run, next element, breakpoint' })).toBeVisible();
+    await box.click();
     await page.keyboard.press('F9');
     await page.keyboard.press('F5');
     await expect(sheet.getByText('next element')).toHaveCount(0);

@@ -110,6 +110,12 @@ export function holdsBy(condition: Condition | null, read: (variable: string) =>
   return text === "TRUE" ? true : text === "FALSE" ? false : null;
 }
 
+/** The text of the value that an expression has; null where it is not known here. */
+export function valueBy(text: string, read: (variable: string) => string | null): string | null {
+  const parsed = conditionOf(text);
+  return parsed && textOf(parsed, read);
+}
+
 type Read = (variable: string) => string | null;
 const word = (value: Power) => (value === null ? null : value ? "TRUE" : "FALSE");
 
@@ -139,7 +145,8 @@ function textOf(part: Condition, read: Read): string | null {
   }
 }
 
-function compared(by: string, left: string | null, right: string | null): Power {
+/** Whether two values compare so, by `>=` for one; null where their texts do not tell. */
+export function compared(by: string, left: string | null, right: string | null): Power {
   if (left === null || right === null) return null;
   const sign = signOf(left, right);
   if (sign === null) return null;

@@ -1,8 +1,10 @@
-/** The rungs and charts of a text as they are drawn. What did not change is not laid out again. */
+/** The rungs, function block diagrams and charts of a text as they are drawn. What did not change is not laid out again. */
 
 import type { Chart } from "./chart";
 import { type ChartDrawing, layOutChart } from "./chartLayout";
 import { partsIn, readChart } from "./charts";
+import { type DiagramDrawing, layOutDiagram } from "./diagramLayout";
+import { readDiagram } from "./diagramRead";
 import { type Drawing, layOut, type Place } from "./ladderLayout";
 import { readRung } from "./ladderRead";
 import type { Found } from "./networks";
@@ -28,7 +30,9 @@ interface DrawnChart extends Drawn<"chart", ChartDrawing> {
   bodies: Chart["bodies"];
 }
 
-export type DrawnPart = DrawnRung | DrawnChart;
+type DrawnNetwork = Drawn<"network", DiagramDrawing>;
+
+export type DrawnPart = DrawnRung | DrawnNetwork | DrawnChart;
 
 /** What a cursor can be at: an element and its place in the drawing. */
 export interface Spot {
@@ -80,6 +84,12 @@ function draw(found: Found, width: number, last: DrawnPart | undefined): DrawnPa
       return { kind: "chart", found, readable: true, bodies: read.bodies, drawing: layOutChart(read) };
     const drawing = last?.kind === "chart" ? last.drawing : null;
     return { kind: "chart", found, readable: false, bodies: [], drawing };
+  }
+  if (found.kind === "network") {
+    const read = readDiagram(found);
+    const drawing =
+      read.kind === "network" ? layOutDiagram(read.items) : last?.kind === "network" ? last.drawing : null;
+    return { kind: "network", found, readable: read.kind === "network", drawing };
   }
   const read = found.closed ? readRung(found) : null;
   if (read?.kind === "rung")

@@ -21,8 +21,8 @@ export function showAs(path: string, view: View): void {
   keep(KEY, useViews.getState().of);
 }
 
-/** What a text has that is drawn: rungs or charts, both (`mixed`), or nothing. */
-type DrawnKind = "rung" | "chart" | "mixed" | null;
+/** What a text has that is drawn: rungs, function block diagrams or charts, several of them (`mixed`), or nothing. */
+type DrawnKind = "rung" | "network" | "chart" | "mixed" | null;
 
 /** Those of the last texts: they are asked for whenever a caret moves. */
 const kinds = new Map<string, DrawnKind>();
@@ -30,10 +30,10 @@ const kinds = new Map<string, DrawnKind>();
 export function drawnKind(text: string): DrawnKind {
   const known = kinds.get(text);
   if (known !== undefined) return known;
-  const found = /^[ \t]*(?:RUNG|STEP|INITIAL_STEP|TRANSITION)\b/im.test(text)
+  const found = /^[ \t]*(?:RUNG|NETWORK|STEP|INITIAL_STEP|TRANSITION)\b/im.test(text)
     ? partsIn(text).map(({ kind }) => kind)
     : [];
-  const drawn = (["rung", "chart"] as const).filter((kind) => found.includes(kind));
+  const drawn = (["rung", "network", "chart"] as const).filter((kind) => found.includes(kind));
   const made = drawn.length > 1 ? "mixed" : (drawn[0] ?? null);
   if (kinds.size >= 8) kinds.clear();
   kinds.set(text, made);

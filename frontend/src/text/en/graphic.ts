@@ -74,4 +74,13 @@ export const graphic = {
   "steps.waiting": "No samples yet.",
   "steps.window": "Shown time",
   "steps.window.scans": "The last {scans} samples",
+  "graphic.breakpoint.network": "A breakpoint is in this network",
+  "graphic.item.box": "{order}: box {name} to {targets}",
+  "graphic.item.call": "{order}: box {name}",
+  "graphic.item.jump": "{order}: jump to {label}",
+  "graphic.item.return": "{order}: RETURN",
+  "graphic.item.value": "{order}: {value} to {targets}",
+  "graphic.network": "Network {number} {title}",
+  "graphic.unconnected": "{wire} is not connected: no line sets it",
+  "graphic.view.network": "Blocks",
 };

@@ -76,4 +76,13 @@ export const graphic: Record<keyof typeof english, string> = {
   "steps.waiting": "サンプルはまだありません。",
   "steps.window": "表示時間",
   "steps.window.scans": "直近 {scans} サンプル",
+  "graphic.breakpoint.network": "このネットワークにブレークポイントがあります",
+  "graphic.item.box": "{order}: ボックス {name} から {targets} へ",
+  "graphic.item.call": "{order}: ボックス {name}",
+  "graphic.item.jump": "{order}: {label} へジャンプ",
+  "graphic.item.return": "{order}: RETURN",
+  "graphic.item.value": "{order}: {value} を {targets} へ",
+  "graphic.network": "ネットワーク {number} {title}",
+  "graphic.unconnected": "{wire} は未接続です（設定する行がありません）",
+  "graphic.view.network": "ブロック",
 };

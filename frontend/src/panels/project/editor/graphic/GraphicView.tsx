@@ -34,7 +34,7 @@ interface Props {
   readOnly: boolean;
 }
 
-/** The ladder diagrams and charts of a file, drawn: a second view of its text. */
+/** The ladders, function block diagrams and charts of a file, drawn: a second view of its text. */
 export default function GraphicView({ path, text, readOnly }: Props) {
   const sheet = useRef<HTMLDivElement>(null);
   const parts = useRef(new Sheet());
@@ -159,7 +159,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     );
   }
 
-  const editable = drawn[cursor.rung]?.kind !== "chart";
+  const editable = drawn[cursor.rung]?.kind === "rung";
   const active = spotsOf(drawn[cursor.rung]).find((each) => sameElement(each.place, cursor.place));
   return (
     <div className="graphicview">

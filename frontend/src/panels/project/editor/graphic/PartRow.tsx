@@ -9,8 +9,10 @@ import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
 import type { Pou } from "../../../../wire/types";
 import { ChartPicture } from "./ChartPicture";
+import { DiagramPicture } from "./DiagramPicture";
 import { showRung } from "./live";
 import { showChart } from "./liveChart";
+import { showDiagram } from "./liveDiagram";
 import type { PartMarks } from "./marks";
 import { RungDrawing } from "./RungDrawing";
 
@@ -28,7 +30,7 @@ interface Props {
   twice: readonly Twice[];
 }
 
-/** One rung or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
+/** One rung, network or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
 export function PartRow({ part, number, pou, id, cursor, naming, marks, twice }: Props) {
   const { found, readable } = part;
   const { label, title, comment, off } = found.head;
@@ -74,6 +76,7 @@ function Picture({
   const forces = useForces();
   const rung = part.kind === "rung" ? (naming?.drawing ?? part.drawing) : null;
   const chart = part.kind === "chart" ? part.drawing : null;
+  const diagram = part.kind === "network" ? part.drawing : null;
   const live = part.readable && !part.found.head.off;
 
   useEffect(() => {
@@ -84,13 +87,15 @@ function Picture({
     const svg = picture.current?.querySelector("svg");
     if (!svg || pou === undefined || !live) return;
     if (rung) return showRung(svg, rung, pou);
+    if (diagram) return showDiagram(svg, diagram, pou);
     return chart ? showChart(svg, chart, pou) : undefined;
-  }, [rung, chart, pou, live, instance, members, forces]);
+  }, [rung, diagram, chart, pou, live, instance, members, forces]);
 
   const marked = { id, cursor: cursor?.join(".") ?? null, next: marks.next, points: marks.points };
   return (
     <div ref={picture} className={`netdraw${part.readable ? "" : " netold"}`}>
       {rung && <RungDrawing drawing={rung} {...marked} />}
+      {diagram && <DiagramPicture drawing={diagram} {...marked} />}
       {chart && <ChartPicture drawing={chart} {...marked} />}
       {naming?.field}
     </div>

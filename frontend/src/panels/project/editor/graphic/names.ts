@@ -1,6 +1,7 @@
 /** What readers say about an element: its kind, its operand, its mode. Its value is said when it is selected. */
 
 import type { ChartElement } from "../../../../logic/graphic/chartLayout";
+import type { DiagramItem } from "../../../../logic/graphic/diagram";
 import type { Drawn } from "../../../../logic/graphic/ladderLayout";
 import { type TextKey, t } from "../../../../text";
 
@@ -53,4 +54,14 @@ export function nameOfChartElement(element: ChartElement): string {
         step: element.step,
       });
   }
+}
+
+/** A line of a function block diagram, with its number in the order of execution. */
+export function nameOfItem({ kind, callee, inputs, outputs, label }: DiagramItem, order: number): string {
+  const targets = outputs.map(({ target }) => target).join(", ");
+  const value = inputs.map(({ text, negated }) => (negated ? `NOT ${text}` : text)).join(", ");
+  if (kind === "box")
+    return t(targets === "" ? "graphic.item.call" : "graphic.item.box", { order, name: callee, targets });
+  if (kind === "value") return t("graphic.item.value", { order, value, targets });
+  return label === "" ? t("graphic.item.return", { order }) : t("graphic.item.jump", { order, label });
 }
