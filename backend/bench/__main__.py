@@ -25,6 +25,7 @@ SUBJECTS = (
     "events",
     "pou",
     "graphic",
+    "comm",
 )
 BUILDING = (
     ("cold", "text to first scan, cold", "ms"),

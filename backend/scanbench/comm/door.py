@@ -41,15 +41,17 @@ class Done:
 class Door(Protocol):
     """One PLC, for one client."""
 
-    author: str
-    """Of its commands: `FINS 192.168.0.7, node 25`."""
+    @property
+    def author(self) -> str:
+        """Of its commands: `FINS 192.168.0.7, node 25`."""
 
     @property
     def model(self) -> Model:
         """The model, with the errors of the project."""
 
-    async def read(self, spans: Sequence[AreaSpan], asked: bool = True) -> Read:
-        """Bytes of areas that the model has, in these bounds; `Away`. Not `asked`: the protocol itself wants to know."""
+    async def read(self, spans: Sequence[AreaSpan], also: Sequence[AreaSpan] = ()) -> Read:
+        """Bytes of areas that the model has, in these bounds; `Away`. `also`: more of the same scan, after those, that the protocol
+        itself wants to know and the client did not ask for."""
 
     async def device(self) -> DeviceErrors:
         """What the device itself says of its errors; `Away`."""

@@ -75,11 +75,10 @@ class SessionDoor:
         """See `Door`."""
         return self._session.model
 
-    async def read(self, spans: Sequence[AreaSpan], asked: bool = True) -> Read:
+    async def read(self, spans: Sequence[AreaSpan], also: Sequence[AreaSpan] = ()) -> Read:
         """See `Door`."""
-        if asked:
-            self._readers.note(self.author, spans)
-        wanted = tuple(spans)
+        self._readers.note(self.author, spans)
+        wanted = (*spans, *also)
         try:
             found = await self._session.instance.ask(lambda ref: ReadAreas(ref, wanted), AreasAre)
         except (Unavailable, Refused) as error:

@@ -36,9 +36,9 @@ class LocalDoor:
     def model(self) -> Model:
         return self.resource.program.layout.model
 
-    async def read(self, spans: Sequence[AreaSpan], asked: bool = True) -> Read:
+    async def read(self, spans: Sequence[AreaSpan], also: Sequence[AreaSpan] = ()) -> Read:
         resource = self.resource
-        found = areas_are(ReadAreas(0, tuple(spans)), resource.loaded, resource.memory, resource.journal)
+        found = areas_are(ReadAreas(0, (*spans, *also)), resource.loaded, resource.memory, resource.journal)
         assert not found.message, found.message
         clock = _1970 + timedelta(microseconds=found.clock_ns // 1000)
         return Read(found.scan, found.mode, found.stopped, clock, found.data)

@@ -6,7 +6,7 @@ from types import MappingProxyType
 from scanbench.comm.door import Away, Door
 from scanbench.comm.fins import control, errors, force, memory, unit
 from scanbench.comm.fins.codes import End, Refused
-from scanbench.comm.fins.flags import flags
+from scanbench.comm.fins.flags import Flagged
 from scanbench.comm.fins.frame import Request, answer
 
 Handler = Callable[[Door, bytes], Awaitable[bytes]]
@@ -63,13 +63,14 @@ NAMES: Mapping[int, str] = MappingProxyType({
 async def respond(request: Request, door: Door, read_only: bool, error_bits: bool = True) -> tuple[bytes, End]:
     """The frame that answers a request, and its end code without the bits of errors. `error_bits`: the CPU Unit tells of its
     errors in each answer, as the device does."""
+    flagged = Flagged(door)
     end, body, bits = End.OK, b"", 0
     try:
         try:
-            body = await _handled(request, door, read_only)
+            body = await _handled(request, flagged, read_only)
         except Refused as refused:
             end = refused.code
-        bits = await flags(door) if error_bits else 0
+        bits = await flagged.bits() if error_bits else 0
     except Away:
         end, body = End.SERVICE_BUSY, b""
     return answer(request, end | bits, body), end

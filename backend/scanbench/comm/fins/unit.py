@@ -3,7 +3,7 @@ program, 0801 loop back. (W342; layouts from libfins, and from answers of real d
 
 from scanbench.comm.door import Door
 from scanbench.comm.fins.codes import End, Refused
-from scanbench.comm.fins.flags import FLAGS
+from scanbench.comm.fins.flags import FLAGS, has_flags
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.wire.memory import AreaSpan
 
@@ -56,6 +56,8 @@ async def on_connection_data(door: Door, body: bytes) -> bytes:
 
 async def on_status(door: Door, _body: bytes) -> bytes:
     """26 bytes: whether it runs, its mode, the flags of its errors, its messages, the most serious error with its text."""
+    if not has_flags(door.model):
+        raise Refused(End.UNDEFINED)
     read = await door.read([*FLAGS, AreaSpan("A", 800, 2)])
     device = await door.device()
     flags, code = read.data

@@ -1,0 +1,215 @@
+"""`python -m bench comm`: FINS and Modbus clients at one virtual PLC of a real server.
+
+Latencies are those of the clients, from request to answer, in milliseconds; the PLC runs scans of 10 ms. CPU is of one core, of the
+PLC's process and of the server's. Late scans are those that begin after the next one was due: counted without clients, with them, and under a storm of broken frames, in one run.
+"""
+
+import argparse
+import asyncio
+import json
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+CLIENTS, PER_SECOND, WORDS = 50, 20, 100
+_SOURCE = "PROGRAM Main\nVAR n : DINT; level AT D100 : INT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
+_TICKS = 100
+"""Of a second, in /proc."""
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What clients saw, and what it cost."""
+
+    what: str
+    requests: int
+    per_second: float
+    p50_ms: float
+    p99_ms: float
+    worst_ms: float
+    host_percent: float
+    server_percent: float
+    late_percent: float
+    """Scans that began after the next one was due."""
+
+
+class Bench:
+    """A server with one PLC."""
+
+    def __init__(self, folder: Path) -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "scanbench", "serve", "--port", "0", "--data", str(folder)],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        )  # fmt: skip
+        assert self.process.stdout is not None
+        found = None
+        while found is None:
+            line = self.process.stdout.readline()
+            if not line:
+                raise SystemExit("the server did not start")
+            found = re.search(r"(http://[\w.:]+)/\?token=(\S+)", line)
+        self.http = httpx.Client(base_url=found[1], headers={"Authorization": f"Bearer {found[2]}"}, timeout=60)
+        for each in self.http.get("/api/instances").json():
+            self.http.patch(f"/api/instances/{each['id']}", json={"power": False})
+        project = self.http.post("/api/projects", json={"name": "bench", "model": "CJ1M-CPU13"}).json()["id"]
+        self.http.put(f"/api/projects/{project}/files/main.st", json={"text": _SOURCE, "version": 0})
+        made = self.http.post("/api/instances", json={"project": project, "name": "bench"})
+        self.instance = int(made.raise_for_status().json()["id"])
+        while self.state["state"] != "running":
+            time.sleep(0.1)
+
+    @property
+    def state(self) -> dict[str, Any]:
+        return dict(self.http.get(f"/api/instances/{self.instance}").json()["state"])
+
+    def switch_on(self, kind: str) -> int:
+        wanted = {"on": True, "access": "write"}
+        told = self.http.put(f"/api/instances/{self.instance}/communication/{kind}", json=wanted).json()
+        (address,) = (each["address"] for each in told["servers"] if each["kind"] == kind)
+        return int(str(address).rpartition(":")[2])
+
+    def new_pace(self) -> None:
+        """Lateness is counted from here on."""
+        self.http.post(f"/api/instances/{self.instance}/run", json={"action": "pause"}).raise_for_status()
+        self.http.post(f"/api/instances/{self.instance}/run", json={"action": "continue"}).raise_for_status()
+
+    def cpu(self) -> tuple[float, float]:
+        """Seconds of the PLC's process and of the server's."""
+        return _cpu(self.state["pid"]), _cpu(self.process.pid)
+
+    def close(self) -> None:
+        self.http.close()
+        self.process.terminate()
+        self.process.wait(30)
+
+
+def _cpu(pid: int) -> float:
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / _TICKS
+
+
+class Udp(asyncio.DatagramProtocol):
+    """One FINS client: a question, then its answer."""
+
+    def __init__(self, node: int) -> None:
+        self.node = node
+        self.answered: asyncio.Future[bytes] | None = None
+
+    def datagram_received(self, data: bytes, addr: tuple[str, int]) -> None:
+        if self.answered is not None and not self.answered.done():
+            self.answered.set_result(data)
+
+
+async def fins(port: int, clients: int, seconds: float) -> list[float]:
+    """Latencies of reads of 100 words, each client 20 times a second."""
+    loop, took = asyncio.get_running_loop(), list[float]()
+
+    async def one(node: int) -> None:
+        transport, client = await loop.create_datagram_endpoint(lambda: Udp(node), remote_addr=("127.0.0.1", port))
+        frame = (
+            bytes.fromhex("800002000100") + bytes((0, node, 0, 1)) + bytes.fromhex("0101820064") + bytes((0, 0, WORDS))
+        )
+        begin = loop.time() + node / clients / PER_SECOND
+        for at in range(int(seconds * PER_SECOND)):
+            await asyncio.sleep(begin + at / PER_SECOND - loop.time())
+            client.answered = loop.create_future()
+            asked = loop.time()
+            transport.sendto(frame)
+            answer = await asyncio.wait_for(client.answered, 10)
+            took.append(loop.time() - asked)
+            assert answer[12:14] == b"\0\0", answer[:14].hex()
+        transport.close()
+
+    await asyncio.gather(*(one(node) for node in range(1, clients + 1)))
+    return took
+
+
+async def modbus(port: int, clients: int, seconds: float) -> list[float]:
+    """The same by Modbus."""
+    loop, took = asyncio.get_running_loop(), list[float]()
+
+    async def one(number: int) -> None:
+        reader, writer = await asyncio.open_connection("127.0.0.1", port)
+        begin = loop.time() + number / clients / PER_SECOND
+        for at in range(int(seconds * PER_SECOND)):
+            await asyncio.sleep(begin + at / PER_SECOND - loop.time())
+            asked = loop.time()
+            writer.write(bytes((0, at % 256, 0, 0, 0, 6, 1, 3, 0, 100, 0, WORDS)))
+            await reader.readexactly(9 + 2 * WORDS)
+            took.append(loop.time() - asked)
+        writer.close()
+
+    await asyncio.gather(*(one(number) for number in range(clients)))
+    return took
+
+
+async def storm(port: int, frames: int) -> list[float]:
+    """Broken frames as fast as the server answers: a request with bytes changed, some 64 at once."""
+    loop, chance = asyncio.get_running_loop(), random.Random(7)
+    transport, _ = await loop.create_datagram_endpoint(lambda: Udp(1), remote_addr=("127.0.0.1", port))
+    whole = bytes.fromhex("8000020001000019000101018200640000030000")
+    for at in range(frames):
+        frame = bytearray(whole)
+        for _ in range(chance.randrange(1, 5)):
+            frame[chance.randrange(1, len(frame))] = chance.randrange(256)
+        transport.sendto(bytes(frame[: chance.randrange(len(frame))]))
+        if at % 64 == 0:
+            await asyncio.sleep(0.002)
+    transport.close()
+    return []
+
+
+def measure(bench: Bench, what: str, work: Any, seconds: float) -> Load:
+    """Runs clients, or just waits."""
+    bench.new_pace()
+    before, begin = bench.cpu(), time.perf_counter()
+    took = sorted(asyncio.run(work)) if work is not None else []
+    if work is None:
+        time.sleep(seconds)
+    lasted, after, state = time.perf_counter() - begin, bench.cpu(), bench.state
+    percent = [100 * (b - a) / lasted for a, b in zip(before, after, strict=True)]
+    p50, p99, worst = (1000 * took[min(len(took) - 1, int(q * len(took)))] if took else 0.0 for q in (0.5, 0.99, 1))
+    return Load(what, len(took), len(took) / lasted, p50, p99, worst, percent[0], percent[1], state["late_percent"])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m bench comm", description=__doc__)
+    parser.add_argument("--clients", type=int, default=CLIENTS)
+    parser.add_argument("--seconds", type=float, default=10)
+    parser.add_argument("--storm", type=int, default=100_000, help="broken frames")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(Path(folder))
+        try:
+            port, other = bench.switch_on("fins"), bench.switch_on("modbus")
+            loads = [
+                measure(bench, "no client", None, given.seconds),
+                measure(bench, "FINS", fins(port, given.clients, given.seconds), given.seconds),
+                measure(bench, "Modbus", modbus(other, min(16, given.clients), given.seconds), given.seconds),
+                measure(bench, "broken frames", storm(port, given.storm), given.seconds),
+                measure(bench, "no client", None, given.seconds),
+            ]
+        finally:
+            bench.close()
+    if given.json:
+        sys.stdout.write(json.dumps([asdict(each) for each in loads]) + "\n")
+        return
+    sys.stdout.write("                requests       /s   p50 ms   p99 ms   worst   PLC %  server %  late %\n")
+    for each in loads:
+        sys.stdout.write(
+            f"{each.what:14}  {each.requests:8}  {each.per_second:7.0f}  {each.p50_ms:7.2f}  {each.p99_ms:7.2f}  {each.worst_ms:6.1f}"
+            f"  {each.host_percent:6.1f}  {each.server_percent:8.1f}  {each.late_percent:6.2f}\n"
+        )
+
+
+if __name__ == "__main__":
+    main()
