@@ -10,7 +10,8 @@ from typing import Protocol
 from scanbench.comm.desk import Desk
 from scanbench.comm.fins.service import FinsServer
 from scanbench.comm.modbus.mapping import Mapped, default
-from scanbench.comm.modbus.service import ModbusServer
+from scanbench.comm.modbus.service import modbus_server
+from scanbench.comm.slmp.service import slmp_server
 from scanbench.plcmodel.model import Model
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
 from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerSeen, ServerWanted
@@ -48,7 +49,8 @@ class Kind:
 
 KINDS: Mapping[ServerKind, Kind] = {
     "fins": Kind("FINS", lambda model: model.vendor == "omron", lambda desk, wanted: FinsServer(desk, wanted.node)),
-    "modbus": Kind("Modbus TCP", lambda model: True, lambda desk, _wanted: ModbusServer(desk)),
+    "slmp": Kind("SLMP", lambda model: model.vendor == "mitsubishi", lambda desk, _wanted: slmp_server(desk)),
+    "modbus": Kind("Modbus TCP", lambda model: True, lambda desk, _wanted: modbus_server(desk)),
 }
 
 

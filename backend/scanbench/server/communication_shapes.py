@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 from scanbench.comm.desk import ClientSeen, FrameSeen
 from scanbench.public import Public
 
-ServerKind = Literal["fins", "modbus"]
+ServerKind = Literal["fins", "slmp", "modbus"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 """Whatever comes: an answer or none, and nothing is written that a tool may not write."""
 
 import asyncio
+from contextlib import suppress
 
 import pytest
 from hypothesis import given
@@ -13,6 +14,8 @@ from scanbench.comm.fins.frame import LARGEST, parse
 from scanbench.comm.modbus import frame as modbus
 from scanbench.comm.modbus import functions
 from scanbench.comm.modbus.mapping import default
+from scanbench.comm.slmp import commands as slmp_commands
+from scanbench.comm.slmp import frame as slmp
 from scanbench.runtime.resource import Resource
 from tests.comm.bench import LocalDoor, machine
 from tests.comm.test_fins_vectors import VECTORS
@@ -23,6 +26,11 @@ FRAMES = [each.request[16:] if each.tcp else each.request for each in VECTORS if
 @pytest.fixture(scope="module")
 def resource() -> Resource:
     return machine()
+
+
+@pytest.fixture(scope="module")
+def melsec() -> Resource:
+    return machine("Q03UD")
 
 
 @st.composite
@@ -103,3 +111,25 @@ def test_values_of_two_and_four_registers_have_their_high_word_first() -> None:
     assert resource.memory[area + 24 : area + 32].hex() == "efcdab8967452301"
     assert ask(3, "0808" + "0002") == "04" + "12345678"
     assert ask(3, "100c" + "0004") == "08" + "0123456789abcdef"
+
+
+@given(st.booleans(), st.sampled_from(sorted(slmp_commands.COMMANDS)), st.integers(0, 2), st.binary(max_size=60))
+def test_slmp(melsec: Resource, ascii: bool, command: int, sub: int, data: bytes) -> None:
+    if ascii:
+        data = data.hex().upper().encode()[: len(data)]
+    request = slmp.Request(ascii, (0, 255, 0x3FF, 0), command, sub, data)
+    begin = melsec.program.layout.areas["SD"]
+    before = bytes(melsec.memory[begin : begin + 100])
+    answered, end = asyncio.run(slmp_commands.respond(request, LocalDoor(melsec), read_only=False))
+    assert answered[:2] == (b"D0" if ascii else b"\xd0\0")
+    assert (slmp_commands.outcome(end) == "") == (end == 0)
+    assert slmp_commands.described(request, LocalDoor(melsec))
+    assert bytes(melsec.memory[begin : begin + 100]) == before
+
+
+@given(st.lists(st.binary(max_size=40), max_size=6))
+def test_pieces_of_slmp(pieces: list[bytes]) -> None:
+    stream = slmp.Stream()
+    with suppress(slmp.Broken):
+        for piece in pieces:
+            assert all(request.data in frame for request, frame in stream.feed(piece))

@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from fins import FinsClient  # type: ignore[import-untyped]
 from fins.command import Command  # type: ignore[import-untyped]
+from pymcprotocol import Type3E  # type: ignore[import-untyped]
+from pymcprotocol.mcprotocolerror import MCProtocolError  # type: ignore[import-untyped]
 from pymodbus.client import ModbusTcpClient
 
 from scanbench.recording.blocks import read_contents
@@ -146,6 +148,45 @@ def test_a_modbus_client_reads_writes_and_cannot_write_errors(server: Server) ->
         assert client.read_device_information().information[1] == MODEL.encode()
     table = server.http.get(f"/api/instances/{instance}/communication/modbus/map.csv").text.splitlines()
     assert table[1] == "coil,0,65535,CIO0.00,CIO4095.15,1"
+
+
+@pytest.mark.parametrize("code", ["binary", "ascii"])
+def test_an_slmp_client_at_a_melsec(server: Server, code: str) -> None:
+    source = "PROGRAM Main\nVAR level AT D100 : INT; twice AT D101 : INT; n : INT; END_VAR\n n := n + 1; twice := 2 * level;\nEND_PROGRAM\n"
+    instance = server.instance(f"slmp {code}", "Q03UD", main=source)
+    port = switch_on(server, instance, "slmp")
+    client = Type3E()
+    client.setaccessopt(commtype=code, timer_sec=PATIENCE_S)
+    client.connect("127.0.0.1", port)
+    client.batchwrite_wordunits("D100", [21, -3])
+    assert client.batchread_wordunits("D100", 1) == [21]
+    until(lambda: client.batchread_wordunits("D100", 2) == [21, 42])
+    client.batchwrite_bitunits("M5", [1, 0, 1])
+    assert client.batchread_bitunits("M4", 5) == [0, 1, 0, 1, 0]
+    assert client.batchread_wordunits("M0", 1) == [0xA0]
+    client.randomwrite(["D200", "W1F"], [7, 8], ["D210"], [0x12345678])
+    assert client.randomread(["D200", "W1F"], ["D210"]) == ([7, 8], [0x12345678])
+    client.randomwrite_bitunits(["Y1F", "M100"], [1, 1])
+    assert client.batchread_bitunits("Y1F", 1) == [1]
+    assert client.read_cputype() == ("Q03UDCPU", "0268")
+    assert client.echo_test("ABC12") == (5, "ABC12")
+    with pytest.raises(MCProtocolError, match="C05B"):
+        client.batchwrite_wordunits("SD0", [1])
+    with pytest.raises(MCProtocolError, match="C056"):
+        client.batchread_wordunits("D12288", 1)
+    server.http.post(
+        f"/api/instances/{instance}/errors/generate", json={"errors": [{"id": "battery-error"}]}
+    ).raise_for_status()
+    until(lambda: client.batchread_wordunits("SD0", 1) == [1600])
+    client.remote_stop()
+    assert server.state(instance)["mode"] == "PROGRAM"
+    client.remote_run(clear_mode=0)
+    assert server.state(instance)["mode"] == "MONITOR"
+    told = seen(server, instance, "slmp")
+    assert (
+        "batch write SD0, 1: C05B" in told["clients"][0]["last_refused"] or "C056" in told["clients"][0]["last_refused"]
+    )
+    client.close()
 
 
 def test_who_may_only_read_changes_nothing(server: Server) -> None:

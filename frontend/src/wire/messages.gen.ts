@@ -3519,7 +3519,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "fins" | "modbus";
+            kind: "fins" | "slmp" | "modbus";
             /** Listening */
             listening: boolean;
             /**
@@ -9643,7 +9643,7 @@ export interface operations {
             header?: never;
             path: {
                 instance: number;
-                kind: "fins" | "modbus";
+                kind: "fins" | "slmp" | "modbus";
             };
             cookie?: never;
         };

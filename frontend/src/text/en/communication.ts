@@ -22,6 +22,7 @@ export const communication = {
     "127.0.0.1 is this machine alone. Clients that cannot change their port need an address of its own for each PLC, such as 127.0.0.11.",
   "communication.kind.fins": "FINS (UDP and TCP)",
   "communication.kind.modbus": "Modbus TCP",
+  "communication.kind.slmp": "SLMP (MC protocol, 3E)",
   "communication.map": "What the registers mean",
   "communication.map.csv": "Download as CSV",
   "communication.map.first": "First",

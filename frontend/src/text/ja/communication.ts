@@ -24,6 +24,7 @@ export const communication: Record<keyof typeof english, string> = {
     "127.0.0.1 はこのパソコンからだけ接続できます。ポートを変えられないクライアントには、PLC ごとに別のアドレス（127.0.0.11 など）を使います。",
   "communication.kind.fins": "FINS（UDP と TCP）",
   "communication.kind.modbus": "Modbus TCP",
+  "communication.kind.slmp": "SLMP（MC プロトコル 3E）",
   "communication.map": "レジスタの割り付け",
   "communication.map.csv": "CSV で保存",
   "communication.map.first": "先頭",

@@ -1,0 +1,28 @@
+"""The server of SLMP over TCP."""
+
+from collections.abc import Awaitable, Iterator
+
+from scanbench.comm.desk import Desk
+from scanbench.comm.door import Door
+from scanbench.comm.slmp.commands import described, outcome, respond
+from scanbench.comm.slmp.frame import Broken, Request, Stream
+from scanbench.comm.tcp import Answers, TcpServer
+
+
+def slmp_server(desk: Desk) -> TcpServer:
+    """A server that is still closed."""
+
+    def begin(name: str, door: Door) -> Answers:
+        stream = Stream()
+
+        async def answer(request: Request, frame: bytes) -> bytes:
+            answered, end = await respond(request, door, desk.read_only)
+            desk.note(name, described(request, door), outcome(end), frame, answered)
+            return answered
+
+        def answers(data: bytes) -> Iterator[Awaitable[bytes]]:
+            return (answer(*each) for each in stream.feed(data))
+
+        return answers
+
+    return TcpServer(desk, "SLMP", begin, Broken)
