@@ -193,6 +193,8 @@ def _trace(given: Given, path: Path) -> Subject:
         unreadable(path, error)
     except BadTraceFile as error:
         _refuse(path, error.problems)
+    if table.layout:
+        typer.echo(f"scanbench: {path.name} is read as: {table.layout}. {' '.join(table.left_out)}".rstrip(), err=True)
     mapping, note = _mapping(given.mapping, table, program)
     checked = check(table, mapping, program)
     for problem in checked.problems:

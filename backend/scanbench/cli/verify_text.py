@@ -5,10 +5,12 @@ from collections.abc import Iterator
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.sweep_report import count
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.contract import ENDED, Column, Mismatch, Row
+from scanbench.verify.contract import ENDED, Column, Coverage, Mismatch, Row
 
 STRETCHES = 5
 """Of scans that were not compared that are named."""
+NAMES = 12
+"""Of a kind that are named."""
 SHOWN = 10
 """Differences that are printed; `--json` and `--html` have more."""
 CAUSES = {
@@ -33,7 +35,31 @@ def verify_text(report: Report) -> Iterator[str]:
     for row in report.rows:
         if ENDED in row.note and not row.differs:
             yield f"scan {row.scan}: {row.note}, in the reference as well"
+    if head.coverage is not None:
+        yield from _coverage(head.coverage)
     yield _summary(head)
+
+
+def _coverage(coverage: Coverage) -> Iterator[str]:
+    """What of a trace was compared, and what was not."""
+    yield "compared, values of each output:"
+    for each in coverage.outputs:
+        parts = [f"{each.compared:,}"]
+        parts += [f"{each.differing:,} differ"] if each.differing else []
+        parts += [f"{each.allowed:,} within the tolerance"] if each.allowed else []
+        parts += [f"{each.left_open:,} within what rounded numbers leave open"] if each.left_open else []
+        parts += [f"{each.missing:,} without a value to compare"] if each.missing else []
+        parts += [f"off by {each.largest:.4g} at most"] if each.largest else []
+        yield f"  {each.path}: {', '.join(parts)}"
+    kinds = (
+        ("not compared, as they are given to the reference", coverage.inputs),
+        ("not compared, columns that are mapped to nothing", coverage.ignored),
+        ("not compared, as the file has no column of them", coverage.unrecorded),
+        ("remembered by the program, and not in the file: they began as after a cold start", coverage.remembered),
+    )
+    for what, names in kinds:
+        if names:
+            yield f"{what}: {', '.join(names[:NAMES])}{', ...' if len(names) > NAMES else ''}"
 
 
 def _summary(head: ReportHead) -> str:

@@ -116,7 +116,7 @@ class VerifyJob:
             if monotonic_ns() - told > _TELL_NS:
                 self._say(_told(ScansVerified, ask.ref, batch))
                 batch, told = [], monotonic_ns()
-        return _told(ScansDone, ask.ref, batch)
+        return replace(_told(ScansDone, ask.ref, batch), coverage=verifier.coverage)
 
     def _uses(self, ask: UsesOf) -> UsesAre:
         verifier = self._begun()

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
-from scanbench.reports.page import Page, table, td, th
+from scanbench.reports.page import Page, table, td, th, tr
 from scanbench.reports.record_text import Language
 from scanbench.reports.report import CONTEXT, Report
 from scanbench.reports.report_words import WORDS
@@ -34,7 +34,7 @@ class _Document:
 
     def text(self) -> str:
         head = self._report.head
-        parts = (self._head(), self._verdict(), *self._sections(), self._table())
+        parts = (self._head(), self._verdict(), *self._sections(), self._coverage(), self._table())
         return self._page.document(f"{head.project}, {head.title}", parts)
 
     # ---- head and verdict -----------------------------------------------------------------------------------------
@@ -107,6 +107,26 @@ class _Document:
             f'<section><h3>{self._word("scan")} {row.scan}{call}: <span class="mono">{escape(difference.name)}</span></h3>\n'
             f"<p>{escape(difference.message)}</p>\n<dl>{rows}</dl>{code}</section>\n"
         )
+
+    def _coverage(self) -> str:
+        """What of a trace was compared, and what was not."""
+        coverage = self._report.head.coverage
+        if coverage is None:
+            return ""
+        rows = [
+            tr(
+                td(each.path, "mono"), td(each.compared, "num"), td(each.differing, "num"), td(each.allowed, "num"),
+                td(each.left_open, "num"), td(each.missing, "num"), td(f"{each.largest:.4g}", "num"),
+            )
+            for each in coverage.outputs
+        ]  # fmt: skip
+        heads = ("output", "values", "values_differ", "values_allowed", "values_open", "values_missing", "values_off")
+        kinds = (
+            ("given", coverage.inputs), ("ignored", coverage.ignored), ("unrecorded", coverage.unrecorded),
+            ("remembered", coverage.remembered),
+        )  # fmt: skip
+        told = [(word, f'<span class="mono">{escape(", ".join(names))}</span>') for word, names in kinds if names]
+        return f"<h2>{self._word('coverage')}</h2>\n{self._page.table(heads, rows)}<dl>{self._page.pairs(told)}</dl>\n"
 
     # ---- rows -----------------------------------------------------------------------------------------------------
 

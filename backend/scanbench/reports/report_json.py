@@ -4,12 +4,12 @@ import json
 
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.contract import Column, Mismatch, Place, Row
+from scanbench.verify.contract import Column, Coverage, Mismatch, Place, Row
 
 FORMAT = 1
 """Raised when the meaning of a key changes; new keys may come at any time."""
 
-Json = bool | int | str | None | list["Json"] | dict[str, "Json"]
+Json = bool | int | float | str | None | list["Json"] | dict[str, "Json"]
 
 
 def to_json(report: Report) -> str:
@@ -38,7 +38,25 @@ def _head(head: ReportHead) -> dict[str, Json]:
         "compared": head.compared, "skipped": head.skipped,
         "skipped_stretches": [[first, last] for first, last in head.stretches],
         "limit": head.limit, "differing_rows": head.differing, "rows_left_out": head.forgotten,
-        "note": head.note or None,
+        "note": head.note or None, "coverage": _coverage(head.coverage),
+    }  # fmt: skip
+
+
+def _coverage(coverage: Coverage | None) -> Json:
+    if coverage is None:
+        return None
+    return {
+        "outputs": [
+            {
+                "column": each.column, "variable": each.path, "compared": each.compared, "differing": each.differing,
+                "within_tolerance": each.allowed, "left_open_by_rounding": each.left_open, "without_value": each.missing,
+                "largest_deviation": each.largest,
+            }
+            for each in coverage.outputs
+        ],
+        "inputs": list(coverage.inputs), "ignored_columns": list(coverage.ignored),
+        "not_recorded": list(coverage.unrecorded), "remembered_not_recorded": list(coverage.remembered),
+        "more": coverage.more,
     }  # fmt: skip
 
 

@@ -33,6 +33,12 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "what": "A is what the control device came to. A′ is what the reference interpreter, which shares no code "
                 "generation with it, came to from the same program and the same inputs.",
         "nothing": "–",
+        "coverage": "What was compared", "output": "Output", "values": "Values compared", "values_differ": "Differ",
+        "values_allowed": "Within the tolerance", "values_open": "Within what rounded numbers leave open",
+        "values_missing": "Without a value to compare", "values_off": "Off by at most",
+        "given": "Not compared, as they are given to the reference", "ignored": "Columns that are mapped to nothing",
+        "unrecorded": "Written by the program, and not in the file",
+        "remembered": "Remembered by the program, and not in the file: they began as after a cold start",
     },
     "ja": {
         "title": "検証報告書", "range": "検証範囲", "scans": "スキャン", "source": "制御装置", "live": "運転中のPLC", "past": "記録された運転（ネイティブ再実行）",
@@ -60,5 +66,10 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "what": "Aは制御装置の結果、A′は同じプログラムと同じ入力による基準インタプリタの結果です。"
                 "両者はコード生成を共有しません。",
         "nothing": "–",
+        "coverage": "比較した内容", "output": "出力", "values": "比較した値", "values_differ": "差異",
+        "values_allowed": "許容差の範囲内", "values_open": "丸められた数値の範囲内", "values_missing": "比較する値なし", "values_off": "最大の差",
+        "given": "基準実行に与えたため比較しないもの", "ignored": "何にも割り当てられていない列",
+        "unrecorded": "プログラムが書き、ファイルにないもの",
+        "remembered": "プログラムが記憶し、ファイルにないもの（コールドスタート後の値から開始）",
     },
 }  # fmt: skip

@@ -313,7 +313,7 @@ def _head(status: VerificationStatus, project: str, instance: str, model: str, w
         project, instance, model, status.by, when, status.version, status.title, status.source, status.first,
         status.first if status.scan is None else status.scan, status.compared, status.skipped, status.differing,
         f"Scanbench {__version__}", status.trace, status.interval_ns, status.forgotten, status.wanted.limit,
-        status.stretches, " ".join(filter(None, (status.note, status.message))),
+        status.stretches, status.coverage, " ".join(filter(None, (status.note, status.message))),
     )  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from scanbench.reports.report import stretched
 from scanbench.wire.events import VerificationStatus, VerifyWish
-from scanbench.wire.verification import ScansVerified, VerifyBegun
+from scanbench.wire.verification import ScansDone, ScansVerified, VerifyBegun
 
 STRETCHES = 100
 Stretches = tuple[tuple[int, int], ...]
@@ -47,6 +47,7 @@ def verified(status: VerificationStatus, came: ScansVerified) -> VerificationSta
         skipped=status.skipped + sum(last - first + 1 for first, last in came.skipped),
         stretches=with_stretches(status.stretches, came.skipped),
         differing=status.differing + sum(row.first is not None for row in came.rows), used=max(status.used, came.used),
+        coverage=(came.coverage if isinstance(came, ScansDone) else None) or status.coverage,
     )  # fmt: skip
 
 

@@ -174,6 +174,46 @@ class Row(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class Compared(Public):
+    """What came of one output of a trace."""
+
+    PUBLIC: ClassVar = "VerifyCompared"
+
+    column: str
+    path: str
+    compared: int
+    """Values."""
+    differing: int
+    allowed: int
+    """That agree only within the tolerance that somebody chose."""
+    left_open: int
+    """That agree only because rounded numbers do not tell."""
+    missing: int
+    """Scans in the trace of which there is no value, or one that was taken over."""
+    largest: float
+    """By how much a number was off at most, of those that are not the same; of a TIME in ns."""
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage(Public):
+    """What of a trace was compared so far, and what was not."""
+
+    PUBLIC: ClassVar = "VerifyCoverage"
+
+    outputs: tuple[Compared, ...]
+    inputs: tuple[str, ...]
+    """Variables that the trace gave to the monitor: they cannot differ."""
+    ignored: tuple[str, ...]
+    """Columns of the file that are mapped to nothing."""
+    unrecorded: tuple[str, ...]
+    """What the range wrote and the file has no column of: of these nothing was compared."""
+    remembered: tuple[str, ...]
+    """What the program remembers and the file has no column of: the monitor began with the values of a cold start."""
+    more: int = 0
+    """Variables of the last two that are not named."""
+
+
+@dataclass(frozen=True, slots=True)
 class Use:
     """One entry of the used-variable record."""
 

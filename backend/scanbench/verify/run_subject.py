@@ -48,6 +48,11 @@ class RunSubject:
         """See `Subject`."""
         return self._reader.over
 
+    @property
+    def coverage(self) -> None:
+        """Everything of a scan is compared."""
+        return None
+
     def follow(self, until: int) -> None:
         """See `Subject`."""
         try:

@@ -5,7 +5,18 @@ from types import TracebackType
 from typing import Protocol, Self
 
 from scanbench.symbols.leaves import Leaf
-from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Begun, Column, Range, Row, ScanVerified, Use
+from scanbench.verify.contract import (
+    DEFAULT_LIMIT,
+    MAX_LIMIT,
+    BadRange,
+    Begun,
+    Column,
+    Coverage,
+    Range,
+    Row,
+    ScanVerified,
+    Use,
+)
 from scanbench.verify.edits import BadEdit, Edit, Edits
 from scanbench.verify.rows import Columns
 
@@ -49,6 +60,10 @@ class Subject(Protocol):
     def inputs(self, scan: int, call: int) -> Mapping[str, Leaf]:
         """What a pass reads from outside of it, by column. `BadEdit` when there is no such pass."""
 
+    @property
+    def coverage(self) -> Coverage | None:
+        """What of a trace was compared so far; None: everything of a scan is."""
+
     def edited(self, row: Row, edits: Mapping[str, Edit]) -> Row:
         """A row of the scan that was run last, with what the monitor comes to on edited inputs."""
 
@@ -86,6 +101,11 @@ class Verifier:
     def columns(self) -> Mapping[str, Column]:
         """All columns so far, by name."""
         return self._subject.columns.all
+
+    @property
+    def coverage(self) -> Coverage | None:
+        """What of a trace was compared so far; None: everything of a scan is."""
+        return self._subject.coverage
 
     def follow(self, until: int) -> None:
         """Scans before `until` are over. `Unreadable`."""

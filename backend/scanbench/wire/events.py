@@ -21,7 +21,7 @@ from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
-from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range
+from scanbench.verify.contract import DEFAULT_LIMIT, Coverage, Memory, Mismatch, Range
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire.host import MarkKind, PlcState, Previewed, RunMark
 from scanbench.wire.symbols import WatchItem
@@ -342,6 +342,7 @@ class VerificationStatus:
     generation: int = 0
     note: str = ""
     """What is not quite as it was asked for."""
+    coverage: Coverage | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -361,8 +362,7 @@ class Disturbances(Public):
 
 @dataclass(frozen=True, slots=True)
 class Comparison(Public):
-    """How far a comparison of the run of instance `a` with that of `b` is, and what came of it. Kept until the server ends, the
-    last 20 of an instance."""
+    """How far a comparison of the runs of instances `a` and `b` is, and what came of it. The last 20 of an instance are kept."""
 
     id: int
     a: int

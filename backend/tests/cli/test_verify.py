@@ -11,6 +11,8 @@ from scanbench.verify.contract import ScanVerified
 from scanbench.verify.verifier import Verifier
 from tests.cli.calling import scanbench
 from tests.verify.planted import Fault, planted
+from tests.verify.vendor_files import FILES, LINE, clean
+from tests.verify.vendor_files import faulty as faulty_trace
 
 VERIFY = import_module("scanbench.cli.verify")  # of the package, `verify` is the command
 SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))
@@ -171,6 +173,25 @@ def test_a_trace_of_a_run_files_program_with_a_mapping(run: str, tmp_path: Path)
     broken = scanbench(*given)
     assert broken.returncode == 2
     assert f"{mapping}: The mapping is not JSON" in broken.stderr
+
+
+def test_a_file_of_a_vendors_tool_and_what_of_it_was_compared(tmp_path: Path) -> None:
+    (tmp_path / "main.st").write_text(LINE, "utf-8")
+    trace = tmp_path / "scope.csv"
+    trace.write_bytes(FILES["twincat.csv"](clean()))
+    given = ("verify", str(tmp_path / "main.st"), "--model", "CJ1M-CPU63", "--trace", str(trace))
+    result = scanbench(*given)
+    assert result.returncode == 0, result
+    assert "scope.csv is read as: TwinCAT Scope." in result.stderr
+    assert "  Main.motor: 119, 1 without a value to compare" in result.stdout
+    assert "not compared, as the file has no column of them: Main.belt.run" in result.stdout
+    page = tmp_path / "report.html"
+    trace.write_bytes(FILES["twincat.csv"](faulty_trace("motor")))
+    told = json.loads(scanbench(*given, "--json", "--html", str(page)).stdout)
+    counted = {each["variable"]: each["differing"] for each in told["coverage"]["outputs"]}
+    assert (told["same"], counted["Main.motor"], counted["Main.valve"]) == (False, 2, 0)
+    assert told["coverage"]["inputs"] == ["Main.start", "Main.stop", "Main.raw", "Main.setpoint"]
+    assert "What was compared" in page.read_text("utf-8")
 
 
 def test_a_trace_that_cannot_be_used_is_refused_with_row_and_column(project: Path, tmp_path: Path) -> None:

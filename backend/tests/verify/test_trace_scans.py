@@ -270,3 +270,39 @@ def test_what_was_mapped_before_is_mapped_so_again() -> None:
         ColumnMap("B7", "Main.level", "output"),
         ColumnMap("start", "Main.valve[1].open", "output"),
     )
+
+
+# ---- what was compared ----------------------------------------------------------------------------------------------
+
+
+def test_what_was_compared_is_counted_for_each_output() -> None:
+    log = "scan,go,lamp,n,slow,remark\n3,1,0,1,0.4,x\n4,1,0,2,,x\n5,1,1,3,0.61,x\n6,1,1,5,0.7,x\n"
+    made = proposed(log)
+    columns = [replace(each, role="ignore") if each.column == "remark" else each for each in made.columns]
+    columns = [replace(each, absolute=0.02) if each.column == "slow" else each for each in columns]
+    found = checked(log, replace(made, columns=tuple(columns)))
+    assert found.trace is not None, found.problems
+    verifier = Verifier(TraceSubject(program_of(COUNT), found.trace))
+    verifier.begin(parse_range(""))
+    for scan in (3, 4, 5, 6, 5, 3):  # one that is looked at again counts once
+        verifier.verify(scan)
+    coverage = verifier.coverage
+    assert coverage is not None
+    counted = {each.path: (each.compared, each.differing, each.allowed, each.missing) for each in coverage.outputs}
+    assert counted == {"Main.lamp": (3, 0, 0, 1), "Main.n": (3, 1, 0, 1), "Main.slow": (2, 0, 1, 2)}
+    assert {each.path: round(each.largest, 3) for each in coverage.outputs}["Main.n"] == 1
+    assert (coverage.inputs, coverage.ignored, coverage.unrecorded) == (("Main.go",), ("remark",), ())
+
+
+def test_what_the_file_has_no_column_of_is_named() -> None:
+    log = "scan,go,lamp\n3,1,0\n4,1,1\n5,1,1\n"
+    found = checked(log)
+    assert found.trace is not None
+    verifier = Verifier(TraceSubject(program_of(COUNT), found.trace))
+    verifier.begin(parse_range(""))
+    for scan in (3, 4, 5):
+        verifier.verify(scan)
+    coverage = verifier.coverage
+    assert coverage is not None
+    assert set(coverage.unrecorded) == {"Main.n", "Main.slow"}
+    assert set(coverage.remembered) == {"Main.n", "Main.slow"}

@@ -8485,6 +8485,8 @@ export interface components {
              * @description scans of which anything was compared
              */
             compared: number;
+            /** @description of a trace: what was compared so far, and what was not */
+            coverage: components["schemas"]["VerifyCoverage"] | null;
             /**
              * Differing
              * @description rows that differ
@@ -8650,6 +8652,76 @@ export interface components {
                 string,
                 number
             ][];
+        };
+        /**
+         * VerifyCompared
+         * @description What came of one output of a trace.
+         */
+        VerifyCompared: {
+            /**
+             * Allowed
+             * @description That agree only within the tolerance that somebody chose.
+             */
+            allowed: number;
+            /** Column */
+            column: string;
+            /**
+             * Compared
+             * @description Values.
+             */
+            compared: number;
+            /** Differing */
+            differing: number;
+            /**
+             * Largest
+             * @description By how much a number was off at most, of those that are not the same; of a TIME in ns.
+             */
+            largest: number;
+            /**
+             * Left Open
+             * @description That agree only because rounded numbers do not tell.
+             */
+            left_open: number;
+            /**
+             * Missing
+             * @description Scans in the trace of which there is no value, or one that was taken over.
+             */
+            missing: number;
+            /** Path */
+            path: string;
+        };
+        /**
+         * VerifyCoverage
+         * @description What of a trace was compared so far, and what was not.
+         */
+        VerifyCoverage: {
+            /**
+             * Ignored
+             * @description Columns of the file that are mapped to nothing.
+             */
+            ignored: string[];
+            /**
+             * Inputs
+             * @description Variables that the trace gave to the monitor: they cannot differ.
+             */
+            inputs: string[];
+            /**
+             * More
+             * @description Variables of the last two that are not named.
+             */
+            more: number;
+            /** Outputs */
+            outputs: components["schemas"]["VerifyCompared"][];
+            /**
+             * Remembered
+             * @description What the program remembers and the file has no column of: the monitor began with the values of a cold start.
+             */
+            remembered: string[];
+            /**
+             * Unrecorded
+             * @description What the range wrote and the file has no column of: of these nothing was compared.
+             */
+            unrecorded: string[];
         };
         /**
          * VerifyDifference

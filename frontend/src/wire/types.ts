@@ -177,6 +177,8 @@ export type TraceColumnMap = Required<Shapes["TraceColumnMap"]>;
 export type TraceMapping = Required<Omit<Shapes["TraceMapping"], "columns">> & { columns: TraceColumnMap[] };
 export type TraceMappingChecked = Shapes["TraceMappingChecked"];
 export type TraceProblem = Shapes["TraceProblem"];
+export type VerifyCompared = Shapes["VerifyCompared"];
+export type VerifyCoverage = Shapes["VerifyCoverage"];
 export type UploadedTrace = Omit<Shapes["UploadedTrace"], "mapping"> & { mapping: TraceMapping };
 
 export type DriveVerification = Required<Shapes["DriveVerification"]>;

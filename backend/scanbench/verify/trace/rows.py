@@ -1,5 +1,6 @@
 """Rows of a verification against a trace: what the monitor used and came to, and what the trace says of it."""
 
+import builtins
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -26,6 +27,8 @@ class TraceRows:
 
     def __init__(self, reader: Reader, trace: Trace) -> None:
         self._reader, self._trace = reader, trace
+        self.unrecorded: dict[str, None] = {}
+        """What rows have a result of and the trace has no column of."""
 
     def rows(self, passes: Sequence[Pass], ran: Ran, range: Resolved) -> tuple[Row, ...]:
         """Those of a scan."""
@@ -44,6 +47,12 @@ class TraceRows:
             rows = [Row("none", ran.recorded.scan, note="not run in this scan", compared=False)]
         return tuple(replace(each, note="; ".join(filter(None, (note, each.note)))) for each in rows)
 
+    def shown(self, passes: Sequence[Pass], ran: Ran, range: Resolved) -> list[Signal]:
+        """The outputs that the rows of a scan have."""
+        if range.whole:
+            return [each.signal for each in ran.results]
+        return [each.signal for index in builtins.range(len(passes)) for each in _last_used(passes, index, ran.results)]
+
     def skipped(self, scan: int) -> Row:
         """Of a gap."""
         scans = self._trace.scans.of_rows
@@ -60,7 +69,9 @@ class TraceRows:
         for name, result in known.items():
             if reader.columns.used(_leaf(names, result.signal), True):
                 outputs[name] = Output(_shown(result, ran), None if ran.recorded.taken_over else result.found)
-        outputs |= {name: Output(None, value) for name, value in written.items() if name not in outputs}
+        alone = {name: value for name, value in written.items() if name not in outputs}
+        outputs |= {name: Output(None, value) for name, value in alone.items()}
+        self.unrecorded |= dict.fromkeys(alone)
         differences = () if ran.recorded.taken_over else tuple(self._differences(names, made, known, ran.recorded.scan))
         place = reader.places.of(made.frames[0].site, made.frames) if made.frames else None
         note = f"record full: {len(made.log):,} of {made.used:,} uses kept" if made.full else ""

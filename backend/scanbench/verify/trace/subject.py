@@ -6,12 +6,13 @@ from scanbench.program.program import Program
 from scanbench.recording.reader import Unreadable
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names
-from scanbench.verify.contract import DEFAULT_LIMIT, Begun, Range, Row, Use
+from scanbench.verify.contract import DEFAULT_LIMIT, Begun, Coverage, Range, Row, Use
 from scanbench.verify.edits import BadEdit, Edit
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
 from scanbench.verify.rows import Columns, Reader
 from scanbench.verify.trace.bind import Trace, check
+from scanbench.verify.trace.coverage import Tally
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping
 from scanbench.verify.trace.monitor import Ran, Recorded, TraceMonitor
 from scanbench.verify.trace.read import read_trace
@@ -48,6 +49,7 @@ class TraceSubject:
         self._range = Resolved("the whole scan")
         self._limit = DEFAULT_LIMIT
         self._rows = TraceRows(self._reader, trace)
+        self._tally = Tally(program, self._sites, trace)
         self._last: tuple[Recorder, Ran] | None = None
         """The scan that was run last. The monitor is in the seam before this or a different scan."""
 
@@ -69,6 +71,11 @@ class TraceSubject:
         """See `Subject`."""
         return self._reader.columns
 
+    @property
+    def coverage(self) -> Coverage:
+        """See `Subject`."""
+        return self._tally.made(self._rows.unrecorded)
+
     def follow(self, until: int) -> None:
         """A trace does not grow."""
 
@@ -77,6 +84,8 @@ class TraceSubject:
         self._range = resolve_range(self._program, self._sites, range, lambda file: len(self._texts.get(file, ())))
         self._limit = limit
         self._reader.columns = Columns()
+        self._tally = Tally(self._program, self._sites, self._trace)
+        self._rows.unrecorded.clear()
         self._last = None
         notes = [self._range.note, self._note, self._beginning()]
         return Begun(
@@ -97,6 +106,8 @@ class TraceSubject:
             return (self._rows.skipped(scan),) if first else ()
         rows, recorder, ran = self._run(scan)
         self._last = recorder, ran
+        read = {name: leaf for made in recorder.passes for name, leaf in leaves_read(self._reader, made).items()}
+        self._tally.add(ran, self._rows.shown(recorder.passes, ran, self._range), read)
         return rows
 
     def step(self, scan: int, count: int) -> Row:

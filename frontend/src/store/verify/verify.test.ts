@@ -22,6 +22,7 @@ const info = (memory: VerificationInfo["memory"], compared: number): Verificatio
   scan: null,
   compared,
   skipped: 0,
+  coverage: null,
   stretches: [],
   differing: 0,
   first_difference: null,

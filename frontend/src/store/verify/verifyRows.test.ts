@@ -32,6 +32,7 @@ const info = (part: Partial<VerificationInfo>): VerificationInfo => ({
   scan: null,
   compared: 0,
   skipped: 0,
+  coverage: null,
   stretches: [],
   differing: 0,
   first_difference: null,

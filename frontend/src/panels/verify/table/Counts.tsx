@@ -18,6 +18,7 @@ import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { StateWord } from "../../../ui/StateWord";
 import type { VerificationInfo } from "../../../wire/types";
 import { ColumnsDialog } from "./ColumnsDialog";
+import { Coverage } from "./Coverage";
 import { spanOf } from "./Head";
 
 const STATES: Record<VerificationInfo["state"], [tone: string, icon: IconName]> = {
@@ -32,7 +33,7 @@ const STATES: Record<VerificationInfo["state"], [tone: string, icon: IconName]> 
 /** The progress, the result, and the buttons for the next and the previous difference. */
 export function Counts({ shown }: { shown: ShownVerification }) {
   const { info } = shown;
-  const [asked, ask] = useState<"keep" | "columns" | null>(null);
+  const [asked, ask] = useState<"keep" | "columns" | "coverage" | null>(null);
   const [kept, sayKept] = useState<string | null>(null);
   const onlyDiffering = useVerifyRows((rows) => rows.onlyDiffering);
   const none = useVerifyRows((rows) => rows.differing.length === 0);
@@ -49,6 +50,12 @@ export function Counts({ shown }: { shown: ShownVerification }) {
           <span className="cut" role="status">
             {t("verify.kept", { name: kept })}
           </span>
+        </button>
+      )}
+      {info.coverage && (
+        <button type="button" className="btn quiet sm" title={t("verify.coverage")} onClick={() => ask("coverage")}>
+          <Icon name="info" small />
+          <span className="long">{t("verify.coverage")}</span>
         </button>
       )}
       <span className="grow" />
@@ -71,6 +78,9 @@ export function Counts({ shown }: { shown: ShownVerification }) {
       <span className="vr" />
       <Jumps none={none} />
       {asked === "columns" && <ColumnsOf shown={shown} onClose={() => ask(null)} />}
+      {asked === "coverage" && info.coverage && (
+        <Coverage coverage={info.coverage} trace={info.trace} onClose={() => ask(null)} />
+      )}
       {asked === "keep" && (
         <AskName
           title={t("verify.keep.title")}

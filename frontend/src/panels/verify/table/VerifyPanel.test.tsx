@@ -77,6 +77,7 @@ const INFO: VerificationInfo = {
   generation: 1,
   compared: 3,
   skipped: 0,
+  coverage: null,
   differing: 1,
   first_difference: DIFFERENCE,
   limit: 4096,
@@ -97,8 +98,8 @@ const USE: VerifyUse = {
 };
 
 /** A verification of three scans; what is set in the wrong one makes the reference give A, too. */
-async function openVerify() {
-  let info = INFO;
+async function openVerify(begun = INFO) {
+  let info = begun;
   let set: string | null = null;
   const page = await openPage((server: FakeServer) => {
     const rows = () => [500, WRONG, 502].map((scan) => rowOf(scan, set));
@@ -183,4 +184,34 @@ test("from a difference one goes to its scan, and sees every use of a variable",
   await waitFor(() => expect(facts()).toContain(`20barrier${t("verify.uses.written")}`));
   await user.click(button(t("verify.goto")));
   await waitFor(() => expect(server.sentOf("travel")).toMatchObject([{ scan: WRONG }]));
+});
+
+test("of a controller log it says what was compared, and what was not", async () => {
+  const coverage: VerificationInfo["coverage"] = {
+    outputs: [
+      {
+        column: "MAIN.level",
+        path: "Main.level",
+        compared: 1190,
+        differing: 2,
+        allowed: 3,
+        left_open: 4,
+        missing: 5,
+        largest: 0.0475,
+      },
+    ],
+    inputs: ["Main.start"],
+    ignored: ["remark"],
+    unrecorded: ["Main.belt.run"],
+    remembered: [],
+    more: 7,
+  };
+  const { user } = await openVerify({ ...INFO, source: "trace", trace: "press4.csv", coverage });
+  await user.click(button(t("verify.coverage")));
+  const dialog = await screen.findByRole("dialog", { name: t("verify.coverage") });
+  const said = textOf(dialog);
+  for (const word of ["press4.csv", "Main.level", "0.0475", "Main.start", "remark", "Main.belt.run"])
+    expect(said).toContain(word);
+  expect(said).not.toContain(t("verify.coverage.remembered"));
+  expect(said).toContain(t("verify.coverage.more", { count: "7" }));
 });

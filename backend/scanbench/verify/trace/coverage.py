@@ -1,0 +1,87 @@
+"""What of a trace was compared, and what was not: counted as the scans are verified."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from scanbench.program.program import Program
+from scanbench.symbols.leaves import Leaf
+from scanbench.symbols.sites import Sites
+from scanbench.symbols.symbols import Symbol
+from scanbench.verify.contract import Compared, Coverage
+from scanbench.verify.trace.bind import Signal, Trace
+from scanbench.verify.trace.mapping import bits_of, written
+from scanbench.verify.trace.monitor import Ran
+from scanbench.verify.trace.patches import Agrees
+from scanbench.verify.trace.values import is_number, number_of
+
+MOST_NAMES = 100
+"""Variables of a kind that are named."""
+
+
+@dataclass(slots=True)
+class _Count:
+    compared: int = 0
+    differing: int = 0
+    allowed: int = 0
+    left_open: int = 0
+    largest: float = 0.0
+
+    def add(self, signal: Signal, recorded: bytes, found: bytes, agrees: Agrees) -> None:
+        self.compared += 1
+        self.differing += agrees == "no"
+        self.allowed += agrees == "allowed"
+        self.left_open += agrees == "open"
+        if agrees != "same" and is_number(signal.type):
+            apart = abs(number_of(signal.type, recorded) - number_of(signal.type, found))
+            self.largest = max(self.largest, apart) if math.isfinite(apart) else self.largest
+
+
+class Tally:
+    """Of one verification."""
+
+    def __init__(self, program: Program, sites: Sites, trace: Trace) -> None:
+        self._program, self._sites, self._trace = program, sites, trace
+        self._counts = [_Count() for _ in trace.outputs]
+        self._until = -1
+        self._scans = 0
+        self._remembered: dict[str, None] | None = None
+        self._mapped = {bit for each in (*trace.inputs, *trace.outputs) for bit in bits_of(each.symbol)}
+
+    def add(self, ran: Ran, shown: Sequence[Signal], read: Mapping[str, Leaf]) -> None:
+        """A scan that ran; one that was counted is not counted again. `shown`: outputs that the range has rows of. `read`: what it
+        read before it wrote it."""
+        scan = ran.recorded.scan
+        if scan <= self._until:
+            return
+        self._until = scan
+        if self._remembered is None and not self._trace.scans.cold:
+            self._remembered = {name: None for name, leaf in read.items() if self._is_memory(name, leaf)}
+        if ran.recorded.row is None:
+            return
+        self._scans += 1
+        wanted = {id(each) for each in shown}
+        for count, each in zip(self._counts, ran.results, strict=True):
+            if each.recorded is not None and not ran.recorded.taken_over and id(each.signal) in wanted:
+                count.add(each.signal, each.recorded, each.found, each.agrees)
+
+    def _is_memory(self, name: str, leaf: Leaf) -> bool:
+        """Whether the program has it from the scan before, and the trace does not."""
+        symbol = Symbol(name, name, leaf.type, "", leaf.offset, leaf.bit)
+        return self._mapped.isdisjoint(bits_of(symbol)) and written(self._program, self._sites, symbol)
+
+    def made(self, alone: Iterable[str]) -> Coverage:
+        """So far. `alone`: what the range wrote and the trace has no column of."""
+        outputs = tuple(
+            Compared(
+                each.column, each.path, count.compared, count.differing, count.allowed, count.left_open,
+                self._scans - count.compared, count.largest,
+            )
+            for each, count in zip(self._trace.outputs, self._counts, strict=True)
+        )  # fmt: skip
+        unrecorded, remembered = list(alone), list(self._remembered or ())
+        found = Coverage(
+            outputs, tuple(each.path for each in self._trace.inputs), self._trace.ignored, tuple(unrecorded[:MOST_NAMES]),
+            tuple(remembered[:MOST_NAMES]),
+        )  # fmt: skip
+        return replace(found, more=max(0, len(unrecorded) - MOST_NAMES) + max(0, len(remembered) - MOST_NAMES))
