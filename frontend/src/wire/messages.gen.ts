@@ -3572,8 +3572,7 @@ export interface components {
         };
         /**
          * Comparison
-         * @description How far a comparison of the run of instance `a` with that of `b` is, and what came of it. Kept until the server ends, the
-         *     last 20 of an instance.
+         * @description How far a comparison of the runs of instances `a` and `b` is, and what came of it. The last 20 of an instance are kept.
          */
         Comparison: {
             /** A */
