@@ -1,3 +1,5 @@
+import { readFile } from 'node:fs/promises';
+import AxeBuilder from '@axe-core/playwright';
 import { expect, test } from '../fixtures/test';
 
 const BATCH = `FUNCTION_BLOCK Batch
@@ -103,6 +105,19 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
     await page.getByRole('tab', { name: 'Steps', exact: true }).click();
     await expect(lane('Mix')).toHaveClass('on');
     await expect(lane('Fill').getByRole('cell').nth(1)).toHaveText('1');
+  });
+
+  await test.step('the drawing is saved as an SVG, and is readable for everybody', async () => {
+    const [file] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('button', { name: 'SVG' }).click(),
+    ]);
+    expect(file.suggestedFilename()).toBe('Batch.svg');
+    const written = await readFile(await file.path(), 'utf8');
+    for (const each of ['Idle', 'level &gt;= 80', '#run', 'stroke: #']) expect.soft(written).toContain(each);
+    expect.soft(written).not.toMatch(/var\(--|: ;/);
+    const { violations } = await new AxeBuilder({ page }).include('.graphicview').include('.steps').analyze();
+    expect.soft(violations.map(({ id, nodes }) => `${id}: ${nodes[0]?.html}`)).toEqual([]);
   });
 
   await test.step('a text that cannot be read is shown below the last drawing', async () => {

@@ -110,6 +110,10 @@ export function holdsBy(condition: Condition | null, read: (variable: string) =>
   return text === "TRUE" ? true : text === "FALSE" ? false : null;
 }
 
+/** Whether a variable or an expression is TRUE; null where that is not known here. */
+export const truthBy = (text: string, read: (variable: string) => string | null): Power =>
+  holdsBy(conditionOf(text), read);
+
 /** The text of the value that an expression has; null where it is not known here. */
 export function valueBy(text: string, read: (variable: string) => string | null): string | null {
   const parsed = conditionOf(text);

@@ -48,6 +48,17 @@ export interface Spot {
 
 export const spotsOf = (part: DrawnPart | undefined): readonly Spot[] => part?.drawing?.elements ?? [];
 
+/** The action of a chart that a rung or network is written in, and the chart; null elsewhere. */
+export function actionOf(parts: readonly DrawnPart[], { found }: DrawnPart): { name: string; chart: DrawnPart } | null {
+  for (const chart of parts) {
+    if (chart.kind !== "chart") continue;
+    const at = found.from - chart.found.from;
+    const body = chart.bodies.find(({ span }) => at >= span.at && at < span.end);
+    if (body) return { name: body.name, chart };
+  }
+  return null;
+}
+
 const HEAD = 28;
 const PLAIN_LINE = 18;
 

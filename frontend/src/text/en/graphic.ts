@@ -83,4 +83,6 @@ export const graphic = {
   "graphic.network": "Network {number} {title}",
   "graphic.unconnected": "{wire} is not connected: no line sets it",
   "graphic.view.network": "Blocks",
+  "graphic.svg": "SVG",
+  "graphic.svg.hint": "Saves the drawing of this file as an SVG, without values and marks",
 };

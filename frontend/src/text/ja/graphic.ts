@@ -85,4 +85,6 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.network": "ネットワーク {number} {title}",
   "graphic.unconnected": "{wire} は未接続です（設定する行がありません）",
   "graphic.view.network": "ブロック",
+  "graphic.svg": "SVG",
+  "graphic.svg.hint": "このファイルの図を、値とマークなしの SVG として保存します",
 };

@@ -1,13 +1,15 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef, useState } from "react";
+import { baseName } from "../../../../logic/format/paths";
 import { type Drawn, layOut } from "../../../../logic/graphic/ladderLayout";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
-import { type DrawnPart, heightOf, Sheet, spotsOf } from "../../../../logic/graphic/sheet";
+import { actionOf, type DrawnPart, heightOf, Sheet, spotsOf } from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
 import { seenAsNow } from "../../../../store/debug/seenAs";
 import { showAs, useViewOf } from "../../../../store/graphic/views";
+import { saveFile } from "../../../../store/page/download";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
 import { useMembers } from "../../../../store/plc/members";
 import { useDocuments } from "../../../../store/project/documents";
@@ -20,6 +22,7 @@ import { elementBeside, moved, sameElement } from "./cursor";
 import { marksOf, togglePart } from "./marks";
 import { NameField } from "./NameField";
 import { PartRow } from "./PartRow";
+import { svgFile } from "./svgFile";
 import { type Cursor, useEditing } from "./useEditing";
 
 /** Marks, number and margins left and right of a drawing. */
@@ -112,6 +115,16 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     openFile(path, line, column);
   }
 
+  function toFile(): void {
+    const written = svgFile(drawn, ({ found, kind }) => {
+      const { label, title } = found.head;
+      const pou = pouAt(pous, path, found.line, text)?.name ?? "";
+      const of = kind === "chart" ? "" : `${pou} ${drawn.findIndex((each) => each.found === found) + 1}`;
+      return [of, label && `${label}:`, kind === "chart" ? pou : title].filter(Boolean).join("  ");
+    });
+    saveFile(new Blob([written], { type: "image/svg+xml" }), `${baseName(path).replace(/\.\w+$/, "")}.svg`);
+  }
+
   function onKeyDown(event: KeyboardEvent): void {
     if (event.altKey || event.metaKey) return;
     const to = moved(event, cursor, drawn);
@@ -180,7 +193,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
           {virtual.getVirtualItems().map((item) => {
             const rung = drawn[item.index];
             if (!rung) return null;
-            const pou = pouAt(pous, path, rung.found.line, text);
+            const action = actionOf(drawn, rung);
+            // An action has the variables of its chart.
+            const pou = pouAt(pous, path, (action?.chart ?? rung).found.line, text);
             return (
               <div
                 key={item.key}
@@ -191,6 +206,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                 <PartRow
                   part={rung}
                   number={item.index + 1}
+                  action={action?.name ?? null}
                   pou={pou}
                   id={`${id}${item.index}`}
                   cursor={cursor.rung === item.index ? cursor.place : null}
@@ -205,15 +221,19 @@ export default function GraphicView({ path, text, readOnly }: Props) {
           })}
         </div>
       </div>
-      <p className="netnote faint" role="status">
+      <div className="netnote faint">
         <span className="row tight" title={t("graphic.fromvalues.hint")}>
           <Icon name="info" small />
           {t("graphic.fromvalues")}
         </span>
-        <span className="cut">
+        <span className="cut grow" role="status">
           {editing.refused || t(readOnly ? "graphic.readonly" : editable ? "graphic.keys" : "graphic.keys.look")}
         </span>
-      </p>
+        <button type="button" className="btn quiet sm" title={t("graphic.svg.hint")} onClick={toFile}>
+          <Icon name="export" small />
+          {t("graphic.svg")}
+        </button>
+      </div>
     </div>
   );
 }

@@ -19,6 +19,8 @@ import { RungDrawing } from "./RungDrawing";
 interface Props {
   part: DrawnPart;
   number: number;
+  /** The action of a chart that it is written in. */
+  action: string | null;
   /** The POU whose instance gives the values; undefined where there are none to show. */
   pou: Pou | undefined;
   id: string;
@@ -31,7 +33,7 @@ interface Props {
 }
 
 /** One rung, network or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function PartRow({ part, number, pou, id, cursor, naming, marks, twice }: Props) {
+export function PartRow({ part, number, action, pou, id, cursor, naming, marks, twice }: Props) {
   const { found, readable } = part;
   const { label, title, comment, off } = found.head;
   const headline = part.kind === "chart" ? (pou?.name ?? "") : title;
@@ -47,6 +49,7 @@ export function PartRow({ part, number, pou, id, cursor, naming, marks, twice }:
       <span className="no">{number}</span>
       <div className="netbody">
         <div className="hd">
+          {action !== null && <span className="cm">{action}</span>}
           {label !== "" && <span className="lab">{label}:</span>}
           <b className="cut">{headline}</b>
           <span className="cm cut">{comment.join(" ")}</span>

@@ -1,15 +1,16 @@
 /** Values and power of a rung, written to its elements directly. */
 
+import { type Condition, conditionOf, holdsBy, variablesOf } from "../../../../logic/graphic/condition";
 import type { Drawing } from "../../../../logic/graphic/ladderLayout";
-import { closedBy, powerOf } from "../../../../logic/graphic/power";
+import { closedBy, type Power, powerOf } from "../../../../logic/graphic/power";
 import type { Pou } from "../../../../wire/types";
 import { follow, type Values } from "./follow";
 
-/** The operands whose values a rung shows. */
-function operandsOf({ nodes, elements }: Drawing): Set<string> {
+/** The variables whose values a rung shows. */
+function variablesIn({ nodes, elements }: Drawing): Set<string> {
   const named = new Set<string>();
   for (const node of nodes) {
-    if (node.kind === "contact") named.add(node.contact.operand);
+    if (node.kind === "contact") for (const { name } of variablesOf(conditionOf(node.contact.operand))) named.add(name);
     if (node.kind === "box" && node.box.output !== null) named.add(`${node.box.callee}.${node.box.output}`);
   }
   for (const { element } of elements) if (element.kind === "coil") named.add(element.operand);
@@ -17,10 +18,26 @@ function operandsOf({ nodes, elements }: Drawing): Set<string> {
 }
 
 /** Shows values and power in a drawing from now on, until the returned function is called. */
-export const showRung = (svg: SVGSVGElement, drawing: Drawing, pou: Pou): (() => void) =>
-  follow(pou, operandsOf(drawing), (values) => paintPower(svg, drawing, values));
+export function showRung(svg: SVGSVGElement, drawing: Drawing, pou: Pou): () => void {
+  const parsed = new Map<string, Condition | null>();
+  const conditionAt = (operand: string) => {
+    const known = parsed.get(operand);
+    if (known !== undefined) return known;
+    const made = conditionOf(operand);
+    parsed.set(operand, made);
+    return made;
+  };
+  return follow(pou, variablesIn(drawing), ({ text, forced }) =>
+    paintPower(svg, drawing, (operand) => holdsBy(conditionAt(operand), text), forced),
+  );
+}
 
-function paintPower(svg: SVGSVGElement, { nodes, sends, elements }: Drawing, { truth, forced }: Values): void {
+function paintPower(
+  svg: SVGSVGElement,
+  { nodes, sends, elements }: Drawing,
+  truth: (operand: string) => Power,
+  forced: Values["forced"],
+): void {
   const power = powerOf(nodes, sends, truth);
   const has = (node: number) => power[node] === true;
   for (const wire of svg.querySelectorAll<SVGElement>("[data-node]")) {

@@ -2,7 +2,7 @@
 
 import type { ChartTransition } from "../../../../logic/graphic/chart";
 import type { ChartDrawing } from "../../../../logic/graphic/chartLayout";
-import { type Condition, conditionOf, holdsBy, variablesOf } from "../../../../logic/graphic/condition";
+import { type Condition, conditionOf, holdsBy, truthBy, variablesOf } from "../../../../logic/graphic/condition";
 import { type Drawing, layOut } from "../../../../logic/graphic/ladderLayout";
 import { type Power, powerOf } from "../../../../logic/graphic/power";
 import type { Pou } from "../../../../wire/types";
@@ -27,8 +27,11 @@ function testOf({ condition, rung }: ChartTransition): Test {
 }
 
 function rungTest({ nodes, sends, end }: Drawing): Test {
-  const variables = nodes.flatMap((node) => (node.kind === "contact" ? [node.contact.operand] : []));
-  return { variables, shown: [], holds: ({ truth }) => powerOf(nodes, sends, truth)[end] ?? null };
+  const variables = nodes.flatMap((node) =>
+    node.kind === "contact" ? variablesOf(conditionOf(node.contact.operand)).map(({ name }) => name) : [],
+  );
+  const holds = ({ text }: Values) => powerOf(nodes, sends, (operand) => truthBy(operand, text))[end] ?? null;
+  return { variables, shown: [], holds };
 }
 
 /** Shows steps, conditions and actions from now on, until the returned function is called. */
