@@ -62,12 +62,26 @@ class Server:
             raise Refused(f"there is no instance `{name}`", tuple(known))
         return Plc(self, known[name])
 
-    def ask(self, method: str, path: str, body: Json = None) -> Json:
-        """One request; `Refused` when the server says no, `OSError` when there is none."""
+    def take_run(self, run: bytes, name: str) -> "Plc":
+        """A new PLC, of this name or the next one that is free, which goes on with the run of an exported file."""
+        taken = self.plcs()
+        free = next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
+        made = self.ask("POST", f"/api/instances/import?{urlencode({'name': free[:100]})}", run)
+        assert isinstance(made, dict)
+        return Plc(self, int(str(made["id"])))
+
+    def link(self, path: str) -> str:
+        """The address of a page of this server, for a browser that was not there before."""
+        return f"{self._address}{path}?{urlencode({'token': self._token})}"
+
+    def ask(self, method: str, path: str, body: Json | bytes = None) -> Json:
+        """One request; bytes go as they are. `Refused` when the server says no, `OSError` when there is none."""
         request = Request(self._address + path, method=method)
         request.add_header("Authorization", f"Bearer {self._token}")
         request.add_header("Cookie", f"scanbench_user={quote(self._user)}")
-        if body is not None:
+        if isinstance(body, bytes):
+            request.data = body
+        elif body is not None:
             request.add_header("Content-Type", "application/json")
             request.data = json.dumps(body).encode()
         try:
@@ -85,7 +99,7 @@ class Plc:
     """One virtual PLC."""
 
     def __init__(self, server: Server, id: int) -> None:
-        self._server, self._base = server, f"/api/instances/{id}"
+        self._server, self._base, self._id = server, f"/api/instances/{id}", id
 
     def read(self, path: str) -> str:
         """The value of a variable, an address or an expression of ST."""
@@ -241,6 +255,10 @@ class Plc:
                 raise TimeoutError(f"sweep {number} still runs: {found.get('done')} of {found.get('total')}")
             Event().wait(_LOOK_S)
         return found
+
+    def link(self, scan: int | None = None) -> str:
+        """The address of this PLC for a browser, as it is now or as it was before a scan."""
+        return self._server.link(f"/i/{self._id}" if scan is None else f"/i/{self._id}/scan/{scan}")
 
     @property
     def state(self) -> Mapping[str, Json]:

@@ -6,14 +6,13 @@ import json
 import typer
 
 from scanbench.program.sites import TrapKind
-from scanbench.program.types import ArrayType, Record
 from scanbench.recording.headless import HeadlessRun
 from scanbench.runtime.resource import Resource
-from scanbench.symbols.symbols import Symbol, members
-from scanbench.symbols.values import format_value, python_value
+from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.violations import read_violations
+from scanbench.symbols.whole import Worth, worth, worth_text
 
-Json = bool | int | float | str | None | list["Json"] | dict[str, "Json"]
+Json = Worth
 Shown = list[tuple[str, Symbol]]
 """What is printed: the path as it was asked for, and the variable."""
 VIOLATIONS_SHOWN = 20
@@ -52,7 +51,7 @@ def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
     for scan, row in result.rows:
         typer.echo(f"{scan}: " + ", ".join(f"{path} = {value}" for path, value in row.items()))
     for path, symbol in shown:
-        typer.echo(f"{path} = {_text(resource, symbol)}")
+        typer.echo(f"{path} = {worth_text(resource.program, resource.memory, symbol)}")
     if with_hash:
         typer.echo(f"sha256 {_hash(resource)}")
     violations = read_violations(resource.program, resource.memory)
@@ -71,12 +70,12 @@ def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
 
 def values(resource: Resource, shown: Shown) -> dict[str, Json]:
     """The values now."""
-    return {path: _json(resource, symbol) for path, symbol in shown}
+    return {path: worth(resource.program, resource.memory, symbol) for path, symbol in shown}
 
 
 def texts(resource: Resource, shown: Shown) -> dict[str, Json]:
     """The same as people read them."""
-    return {path: _text(resource, symbol) for path, symbol in shown}
+    return {path: worth_text(resource.program, resource.memory, symbol) for path, symbol in shown}
 
 
 def _hash(resource: Resource) -> str:
@@ -110,33 +109,3 @@ def _trap(resource: Resource) -> Json:
         return None
     place: dict[str, Json] = {"file": trap.file, "line": trap.line, "column": trap.column, "scan": trap.scan}
     return {"kind": str(trap.kind), **place, "message": trap.message}
-
-
-def _bytes(resource: Resource, symbol: Symbol) -> bytes | None:
-    place = symbol.locate(resource.memory)
-    if place is None:
-        return None
-    offset, bit = place
-    data = bytes(resource.memory[offset : offset + symbol.type.size])
-    return data if bit is None else bytes((data[0] >> bit & 1,))
-
-
-def _json(resource: Resource, symbol: Symbol) -> Json:
-    """A value for JSON; arrays are lists, structures objects; None for an in-out that is bound to nothing."""
-    if isinstance(symbol.type, ArrayType):
-        return [_json(resource, each) for each in members(resource.program, symbol.path)]
-    if isinstance(symbol.type, Record):
-        return {each.name: _json(resource, each) for each in members(resource.program, symbol.path)}
-    data = _bytes(resource, symbol)
-    return None if data is None else python_value(symbol.type, data)
-
-
-def _text(resource: Resource, symbol: Symbol) -> str:
-    """As it is written in a program: `16#FF`, `[1, 2]`, `(a := 1, b := TRUE)`."""
-    if isinstance(symbol.type, ArrayType):
-        return f"[{', '.join(_text(resource, each) for each in members(resource.program, symbol.path))}]"
-    if isinstance(symbol.type, Record):
-        inside = (f"{each.name} := {_text(resource, each)}" for each in members(resource.program, symbol.path))
-        return f"({', '.join(inside)})"
-    data = _bytes(resource, symbol)
-    return "not bound yet" if data is None else format_value(symbol.type, data)

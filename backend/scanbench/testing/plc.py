@@ -1,0 +1,239 @@
+"""The PLC of one test: it runs when the test says so, on virtual time. Its run is recorded, for whoever looks at a failure."""
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from scanbench.check.typed.condition import Condition, compile_condition
+from scanbench.engines.engine import Reason
+from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
+from scanbench.faults.inject import ACTIVE, Generate, Recover, present_texts
+from scanbench.faults.reference import parse_reference
+from scanbench.recording.timeline import Timeline
+from scanbench.runtime.command import Command, Refusal, RestartKind
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.joined import Joined
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.programs import LoadedPrograms
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
+from scanbench.symbols.whole import Worth, worth, worth_text
+from scanbench.testing.project import Project
+from scanbench.wire.codec import ENTRIES, pack_body
+from scanbench.wire.host import Sources
+
+Value = str | int | float | bool
+AUTHOR = "test"
+_VERSION = 1
+_NAMES = re.compile(r"[A-Za-z_][\w.]*(?:\[[^]]*\][\w.]*)*")
+_SHOWN = 12
+
+
+class PlcFailure(AssertionError):
+    """The PLC did something else than the test asked for."""
+
+
+class PlcRefused(Exception):
+    """The PLC did not take a command, or a text means nothing to its program; the message says why."""
+
+
+class Plc:
+    """A virtual PLC from a cold start in MONITOR mode. Values are as they are typed: `TRUE`, `T#5s`, `'text'`; True, 5 and 1.5 too."""
+
+    def __init__(self, project: Project, run: Path) -> None:
+        """`run` is where its run file is to be."""
+        self._project, self.run_file, self._closed = project, run, False
+        sources = Sources(project.model, project.files, project.loaded.program.interval_ns, _VERSION)
+        self._timeline = Timeline.begin(
+            run, LoadedPrograms(project.loaded), _VERSION, pack_body(sources), ENTRIES, AUTHOR, Detection(),
+            agenda=Joined(DisturbanceSchedule()),
+        )  # fmt: skip
+
+    @property
+    def _resource(self) -> Resource:
+        return self._timeline.resource
+
+    def close(self) -> None:
+        """Its run file is whole; it runs no more."""
+        if not self._closed:
+            self._closed = True
+            self._timeline.close()
+
+    # ---- looking --------------------------------------------------------------------------------------------------
+
+    @property
+    def scan(self) -> int:
+        """The scan that runs next; the first is 0."""
+        return self._resource.header.scan
+
+    @property
+    def time_s(self) -> float:
+        """Seconds of virtual time since the start."""
+        return self._resource.header.scan * self._resource.program.interval_ns / 1e9
+
+    def read(self, path: str) -> str:
+        """A variable or an address as a program writes it: `TRUE`, `42`, `T#5s`."""
+        return worth_text(self._resource.program, self._resource.memory, self._find(path))
+
+    def value(self, path: str) -> Worth:
+        """The same as a value of Python; arrays are lists, structures dictionaries."""
+        return worth(self._resource.program, self._resource.memory, self._find(path))
+
+    def holds(self, condition: str) -> bool:
+        """Whether a BOOL expression of ST holds now."""
+        return self._resource.engine.holds(self._condition(condition))
+
+    @property
+    def errors(self) -> tuple[str, ...]:
+        """The errors that are present, as `raise_error` takes them."""
+        return tuple(present_texts(self._resource.journal.derived(ACTIVE)))
+
+    def _find(self, path: str) -> Symbol:
+        try:
+            return resolve(self._resource.program, path.strip())
+        except UnknownPath as error:
+            raise PlcRefused(_said(error.message, tuple(error.near))) from None
+
+    def _condition(self, text: str) -> Condition:
+        made = compile_condition(self._resource.program, text)
+        if not isinstance(made, Condition):
+            raise PlcRefused(f"`{text}`: {_said(made.message, made.near)}")
+        return made
+
+    # ---- changing -------------------------------------------------------------------------------------------------
+
+    def write(self, path: str, value: Value) -> None:
+        """Writes once."""
+        self.submit(Write(AUTHOR, path, _typed(value)))
+
+    def force(self, path: str, value: Value) -> None:
+        """Holds a variable until it is released."""
+        self.submit(Force(AUTHOR, path, _typed(value)))
+
+    def release(self, path: str | None = None) -> None:
+        """Ends a force, or all."""
+        self.submit(Release(AUTHOR, path))
+
+    @contextmanager
+    def forced(self, path: str, value: Value) -> Iterator[None]:
+        """Forced inside of a `with`."""
+        self.force(path, value)
+        try:
+            yield
+        finally:
+            self.release(path)
+
+    def raise_error(self, error: str, **details: Value) -> None:
+        """Raises an error of the model's catalogue: `raise_error("io-bus-error", rack=1, slot=3)`."""
+        told = ",".join(f"{name}={value}" for name, value in details.items())
+        reference = parse_reference(self._resource.program.layout.model, f"{error}:{told}" if told else error)
+        if isinstance(reference, Refusal):
+            raise PlcRefused(_said(reference.message, reference.near))
+        self.submit(Generate(AUTHOR, (reference,)))
+
+    def recover(self, *errors: str) -> None:
+        """Recovers these errors, or all."""
+        self.submit(Recover(AUTHOR, errors or None))
+
+    def mode(self, mode: str) -> None:
+        """`PROGRAM`, `MONITOR` or `RUN`."""
+        self.submit(SetMode(AUTHOR, mode))
+
+    def restart(self, kind: RestartKind = "warm") -> None:
+        """`cold`, `warm` or `power` (off and on)."""
+        self.submit(Restart(AUTHOR, kind))
+
+    def submit(self, command: Command) -> None:
+        """Enters any command; `PlcRefused`."""
+        outcome = self._timeline.submit(command)
+        if isinstance(outcome, Refusal):
+            raise PlcRefused(_said(outcome.message, outcome.near))
+
+    # ---- running --------------------------------------------------------------------------------------------------
+
+    def run(self, scans: int = 1) -> None:
+        """Runs so many scans; they pass without the program while it is stopped. `PlcFailure` when it traps."""
+        self._run_until(None, scans)
+
+    def run_until(self, condition: str, most: int = 10_000) -> int:
+        """Runs until a condition holds after a scan: how many scans that took. `PlcFailure` after so many."""
+        return self.within_scans(most, condition)
+
+    def within_scans(self, most: int, condition: str) -> int:
+        """The condition holds now, or after one of the next `most` scans, where it stays: how many scans that took."""
+        begin = self.scan
+        if not self.holds(condition) and not self._run_until(self._condition(condition), most):
+            raise PlcFailure(
+                f"`{condition}` did not hold within {most} scans, {begin} to {self.scan - 1}. {self._values(condition)}"
+            )
+        return self.scan - begin
+
+    def always(self, scans: int, condition: str) -> None:
+        """Runs so many scans, after each of which the condition holds."""
+        self._watch(scans, condition, f"NOT ({condition})", "did not hold any more")
+
+    def never(self, scans: int, condition: str) -> None:
+        """Runs so many scans, after none of which the condition holds."""
+        self._watch(scans, condition, condition, "held")
+
+    def _watch(self, scans: int, condition: str, wrong: str, what: str) -> None:
+        begin = self.scan
+        if self._run_until(self._condition(wrong), scans):
+            ran = self.scan - 1
+            raise PlcFailure(
+                f"`{condition}` {what} after scan {ran}, the {ran - begin + 1}. of {scans}. {self._values(condition)}"
+            )
+
+    def _run_until(self, condition: Condition | None, scans: int) -> bool:
+        """Runs until that holds after a scan, at most so many; whether it does."""
+        resource = self._resource
+        end = resource.header.scan + scans
+        resource.waiting.until = condition
+        try:
+            while resource.header.scan < end:
+                if not resource.runnable:
+                    before = resource.header.scan
+                    resource.idle(end - before)
+                    if condition is not None and resource.engine.holds(condition):
+                        return True
+                    continue
+                stop = self._timeline.run(end - resource.header.scan)
+                self._timeline.note()
+                self._must_not_trap()
+                if condition is not None and stop.reason is Reason.CONDITION:
+                    return True
+        finally:
+            resource.waiting.until = None
+        return False
+
+    def _must_not_trap(self) -> None:
+        trap = self._resource.trap
+        if trap is not None:
+            raise PlcFailure(
+                f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind} in scan {trap.scan}: {trap.message}"
+            )
+
+    def _values(self, condition: str) -> str:
+        """What the names in it are worth now."""
+        told: dict[str, str] = {}
+        for name in dict.fromkeys(_NAMES.findall(condition)):
+            try:
+                symbol = resolve(self._resource.program, name)
+            except UnknownPath:
+                continue
+            told[symbol.path] = worth_text(self._resource.program, self._resource.memory, symbol)
+        shown = [f"{path} = {text}" for path, text in told.items()][:_SHOWN]
+        return f"Now {', '.join(shown)}" if shown else ""
+
+
+def _typed(value: Value) -> str:
+    """As somebody would type it."""
+    return str(value).upper() if isinstance(value, bool) else str(value)
+
+
+def _said(message: str, near: tuple[str, ...]) -> str:
+    return f"{message} Near: {', '.join(near)}" if near and "id you mean" not in message else message

@@ -1,0 +1,43 @@
+"""The examples for CI: their commands are run, as far as no runner of GitHub or GitLab is needed."""
+
+import subprocess
+import sys
+from pathlib import Path
+from shutil import copytree
+from typing import Any
+
+import pytest
+import yaml
+
+import scanbench
+
+ROOT = Path(__file__).parents[3]
+BIN = Path(sys.executable).parent
+TEST = "def test_it(plc):\n    plc.run(5)\n    plc.raise_error('basic-io-error')\n    plc.within_scans(2, 'lamp')\n"
+
+
+def commands(name: str) -> list[str]:
+    content: dict[str, Any] = yaml.safe_load((ROOT / "ci" / name).read_text())
+    if name.startswith("gitlab"):
+        return list(content["plc"]["script"])
+    return [each["run"] for each in content["jobs"]["test"]["steps"] if each.get("name") in ("check", "test")]
+
+
+@pytest.mark.parametrize("name", ["gitlab-ci.yml", pytest.param("github-actions.yml", marks=pytest.mark.nightly)])
+def test_its_commands_do_what_it_says(name: str, tmp_path: Path) -> None:
+    copytree(Path(scanbench.__file__).parent / "samples" / "conveyor", tmp_path / "plc")
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_it.py").write_text(TEST)
+    assert len(commands(name)) == 2
+    for command in commands(name):
+        done = subprocess.run(
+            command,
+            shell=True,
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+            env={"PATH": f"{BIN}:/usr/bin:/bin"},
+        )
+        assert done.returncode == 0, f"{command}\n{done.stdout}{done.stderr}"
+    assert 'failures="0"' in (tmp_path / "report.xml").read_text()
