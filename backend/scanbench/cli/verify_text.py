@@ -55,6 +55,7 @@ def _coverage(coverage: Coverage) -> Iterator[str]:
         ("not compared, as they are given to the reference", coverage.inputs),
         ("not compared, columns that are mapped to nothing", coverage.ignored),
         ("not compared, as the file has no column of them", coverage.unrecorded),
+        ("remembered by the program, and not in the file: the first rows told", coverage.assumed),
         ("remembered by the program, and not in the file: they began as after a cold start", coverage.remembered),
     )
     for what, names in kinds:

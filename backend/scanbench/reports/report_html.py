@@ -123,7 +123,7 @@ class _Document:
         heads = ("output", "values", "values_differ", "values_allowed", "values_open", "values_missing", "values_off")
         kinds = (
             ("given", coverage.inputs), ("ignored", coverage.ignored), ("unrecorded", coverage.unrecorded),
-            ("remembered", coverage.remembered),
+            ("assumed", coverage.assumed), ("remembered", coverage.remembered),
         )  # fmt: skip
         told = [(word, f'<span class="mono">{escape(", ".join(names))}</span>') for word, names in kinds if names]
         return f"<h2>{self._word('coverage')}</h2>\n{self._page.table(heads, rows)}<dl>{self._page.pairs(told)}</dl>\n"

@@ -38,6 +38,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "values_missing": "Without a value to compare", "values_off": "Off by at most",
         "given": "Not compared, as they are given to the reference", "ignored": "Columns that are mapped to nothing",
         "unrecorded": "Written by the program, and not in the file",
+        "assumed": "Remembered by the program, and not in the file: the first rows told",
         "remembered": "Remembered by the program, and not in the file: they began as after a cold start",
     },
     "ja": {
@@ -70,6 +71,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "values_allowed": "許容差の範囲内", "values_open": "丸められた数値の範囲内", "values_missing": "比較する値なし", "values_off": "最大の差",
         "given": "基準実行に与えたため比較しないもの", "ignored": "何にも割り当てられていない列",
         "unrecorded": "プログラムが書き、ファイルにないもの",
+        "assumed": "プログラムが記憶し、ファイルにないもの（最初の行からわかった値）",
         "remembered": "プログラムが記憶し、ファイルにないもの（コールドスタート後の値から開始）",
     },
 }  # fmt: skip

@@ -210,7 +210,9 @@ class Coverage(Public):
     remembered: tuple[str, ...]
     """What the program remembers and the file has no column of: the monitor began with the values of a cold start."""
     more: int = 0
-    """Variables of the last two that are not named."""
+    """Variables of `unrecorded` and `remembered` that are not named."""
+    assumed: tuple[str, ...] = ()
+    """Remembered variables of which the first rows told what they were: `Main.belt.on = TRUE`."""
 
 
 @dataclass(frozen=True, slots=True)

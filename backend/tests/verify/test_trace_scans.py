@@ -306,3 +306,56 @@ def test_what_the_file_has_no_column_of_is_named() -> None:
     assert coverage is not None
     assert set(coverage.unrecorded) == {"Main.n", "Main.slow"}
     assert set(coverage.remembered) == {"Main.n", "Main.slow"}
+
+
+# ---- what the program remembers -------------------------------------------------------------------------------------
+
+LATCH = """
+TYPE Phase : (IDLE, FILL, DRAIN); END_TYPE
+PROGRAM Main
+VAR start, stop, motor, on : BOOL; count, shown, ramp : INT; phase : Phase; pump : BOOL; delay : TON; late : TIME; END_VAR
+  on := (start OR on) AND NOT stop;
+  motor := on;
+  IF on THEN count := count + 1; END_IF;
+  shown := count + 5;
+  IF phase = DRAIN AND stop THEN phase := IDLE; END_IF;
+  pump := phase = DRAIN;
+  delay(IN := TRUE, PT := T#10s);
+  late := delay.ET;
+END_PROGRAM
+"""
+
+
+def latched(rows: str) -> tuple[list[tuple[int, str]], tuple[str, ...], str]:
+    program = program_of(LATCH)
+    table = read_trace(("scan,start,stop,motor,shown,pump,late [ms]\n" + rows).encode(), "t.csv")
+    found = check(table, propose(table, program).mapping, program)
+    assert found.trace is not None, found.problems
+    verifier = Verifier(TraceSubject(program, found.trace))
+    begun = verifier.begin(parse_range(""))
+    rows_of_all = [row for scan in range(verifier.first, verifier.end) for row in verifier.verify(scan).rows]
+    coverage = verifier.coverage
+    assert coverage is not None
+    return differing(rows_of_all), coverage.assumed, begun.note
+
+
+def test_what_a_program_remembers_is_taken_from_the_second_row() -> None:
+    rows = "".join(f"{scan},0,0,1,{scan + 60},1,{700 + 10 * scan}\n" for scan in range(50, 70))
+    found, assumed, note = latched(rows)
+    assert found == []
+    assert {each.split(" = ")[0] for each in assumed} == {"Main.on", "Main.count", "Main.phase", "Main.delay.start"}
+    assert "Main.on = TRUE" in assumed
+    assert "Main.phase = DRAIN" in assumed
+    assert "its first rows tell" in note
+
+
+def test_a_fault_after_that_is_found_all_the_same() -> None:
+    rows = "".join(f"{scan},0,0,{int(scan != 60)},{scan + 60},1,{700 + 10 * scan}\n" for scan in range(50, 70))
+    assert latched(rows)[0] == [(60, "Main.motor")]
+
+
+def test_a_cold_start_assumes_nothing() -> None:
+    rows = "".join(f"{scan},0,0,1,0,0,{10 * scan}\n" for scan in range(5))
+    found, assumed, note = latched(rows)
+    assert [scan for scan, name in found if name == "Main.motor"] == [0, 1, 2, 3, 4]
+    assert (assumed, note) == ((), "")

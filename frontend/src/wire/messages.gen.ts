@@ -8695,6 +8695,11 @@ export interface components {
          */
         VerifyCoverage: {
             /**
+             * Assumed
+             * @description Remembered variables of which the first rows told what they were: `Main.belt.on = TRUE`.
+             */
+            assumed: string[];
+            /**
              * Ignored
              * @description Columns of the file that are mapped to nothing.
              */
@@ -8706,7 +8711,7 @@ export interface components {
             inputs: string[];
             /**
              * More
-             * @description Variables of the last two that are not named.
+             * @description Variables of `unrecorded` and `remembered` that are not named.
              */
             more: number;
             /** Outputs */

@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from scanbench.program.program import Program
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.sites import Sites
 from scanbench.symbols.symbols import Symbol
 from scanbench.verify.contract import Compared, Coverage
+from scanbench.verify.trace.assume import Assumed
 from scanbench.verify.trace.bind import Signal, Trace
 from scanbench.verify.trace.mapping import bits_of, written
 from scanbench.verify.trace.monitor import Ran
@@ -45,18 +46,31 @@ class Tally:
         self._counts = [_Count() for _ in trace.outputs]
         self._until = -1
         self._scans = 0
-        self._remembered: dict[str, None] | None = None
+        self._remembered: dict[str, Leaf] = {}
+        self._assumed: tuple[Assumed, ...] = ()
         self._mapped = {bit for each in (*trace.inputs, *trace.outputs) for bit in bits_of(each.symbol)}
 
-    def add(self, ran: Ran, shown: Sequence[Signal], read: Mapping[str, Leaf]) -> None:
-        """A scan that ran; one that was counted is not counted again. `shown`: outputs that the range has rows of. `read`: what it
-        read before it wrote it."""
+    def remember(self, read: Mapping[str, Leaf]) -> Mapping[str, Leaf]:
+        """Of what the program read in a scan before it wrote it: what it has from the scan before, and the trace does not."""
+        self._remembered = {name: leaf for name, leaf in read.items() if self._is_memory(name, leaf)}
+        return self._remembered
+
+    @property
+    def remembered(self) -> list[str]:
+        """Those of which the trace did not tell."""
+        known = {each.name for each in self._assumed}
+        return [each for each in self._remembered if each not in known]
+
+    def assume(self, assumed: tuple[Assumed, ...]) -> None:
+        """Of some of it the trace told."""
+        self._assumed = assumed
+
+    def add(self, ran: Ran, shown: Sequence[Signal]) -> None:
+        """A scan that ran; one that was counted is not counted again. `shown`: outputs that the range has rows of."""
         scan = ran.recorded.scan
         if scan <= self._until:
             return
         self._until = scan
-        if self._remembered is None and not self._trace.scans.cold:
-            self._remembered = {name: None for name, leaf in read.items() if self._is_memory(name, leaf)}
         if ran.recorded.row is None:
             return
         self._scans += 1
@@ -79,9 +93,9 @@ class Tally:
             )
             for each, count in zip(self._trace.outputs, self._counts, strict=True)
         )  # fmt: skip
-        unrecorded, remembered = list(alone), list(self._remembered or ())
-        found = Coverage(
+        unrecorded, remembered = list(alone), self.remembered
+        more = max(0, len(unrecorded) - MOST_NAMES) + max(0, len(remembered) - MOST_NAMES)
+        return Coverage(
             outputs, tuple(each.path for each in self._trace.inputs), self._trace.ignored, tuple(unrecorded[:MOST_NAMES]),
-            tuple(remembered[:MOST_NAMES]),
+            tuple(remembered[:MOST_NAMES]), more, tuple(map(str, self._assumed)),
         )  # fmt: skip
-        return replace(found, more=max(0, len(unrecorded) - MOST_NAMES) + max(0, len(remembered) - MOST_NAMES))

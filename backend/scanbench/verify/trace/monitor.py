@@ -89,6 +89,8 @@ class TraceMonitor:
         self._kept: dict[int, bytes] = {}
         self._every = EVERY
         self._open = Rounding(self.side, trace)
+        self._assumed: tuple[Patch, ...] = ()
+        """What is put into memory after the first scan."""
         self._late = Lateness(trace)
 
     @property
@@ -109,7 +111,7 @@ class TraceMonitor:
 
     def goto(self, scan: int) -> None:
         """To the seam before a scan of the trace."""
-        if scan < self.scan:
+        if scan < self.scan or (scan == self.first and self._kept):
             kept = max((each for each in self._kept if each <= scan), default=None)
             assert kept is not None, "the first scan is always kept"
             state, *others = self._open.parts(zlib.decompress(self._kept[kept]), len(self.side.state))
@@ -117,6 +119,12 @@ class TraceMonitor:
             self._open.take_up(others)
         while self.scan < scan:
             self.pass_scan()
+
+    def assume(self, patches: Sequence[Patch]) -> None:
+        """From now on these values are there after the first scan, beside those that are taken over."""
+        self._assumed = tuple(patches)
+        self._kept = {self.first: self._kept[self.first]}  # what comes after it is not the same any more
+        self.goto(self.first)
 
     def pass_scan(self) -> None:
         """Runs the scan that is next, and nobody looks."""
@@ -208,6 +216,9 @@ class TraceMonitor:
                 put(memory, [patch_of(each.signal, each.recorded)])
             elif each.recorded is not None and each.agrees == "open":
                 put(memory, [patch_of(each.signal, narrowed(each.signal, each.recorded, each.found))])
+        if ran.recorded.scan == self.first and self._assumed:
+            put(memory, self._assumed)
+            self._open.put(self._assumed)
         self._skip()
 
     def _skip(self) -> None:

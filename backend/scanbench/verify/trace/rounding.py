@@ -111,6 +111,13 @@ class Rounding:
         number = number_of(signal.type, value)
         return real_bytes(signal.type, number + (-sign if turned else sign) * SLACK * signal.exactness.half(number))
 
+    def put(self, patches: Sequence[Patch]) -> None:
+        """The same values in each of the runs."""
+        changed = [bytearray(each) for each in self.memories]
+        for each in changed:
+            put(each, patches)
+        self.memories = list(map(bytes, changed))
+
     def _scan(self, patches: Sequence[Patch]) -> bytes:
         side = self._side
         put(side.memory, patches)

@@ -1,16 +1,17 @@
 """Verification against a controller log: the same questions and answers as for a recorded run."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from scanbench.program.program import Program
 from scanbench.recording.reader import Unreadable
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names
-from scanbench.verify.contract import DEFAULT_LIMIT, Begun, Coverage, Range, Row, Use
+from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, Begun, Coverage, Range, Row, Use
 from scanbench.verify.edits import BadEdit, Edit
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
 from scanbench.verify.rows import Columns, Reader
+from scanbench.verify.trace.assume import Assumed, assume
 from scanbench.verify.trace.bind import Trace, check
 from scanbench.verify.trace.coverage import Tally
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping
@@ -50,6 +51,9 @@ class TraceSubject:
         self._limit = DEFAULT_LIMIT
         self._rows = TraceRows(self._reader, trace)
         self._tally = Tally(program, self._sites, trace)
+        self._assumed: tuple[Assumed, ...] | None = None
+        self._read: dict[str, Leaf] = {}
+        """What the second scan reads before it writes it."""
         self._last: tuple[Recorder, Ran] | None = None
         """The scan that was run last. The monitor is in the seam before this or a different scan."""
 
@@ -87,16 +91,40 @@ class TraceSubject:
         self._tally = Tally(self._program, self._sites, self._trace)
         self._rows.unrecorded.clear()
         self._last = None
-        notes = [self._range.note, self._note, self._beginning()]
+        notes = [self._range.note, self._note, *self._beginning()]
         return Begun(
             self._range.title, self._range.instances, self.first, self.end, self._program.interval_ns, 1,
             " ".join(each for each in notes if each),
         )  # fmt: skip
 
-    def _beginning(self) -> str:
+    def _beginning(self) -> Iterator[str]:
+        """What is to be said of where the trace begins. Afterwards the monitor has what it is to begin with."""
         if self._trace.scans.cold:
-            return ""
-        return f"The trace begins in the middle of a run: the values of scan {self.first} are taken over, and compared after it."
+            return
+        yield f"The trace begins in the middle of a run: the values of scan {self.first} are taken over, and compared after it."
+        second = self.first + 1
+        if second >= self.end or self._monitor.recorded(second).row is None:
+            return
+        if self._assumed is None:
+            self._monitor.goto(second)
+            recorder = Recorder(self._monitor.side.resource, self._reader.names, Resolved(""), MAX_LIMIT)
+            ran = self._monitor.run(recorder)
+            self._read = {
+                name: leaf for made in recorder.passes for name, leaf in leaves_read(self._reader, made).items()
+            }
+            self._monitor.back(ran)
+            self._assumed = assume(self._monitor, self._tally.remember(self._read).items())
+            self._monitor.assume([each.patch for each in self._assumed])
+        self._tally.remember(self._read)
+        self._tally.assume(self._assumed)
+        if self._assumed:
+            yield f"The log does not have what the program remembers, but its first rows tell: {', '.join(map(str, self._assumed))}."
+        left = len(self._tally.remembered)
+        if left:
+            yield (
+                f"{left} variables that the program remembers are not in the log: they begin as after a cold start, so "
+                "differences may come from that."
+            )
 
     def run(self, scan: int) -> tuple[Row, ...]:
         """See `Subject`."""
@@ -106,8 +134,7 @@ class TraceSubject:
             return (self._rows.skipped(scan),) if first else ()
         rows, recorder, ran = self._run(scan)
         self._last = recorder, ran
-        read = {name: leaf for made in recorder.passes for name, leaf in leaves_read(self._reader, made).items()}
-        self._tally.add(ran, self._rows.shown(recorder.passes, ran, self._range), read)
+        self._tally.add(ran, self._rows.shown(recorder.passes, ran, self._range))
         return rows
 
     def step(self, scan: int, count: int) -> Row:

@@ -29,6 +29,7 @@ export const verify = {
   "verify.coverage.about":
     "Of {name}, up to now: the number of values of each output, and what nothing can be said of.",
   "verify.coverage.allowed": "within the tolerance",
+  "verify.coverage.assumed": "Remembered by the program, not in the log: the first rows told",
   "verify.coverage.compared": "values compared",
   "verify.coverage.differing": "differ",
   "verify.coverage.ignored": "Columns that are not used",

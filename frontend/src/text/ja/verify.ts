@@ -29,6 +29,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.coverage": "比較した内容",
   "verify.coverage.about": "{name} の現時点まで: 各出力の値の数と、何も言えないもの。",
   "verify.coverage.allowed": "許容差内",
+  "verify.coverage.assumed": "プログラムが記憶し、ログにないもの（最初の行からわかった値）",
   "verify.coverage.compared": "比較した値",
   "verify.coverage.differing": "相違",
   "verify.coverage.ignored": "使わない列",

@@ -53,8 +53,9 @@ export function Coverage({ coverage, trace, onClose }: Props) {
         <dl>
           <Names word={t("verify.coverage.inputs")} names={coverage.inputs} />
           <Names word={t("verify.coverage.ignored")} names={coverage.ignored} />
-          <Names word={t("verify.coverage.unrecorded")} names={coverage.unrecorded} />
+          <Names word={t("verify.coverage.assumed")} names={coverage.assumed} />
           <Names word={t("verify.coverage.remembered")} names={coverage.remembered} />
+          <Names word={t("verify.coverage.unrecorded")} names={coverage.unrecorded} />
         </dl>
         {coverage.more > 0 && <p className="faint">{t("verify.coverage.more", { count: grouped(coverage.more) })}</p>}
       </div>

@@ -204,13 +204,22 @@ test("of a controller log it says what was compared, and what was not", async ()
     ignored: ["remark"],
     unrecorded: ["Main.belt.run"],
     remembered: [],
+    assumed: ["Main.station.run = TRUE"],
     more: 7,
   };
   const { user } = await openVerify({ ...INFO, source: "trace", trace: "press4.csv", coverage });
   await user.click(button(t("verify.coverage")));
   const dialog = await screen.findByRole("dialog", { name: t("verify.coverage") });
   const said = textOf(dialog);
-  for (const word of ["press4.csv", "Main.level", "0.0475", "Main.start", "remark", "Main.belt.run"])
+  for (const word of [
+    "press4.csv",
+    "Main.level",
+    "0.0475",
+    "Main.start",
+    "remark",
+    "Main.belt.run",
+    "Main.station.run = TRUE",
+  ])
     expect(said).toContain(word);
   expect(said).not.toContain(t("verify.coverage.remembered"));
   expect(said).toContain(t("verify.coverage.more", { count: "7" }));
