@@ -1,6 +1,6 @@
 """What a program remembers and a trace has no column of, where the trace tells all the same.
 
-A trace of a real controller begins in the middle of a run. A latch that it does not have is off in the monitor, and was on in the
+A controller log begins in the middle of a run. A latch that it does not have is off in the monitor, and was on in the
 controller: then its output differs in each scan, and nothing is wrong. So before the second scan each remembered BOOL and each
 remembered enumeration is given its other values, and each remembered number or time is raised and lowered by what some output is off;
 what makes fewer outputs differ from the trace is assumed, and told.
