@@ -30,7 +30,7 @@ NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.
 .PHONY: help setup setup-test run test check coverage bench bench-ui shots lock clean
 .PHONY: fuzz features nightly nightly-unit nightly-e2e
 .PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
-.PHONY: tools-python tools-node system-chromium system-fonts system-postgresql system-git
+.PHONY: tools-python tools-node system-chromium system-fonts system-postgresql system-git system-clients
 
 help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
@@ -50,7 +50,7 @@ help:
 # ------------------------------------------------------------------------------------------------ run and test
 setup: $(VENV)/.stamp-runtime frontend/dist/.stamp
 
-setup-test: setup $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp) system-chromium system-postgresql system-git
+setup-test: setup $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp) system-chromium system-postgresql system-git system-clients
 
 run: setup
 	@exec $(BIN)/scanbench serve $(ARGS)
@@ -202,6 +202,10 @@ system-postgresql:
 
 system-git:
 	@command -v git >/dev/null || { $(call apt_install,git,git); }
+
+# Clients of protocols that are not ours: the tests connect them to a virtual PLC.
+system-clients:
+	@command -v nmap >/dev/null && command -v mbpoll >/dev/null || { $(call apt_install,nmap and mbpoll,nmap mbpoll); }
 
 # ------------------------------------------------------------------------------------------------ upkeep
 COMPILE = ../.lock-venv/bin/pip-compile --quiet --upgrade --generate-hashes --strip-extras --allow-unsafe \

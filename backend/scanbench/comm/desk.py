@@ -1,10 +1,11 @@
 """Who is at a server of the communication unit, what was asked lately, and what was refused."""
 
+import asyncio
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from datetime import datetime
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from scanbench.comm.door import Door
 from scanbench.public import Moment, Public
@@ -54,6 +55,26 @@ class ClientSeen(Public):
     """Empty: nothing was."""
 
 
+class LineCut(ConnectionError):
+    """The connection ends, without an answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class LineFault(Public):
+    """What is wrong with the line between a server and its clients. The PLC itself does what it was asked."""
+
+    PUBLIC: ClassVar = "CommunicationFault"
+    GIVEN: ClassVar = True
+
+    kind: Literal["none", "silent", "late", "cut", "refused"] = "none"
+    """silent: no answer comes. late: each answer comes `late_ms` later. cut: connections end at the next request, before it is done.
+    refused: nobody can connect."""
+    late_ms: int = 1000
+
+
+NO_FAULT = LineFault()
+
+
 @dataclass(slots=True)
 class _Client:
     seen: ClientSeen
@@ -67,6 +88,7 @@ class Desk:
     make_door: Callable[[str], Door]
     on_clients: Callable[[], None]
     read_only: bool
+    fault: LineFault = NO_FAULT
     _clients: dict[str, _Client] = field(default_factory=dict)
     _frames: deque[FrameSeen] = field(default_factory=lambda: deque(maxlen=FRAMES_KEPT))
     _noted: int = 0
@@ -89,6 +111,17 @@ class Desk:
         while self._answered and self._answered[0] < begin:
             self._answered.popleft()
         return len(self._answered) * _SECOND_NS / _WINDOW_NS
+
+    def before_request(self) -> None:
+        """`LineCut` where the line is: then it is not done."""
+        if self.fault.kind == "cut":
+            raise LineCut
+
+    async def on_the_way(self, answer: bytes) -> bytes:
+        """What comes to the client of an answer, when it comes; empty: nothing."""
+        if self.fault.kind == "late":
+            await asyncio.sleep(self.fault.late_ms / 1000)
+        return b"" if self.fault.kind == "silent" else answer
 
     def arrive(self, name: str) -> bool:
         """A client is there; false where there is no room for one more."""

@@ -55,7 +55,7 @@ class TcpServer:
             answers = self._begin(name, self._desk.make_door(name))
             while data := await reader.read(_PIECE):
                 for each in answers(data):
-                    writer.write(await each)
+                    writer.write(await self._desk.on_the_way(await each))
                 await writer.drain()
         except (self._broken, OSError, EOFError, asyncio.CancelledError):
             pass

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 from ipaddress import ip_address
 from typing import Protocol
 
-from scanbench.comm.desk import Desk
+from scanbench.comm.desk import NO_FAULT, Desk, LineFault
 from scanbench.comm.fins.service import FinsServer
 from scanbench.comm.modbus.mapping import Mapped, default
 from scanbench.comm.modbus.service import modbus_server
@@ -23,6 +23,10 @@ from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
 _PORTS = 1 << 16
+_LATEST_MS = 60_000
+_FAULTS = {
+    "none": "nothing is wrong", "silent": "no answer comes", "late": "answers come late", "cut": "cut", "refused": "nobody can connect",
+}  # fmt: skip
 _NODES = range(1, 255)
 
 
@@ -62,6 +66,9 @@ class _Running:
     desk: Desk | None = None
     server: Server | None = None
     trouble: str = ""
+    fault: LineFault = NO_FAULT
+    port: int = 0
+    """The one that it had: it has it again when the line is whole."""
 
 
 @dataclass(slots=True)
@@ -122,6 +129,28 @@ class Communication:
         session.log.add(author, _told(kind, unit.servers[kind]), "system")
         return self.seen(session)
 
+    async def break_line(self, session: Session, kind: ServerKind, fault: LineFault, author: str) -> CommunicationSeen:
+        """Lets something be wrong with the line to the clients of a server, or nothing any more. It ends with the server. `Refused`."""
+        unit = self._units[session.id]
+        running = unit.servers.get(kind)
+        if running is None or not running.wanted.on:
+            raise Refused(f"{KINDS[kind].name} is not switched on: switch the server on first")
+        if not 0 <= fault.late_ms <= _LATEST_MS:
+            raise Refused(f"an answer can come up to {_LATEST_MS} ms late, not {fault.late_ms}")
+        async with unit.turning:
+            closed = running.fault.kind == "refused"
+            running.fault = fault
+            if fault.kind == "refused":
+                await _close(running)
+            elif closed:
+                await self._turn(unit, kind)
+            if running.desk is not None:
+                running.desk.fault = fault
+        session.log.add(
+            author, f"line of {KINDS[kind].name}: {_FAULTS[fault.kind]}", "error" if fault.kind != "none" else "recover"
+        )
+        return self.seen(session)
+
     def modbus_table(self, session: Session) -> tuple[Mapped, ...]:
         """Which memory each coil and register means."""
         return default(session.model)
@@ -142,14 +171,14 @@ class Communication:
         )
         server = KINDS[kind].make(desk, wanted)
         try:
-            await server.open(wanted.host, wanted.port)
+            await server.open(wanted.host, running.port or wanted.port)
         except OSError as error:
             why = error.strerror or str(error)
             running.trouble = (
                 f"{wanted.host}:{wanted.port} cannot be listened on: {why}. Choose a different port or address"
             )
             return
-        running.desk, running.server = desk, server
+        running.desk, running.server, running.port = desk, server, server.port
 
 
 def _told(kind: ServerKind, running: _Running) -> str:
@@ -208,7 +237,7 @@ def _address(running: _Running) -> str:
 def _seen(kind: ServerKind, running: _Running) -> ServerSeen:
     desk = running.desk
     if desk is None:
-        return ServerSeen(kind, running.wanted, False, "", running.trouble, 0.0, (), ())
+        return ServerSeen(kind, running.wanted, False, "", running.trouble, running.fault, 0.0, (), ())
     return ServerSeen(
-        kind, running.wanted, True, _address(running), "", desk.per_second, desk.clients, desk.frames
+        kind, running.wanted, True, _address(running), "", running.fault, desk.per_second, desk.clients, desk.frames
     )  # fmt: skip

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from scanbench.comm.desk import ClientSeen, FrameSeen
+from scanbench.comm.desk import ClientSeen, FrameSeen, LineFault
 from scanbench.public import Public
 
 ServerKind = Literal["fins", "slmp", "modbus"]
@@ -40,6 +40,8 @@ class ServerSeen(Public):
     """What to type into a client: `127.0.0.1:9600`; empty while it does not listen."""
     trouble: str
     """Why it does not listen although it is on."""
+    fault: LineFault
+    """What is wrong with the line, because somebody wanted it so."""
     per_second: float
     """Requests, lately."""
     clients: tuple[ClientSeen, ...]

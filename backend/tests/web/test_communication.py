@@ -3,6 +3,7 @@
 import os
 import signal
 import socket
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from fins.command import Command  # type: ignore[import-untyped]
 from pymcprotocol import Type3E  # type: ignore[import-untyped]
 from pymcprotocol.mcprotocolerror import MCProtocolError  # type: ignore[import-untyped]
 from pymodbus.client import ModbusTcpClient
+from pymodbus.exceptions import ConnectionException
 
 from scanbench.recording.blocks import read_contents
 from scanbench.recording.format import RunFile
@@ -189,6 +191,34 @@ def test_an_slmp_client_at_a_melsec(server: Server, code: str) -> None:
     client.close()
 
 
+def test_programs_that_everybody_has_find_the_plc(server: Server) -> None:
+    """nmap's `omron-info` and `modbus-discover`, and mbpoll."""
+    instance = server.instance("tools", MODEL, main=SOURCE)
+    port, other = switch_on(server, instance, "fins"), switch_on(server, instance, "modbus")
+    script = ["nmap", "-n", "-Pn", "-p", str(port), "--script", "+omron-info", "127.0.0.1"]
+    assert "Controller Model: CJ1M_CPU13" in said(*script)
+    if os.geteuid() == 0:  # scans of UDP need raw sockets
+        assert "Controller Version: 04.10" in said(*script[:3], "-sU", *script[3:])
+    discover = said("nmap", "-n", "-Pn", "-p", str(other), "--script", "+modbus-discover", "127.0.0.1")
+    assert f"Scanbench {MODEL}" in discover, discover
+    poll = ["mbpoll", "-m", "tcp", "-p", str(other), "-r", "101", "-1", "-q", "127.0.0.1"]
+    said(*poll, "42")
+    assert "[101]: \t42" in said(*poll, "-t", "4")
+    said("mbpoll", "-m", "tcp", "-p", str(other), "-r", "3205", "-1", "-q", "-t", "0", "127.0.0.1", "1")
+    assert client_reads(other, 3204)
+
+
+def said(*command: str) -> str:
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def client_reads(port: int, coil: int) -> bool:
+    with ModbusTcpClient("127.0.0.1", port=port, timeout=PATIENCE_S) as client:
+        return bool(client.read_coils(coil, count=1).bits[0])
+
+
 def test_who_may_only_read_changes_nothing(server: Server) -> None:
     instance = server.instance("read only", MODEL, main=SOURCE)
     client = fins(switch_on(server, instance, "fins", "read"))
@@ -255,6 +285,46 @@ def test_a_write_that_changes_nothing_is_not_kept_and_a_kill_loses_no_other(serv
     assert [each.author for each in writes] == ["FINS 127.0.0.1, node 1"] * 2
     replayed = scanbench("replay", str(run))
     assert replayed.returncode == 0, replayed.stderr
+
+
+def break_line(server: Server, instance: int, kind: str, fault: str, late_ms: int = 1000) -> None:
+    wanted = {"kind": fault, "late_ms": late_ms}
+    server.http.put(f"/api/instances/{instance}/communication/{kind}/fault", json=wanted).raise_for_status()
+
+
+def test_what_is_wrong_with_the_line_is_seen_by_clients(server: Server) -> None:
+    instance = server.instance("line", MODEL, main=SOURCE)
+    port = switch_on(server, instance, "fins")
+    client = fins(port)
+    assert words(client.memory_area_read("D100")) == [0]
+    break_line(server, instance, "fins", "silent")
+    client._socket.settimeout(0.2)
+    with pytest.raises(TimeoutError):
+        client.memory_area_write("D100", b"\x00\x07")
+    client._socket.settimeout(PATIENCE_S)
+    break_line(server, instance, "fins", "late", 1)
+    assert words(client.memory_area_read("D100")) == [7], "it was done, and nobody was told"
+    break_line(server, instance, "fins", "none")
+    assert words(client.memory_area_read("D100")) == [7]
+    client.close()
+
+    other = switch_on(server, instance, "modbus")
+    with ModbusTcpClient("127.0.0.1", port=other, timeout=PATIENCE_S, retries=0) as modbus:
+        assert modbus.read_holding_registers(100, count=1).registers == [7]
+        break_line(server, instance, "modbus", "cut")
+        with pytest.raises(ConnectionException):
+            modbus.write_register(100, 9)
+    break_line(server, instance, "modbus", "none")
+    with ModbusTcpClient("127.0.0.1", port=other, timeout=PATIENCE_S, retries=0) as modbus:
+        assert modbus.read_holding_registers(100, count=1).registers == [7], "it was not done"
+    break_line(server, instance, "modbus", "refused")
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.1", other), PATIENCE_S)
+    assert not seen(server, instance, "modbus")["listening"]
+    assert seen(server, instance, "modbus")["fault"] == {"kind": "refused", "late_ms": 1000}
+    break_line(server, instance, "modbus", "none")
+    with ModbusTcpClient("127.0.0.1", port=other) as modbus:
+        assert modbus.read_holding_registers(100, count=1).registers == [7]
 
 
 def test_servers_that_cannot_be_say_why(server: Server) -> None:

@@ -253,6 +253,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/communication/{kind}/fault": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Lets something be wrong with the line to the clients of a server, or nothing any more
+         * @description Lets something be wrong with the line to the clients of a server, or nothing any more.
+         */
+        put: operations["save_instance_communication_fault"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/communication/modbus/map": {
         parameters: {
             query?: never;
@@ -3467,6 +3487,25 @@ export interface components {
             since: string;
         };
         /**
+         * CommunicationFault
+         * @description What is wrong with the line between a server and its clients. The PLC itself does what it was asked.
+         */
+        CommunicationFault: {
+            /**
+             * Kind
+             * @description silent: no answer comes. late: each answer comes `late_ms` later. cut: connections end at the next request, before it is done.
+             *     refused: nobody can connect.
+             * @default none
+             * @enum {string}
+             */
+            kind: "none" | "silent" | "late" | "cut" | "refused";
+            /**
+             * Late Ms
+             * @default 1000
+             */
+            late_ms: number;
+        };
+        /**
          * CommunicationFrame
          * @description A request, and how it was answered.
          */
@@ -3510,6 +3549,8 @@ export interface components {
             address: string;
             /** Clients */
             clients: components["schemas"]["CommunicationClient"][];
+            /** @description What is wrong with the line, because somebody wanted it so. */
+            fault: components["schemas"]["CommunicationFault"];
             /**
              * Frames
              * @description The last ones, the oldest first.
@@ -9726,6 +9767,42 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["CommunicationServerSettings"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Communication"];
+                };
+            };
+        };
+    };
+    save_instance_communication_fault: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                kind: "fins" | "slmp" | "modbus";
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CommunicationFault"];
             };
         };
         responses: {

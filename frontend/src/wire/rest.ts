@@ -9,6 +9,7 @@ import type {
   Channel,
   CheckResult,
   Communication,
+  CommunicationFault,
   CommunicationServerSettings,
   FileInfo,
   FileText,
@@ -322,6 +323,8 @@ export const rest = {
   communication: (instance: number) => json<Communication>("GET", `/instances/${instance}/communication`),
   setCommunication: (instance: number, kind: ServerKind, wanted: CommunicationServerSettings) =>
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}`, wanted),
+  breakLine: (instance: number, kind: ServerKind, fault: CommunicationFault) =>
+    json<Communication>("PUT", `/instances/${instance}/communication/${kind}/fault`, fault),
   modbusMap: (instance: number) => json<ModbusRange[]>("GET", `/instances/${instance}/communication/modbus/map`),
   rack: (instance: number) => json<Channel[]>("GET", `/instances/${instance}/rack`),
   symbols: (instance: number, path: string) =>

@@ -27,6 +27,7 @@ export type ChangeInstance = Shapes["ChangeInstance"];
 export type Channel = Shapes["Channel"];
 export type ChannelUnit = Shapes["ChannelUnit"];
 export type Communication = Shapes["Communication"];
+export type CommunicationFault = Shapes["CommunicationFault"];
 export type CommunicationFrame = Shapes["CommunicationFrame"];
 export type CommunicationServer = Shapes["CommunicationServer"];
 export type CommunicationServerSettings = Shapes["CommunicationServerSettings"];

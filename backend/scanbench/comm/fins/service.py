@@ -5,7 +5,7 @@ import logging
 from contextlib import suppress
 from typing import cast
 
-from scanbench.comm.desk import Desk
+from scanbench.comm.desk import Desk, LineCut
 from scanbench.comm.door import Door
 from scanbench.comm.fins import tcp_frame as tcp
 from scanbench.comm.fins.commands import respond
@@ -30,10 +30,11 @@ class Answering:
         self.desk, self._error_bits = desk, error_bits
 
     async def answer(self, name: str, door: Door, request: Request, frame: bytes) -> bytes:
-        """The answer to a frame, which is noted; empty where none is wanted."""
+        """The answer to a frame, which is noted; empty where none is wanted, or none comes. `LineCut`."""
+        self.desk.before_request()
         answered, end = await respond(request, door, self.desk.read_only, self._error_bits)
         self.desk.note(name, described(request, door.model), outcome(end), frame, answered)
-        return answered if request.wants_answer else b""
+        return await self.desk.on_the_way(answered) if request.wants_answer else b""
 
 
 class Udp(asyncio.DatagramProtocol):
@@ -72,7 +73,10 @@ class Udp(asyncio.DatagramProtocol):
             while True:
                 async with asyncio.timeout(_IDLE_S):
                     request, frame, address = await queue.get()
-                answered = await self._answering.answer(name, door, request, frame)
+                try:
+                    answered = await self._answering.answer(name, door, request, frame)
+                except LineCut:  # a datagram is lost: there is no connection that could end
+                    continue
                 if answered and self._transport is not None:
                     self._transport.sendto(answered, address)
         except TimeoutError:

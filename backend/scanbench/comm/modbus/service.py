@@ -17,6 +17,7 @@ def modbus_server(desk: Desk) -> TcpServer:
         stream, target = Stream(), Target(door, default(door.model))
 
         async def answer(request: Request, frame: bytes) -> bytes:
+            desk.before_request()
             answered, code = await respond(request, target, desk.read_only)
             desk.note(name, described(request), outcome(code), frame, answered)
             return answered

@@ -16,6 +16,7 @@ def slmp_server(desk: Desk) -> TcpServer:
         stream = Stream()
 
         async def answer(request: Request, frame: bytes) -> bytes:
+            desk.before_request()
             answered, end = await respond(request, door, desk.read_only)
             desk.note(name, described(request, door), outcome(end), frame, answered)
             return answered

@@ -3,6 +3,7 @@
 from fastapi import APIRouter, Request
 from fastapi.responses import Response
 
+from scanbench.comm.desk import LineFault
 from scanbench.comm.modbus.mapping import Mapped, as_csv
 from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerWanted
 from scanbench.web.auth import user_of
@@ -24,6 +25,14 @@ async def on_set(
 ) -> CommunicationSeen:
     """Switches a server on or off, or gives it other settings. They are kept: it is on again when Scanbench starts again."""
     return await bench.communication.set(bench.session(instance), kind, wanted, user_of(request).name)
+
+
+@router.put("/{kind}/fault")
+async def on_break_line(
+    bench: Bench, request: Request, instance: Id, kind: ServerKind, fault: LineFault
+) -> CommunicationSeen:
+    """Lets something be wrong with the line to the clients of a server, or nothing any more."""
+    return await bench.communication.break_line(bench.session(instance), kind, fault, user_of(request).name)
 
 
 @router.get("/modbus/map")

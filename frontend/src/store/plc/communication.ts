@@ -3,7 +3,13 @@
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { rest } from "../../wire/rest";
-import type { Communication, CommunicationServerSettings, ModbusRange, ServerKind } from "../../wire/types";
+import type {
+  Communication,
+  CommunicationFault,
+  CommunicationServerSettings,
+  ModbusRange,
+  ServerKind,
+} from "../../wire/types";
 import { useBench } from "./bench";
 import { onInstanceChange } from "./reset";
 
@@ -28,6 +34,9 @@ export const loadCommunication = () => ask((instance) => rest.communication(inst
 
 export const setServer = (kind: ServerKind, wanted: CommunicationServerSettings) =>
   ask((instance) => rest.setCommunication(instance, kind, wanted));
+
+export const breakLine = (kind: ServerKind, fault: CommunicationFault) =>
+  ask((instance) => rest.breakLine(instance, kind, fault));
 
 /** Of two answers only that of the later question counts. */
 async function ask(question: (instance: number) => Promise<Communication>): Promise<void> {

@@ -6,6 +6,7 @@ import { Icon } from "../../../ui/Icon";
 import { Segments } from "../../../ui/Segments";
 import { Switch } from "../../../ui/Switch";
 import type { CommunicationServer, CommunicationServerSettings } from "../../../wire/types";
+import { Line } from "./Line";
 import { Clients, Frames } from "./Seen";
 
 /** One server: how it is set, and what happens there. */
@@ -31,6 +32,7 @@ export function Server({ server }: { server: CommunicationServer }) {
       )}
       {listening && <Address server={server} />}
       <Settings kind={kind} settings={settings} />
+      {settings.on && <Line kind={kind} fault={server.fault} />}
       {listening && (
         <>
           <Clients clients={server.clients} of={title} />

@@ -1,0 +1,37 @@
+import { breakLine } from "../../../store/plc/communication";
+import { t } from "../../../text";
+import { Segments } from "../../../ui/Segments";
+import type { CommunicationFault, CommunicationServer } from "../../../wire/types";
+
+const KINDS = ["none", "silent", "late", "cut", "refused"] as const;
+const LATE = [100, 1000, 5000] as const;
+
+/** What is wrong with the line to the clients: takes effect at once, and ends with the server. */
+export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault: CommunicationFault }) {
+  const now = fault.kind ?? "none";
+  return (
+    <span className="field">
+      <span>{t("communication.fault")}</span>
+      <span className="row">
+        <Segments
+          label={t("communication.fault")}
+          value={now}
+          options={KINDS.map((value) => ({
+            value,
+            word: t(`communication.fault.${value}`),
+            title: t(`communication.fault.${value}.about`),
+          }))}
+          onChoose={(value) => void breakLine(kind, { ...fault, kind: value })}
+        />
+        {now === "late" && (
+          <Segments
+            label={t("communication.late")}
+            value={`${fault.late_ms ?? 1000}`}
+            options={LATE.map((each) => ({ value: `${each}`, word: `${each} ms` }))}
+            onChoose={(value) => void breakLine(kind, { kind: "late", late_ms: Number(value) })}
+          />
+        )}
+      </span>
+    </span>
+  );
+}
