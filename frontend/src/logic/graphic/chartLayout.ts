@@ -79,32 +79,48 @@ interface Block {
   elements: readonly ChartDrawn[];
   lines: readonly Line[];
   arrows: readonly Arrow[];
+  /** Blocks in it, each moved by so much: nothing is copied until the whole is there. */
+  inner: readonly { block: Block; dx: number; dy: number }[];
 }
 
-const EMPTY: Block = { left: 0, right: 0, bottom: 0, ends: [], elements: [], lines: [], arrows: [] };
+const EMPTY: Block = { left: 0, right: 0, bottom: 0, ends: [], elements: [], lines: [], arrows: [], inner: [] };
 
-function moved(block: Block, dx: number, dy: number): Block {
-  const by = <T extends { x: number; y: number }>(each: T): T => ({ ...each, x: each.x + dx, y: each.y + dy });
-  return {
-    left: block.left + dx,
-    right: block.right + dx,
-    bottom: block.bottom + dy,
-    ends: block.ends.map(by),
-    elements: block.elements.map((each) => ({ ...by(each), axis: each.axis + dx })),
-    lines: block.lines.map((line) => ({ ...line, points: line.points.map(([x, y]) => [x + dx, y + dy] as const) })),
-    arrows: block.arrows.map(by),
-  };
-}
+const moved = (block: Block, dx: number, dy: number): Block => ({
+  ...EMPTY,
+  left: block.left + dx,
+  right: block.right + dx,
+  bottom: block.bottom + dy,
+  ends: block.ends.map((each) => ({ ...each, x: each.x + dx, y: each.y + dy })),
+  inner: [{ block, dx, dy }],
+});
 
 const together = (blocks: readonly Block[]): Block => ({
+  ...EMPTY,
   left: Math.min(0, ...blocks.map(({ left }) => left)),
   right: Math.max(0, ...blocks.map(({ right }) => right)),
   bottom: Math.max(0, ...blocks.map(({ bottom }) => bottom)),
   ends: blocks.flatMap(({ ends }) => ends),
-  elements: blocks.flatMap(({ elements }) => elements),
-  lines: blocks.flatMap(({ lines }) => lines),
-  arrows: blocks.flatMap(({ arrows }) => arrows),
+  inner: blocks.map((block) => ({ block, dx: 0, dy: 0 })),
 });
+
+/** All that is in a block, at its place. */
+function flattened(whole: Block): Pick<Block, "elements" | "lines" | "arrows"> {
+  const elements: ChartDrawn[] = [];
+  const lines: Line[] = [];
+  const arrows: Arrow[] = [];
+  const open = [{ block: whole, dx: 0, dy: 0 }];
+  for (let next = open.pop(); next; next = open.pop()) {
+    const { block, dx, dy } = next;
+    const by = <T extends { x: number; y: number }>(each: T): T => ({ ...each, x: each.x + dx, y: each.y + dy });
+    elements.push(...block.elements.map((each) => ({ ...by(each), axis: each.axis + dx })));
+    lines.push(
+      ...block.lines.map((line) => ({ ...line, points: line.points.map(([x, y]) => [x + dx, y + dy] as const) })),
+    );
+    arrows.push(...block.arrows.map(by));
+    open.push(...block.inner.map((each) => ({ block: each.block, dx: each.dx + dx, dy: each.dy + dy })));
+  }
+  return { elements, lines, arrows };
+}
 
 const line = (x: number, from: number, to: number): Line => ({
   points: [
@@ -125,13 +141,14 @@ const across = (from: number, to: number, y: number, double: boolean): Line => (
 export function layOutChart(chart: Chart): ChartDrawing {
   const whole = new Drawer(chart).draw();
   const block = moved(whole, MARGIN - whole.left, MARGIN / 2);
-  const elements = [...block.elements].sort((a, b) => a.element.span.at - b.element.span.at);
+  const { lines, arrows, ...all } = flattened(block);
+  const elements = all.elements.toSorted((a, b) => a.element.span.at - b.element.span.at);
   return {
     width: Math.ceil(block.right) + MARGIN,
     height: Math.ceil(block.bottom) + MARGIN,
     elements: elements.map((each, index) => ({ ...each, place: [index] })),
-    lines: block.lines,
-    arrows: block.arrows,
+    lines,
+    arrows,
   };
 }
 

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { next } from "./near";
 import { elementIn, inText } from "./places";
-import { actionOf, type DrawnRung, heightOf, Sheet } from "./sheet";
+import { actionOf, type DrawnRung, heightOf, Sheet, stepIn } from "./sheet";
 
 const rung = (body: string, head = "") => `RUNG${head}\n    ${body}\nEND_RUNG\n`;
 
@@ -75,6 +75,7 @@ test("a place in the text of a chart is that of its innermost element; statement
   expect([at(2, 3), at(3, 5), at(3, 9), at(6, 5), at(8, 3)]).toEqual(["step", "Count", "Count", "Count", "transition"]);
   expect(inText(chart, chart.drawing?.elements[1]?.element.span.at ?? 0)).toEqual({ line: 3, column: 5 });
   expect(at(9, 1)).toBeUndefined();
+  expect([stepIn(chart, "a"), stepIn(chart, "b")]).toEqual([[0], undefined]);
 });
 
 test("a rung of an action knows its chart", () => {

@@ -1,6 +1,6 @@
 /** The rungs, function block diagrams and charts of a text as they are drawn. What did not change is not laid out again. */
 
-import type { Chart } from "./chart";
+import { type Chart, keyOf } from "./chart";
 import { type ChartDrawing, layOutChart } from "./chartLayout";
 import { partsIn, readChart } from "./charts";
 import { type DiagramDrawing, layOutDiagram } from "./diagramLayout";
@@ -57,6 +57,15 @@ export function actionOf(parts: readonly DrawnPart[], { found }: DrawnPart): { n
     if (body) return { name: body.name, chart };
   }
   return null;
+}
+
+/** The place of a step of a chart. */
+export function stepIn(part: DrawnPart | undefined, name: string): Place | undefined {
+  if (part?.kind !== "chart") return undefined;
+  const found = part.drawing?.elements.find(
+    ({ element }) => element.kind === "step" && keyOf(element.name) === keyOf(name),
+  );
+  return found?.place;
 }
 
 const HEAD = 28;

@@ -198,6 +198,8 @@ function Lanes({ chart, shown, rows, onPoint }: LanesProps) {
   }, [samples, shown.signals, shown.every, chart.steps, chart.instance]);
   const last = samples?.scans.at(-1) ?? 0;
   const first = Math.max(samples?.scans[0] ?? 0, last + 1 - rows * shown.every);
+  // The end of a record is not now.
+  const live = isRecording(shown.trace);
   const time = (scans: number | null) => (scans === null ? "–" : spanText(scans * shown.interval));
   if (lanes.length === 0) return <p className="hint stwait">{t("steps.waiting")}</p>;
 
@@ -225,7 +227,7 @@ function Lanes({ chart, shown, rows, onPoint }: LanesProps) {
         <tbody onPointerLeave={() => onPoint("")}>
           {lanes.map((lane) => {
             const { times, last: latest, least, most } = lengthsOf(lane.stretches);
-            const active = lane.stretches.at(-1)?.to === last;
+            const active = live && lane.stretches.at(-1)?.to === last;
             return (
               <tr key={lane.name} className={active ? "on" : ""}>
                 <th scope="row">

@@ -33,7 +33,8 @@ export const ChartPicture = memo(function ChartPicture({ drawing, ...marked }: P
         />
       ))}
       {arrows.map(({ x, y, name, unknown }) => (
-        <g key={`${x} ${y}`} className={`jump${unknown ? " bad" : ""}`}>
+        <g key={`${x} ${y}`} className={`jump${unknown ? " bad" : ""}`} data-goal={unknown ? undefined : name}>
+          <rect className="hit" x={x - 8} y={y - 12} width={widthOf(name) + 26} height={18} />
           <path className="tip round" d={`M${x - 4.5} ${y - 6}h10l-5 7z`} />
           <text className="nm l" x={x + 12} y={y}>
             {name}

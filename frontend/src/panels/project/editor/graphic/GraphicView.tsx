@@ -3,7 +3,7 @@ import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef,
 import { baseName } from "../../../../logic/format/paths";
 import { type Drawn, layOut } from "../../../../logic/graphic/ladderLayout";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
-import { actionOf, type DrawnPart, heightOf, Sheet, spotsOf } from "../../../../logic/graphic/sheet";
+import { actionOf, type DrawnPart, heightOf, Sheet, spotsOf, stepIn } from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
@@ -109,6 +109,12 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   // biome-ignore lint/correctness/useExhaustiveDependencies: an edit moves the element in the text
   useEffect(look, [cursor, drawn]);
 
+  // A chart is higher than the window, and a rung may be wider: its element is scrolled to, not only its part.
+  useEffect(() => {
+    const key = `${id}${cursor.rung}-${cursor.place.join(".")}`;
+    document.getElementById(key)?.scrollIntoView({ block: "nearest", inline: "nearest" });
+  }, [cursor, id]);
+
   function toText(): void {
     showAs(path, "both");
     const { line, column } = placeInText(drawn[cursor.rung], cursor);
@@ -144,7 +150,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
       togglePart(path, clicked, placeInText(clicked, { rung: index, place: [0] }));
       return;
     }
-    setCursor({ rung: index, place: hit === undefined ? [] : hit.split(".").map(Number) });
+    const goal = on.closest<SVGElement>("[data-goal]")?.dataset.goal;
+    const step = goal === undefined ? undefined : stepIn(clicked, goal);
+    setCursor({ rung: index, place: step ?? (hit === undefined ? [] : hit.split(".").map(Number)) });
   }
 
   function field(drawing: { elements: readonly Drawn[] }, pou: string | undefined) {
