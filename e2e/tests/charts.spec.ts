@@ -74,7 +74,11 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
     await step('Heat').click();
     await page.keyboard.press('F9');
     await expect(sheet.getByRole('option', { name: 'Step Heat, next element, breakpoint' })).toBeVisible();
+    await step('Fill').click();
     await step('Heat').click();
+    await expect(step('Heat')).toHaveAttribute('aria-selected', 'true');
+    // Nothing changes while it is halted, and what is live stays when elements are selected.
+    await expect(active).toHaveCount(2);
     await page.keyboard.press('F9');
     await page.keyboard.press('F5');
     await expect(sheet.getByText('next element')).toHaveCount(0);
@@ -128,6 +132,7 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
     await page.keyboard.type(' )');
     await expect(sheet.getByText('cannot be drawn')).toBeVisible();
     await expect(step('Mix')).toBeVisible();
+    await expect(active).toHaveCount(0);
     await page.keyboard.press('Control+Z');
     await expect(sheet.getByText('cannot be drawn')).toHaveCount(0);
     await line.click();

@@ -121,6 +121,7 @@ function Input({
           d={`M${x - (from === "loop" ? 34 : STUB)} ${sharp(y)}H${end}`}
         />
       )}
+      {from === "text" && <Padlock x={x - STUB} y={y} />}
       {from !== "wire" && <Text text={pin.text} x={x - (from === "loop" ? 38 : STUB + 4)} y={y} side="r" />}
       {from === "nothing" && <title>{t("graphic.unconnected", { wire: pin.text })}</title>}
       {pin.negated && <circle className="ring round" cx={x - 3.5} cy={y + 0.5} r={3.5} />}
@@ -162,6 +163,7 @@ function Output({
               </text>
             </>
           )}
+          <Padlock x={x + 3} y={y} />
           <Text text={pin.target} x={x + STUB + 4 + marked} y={y} side="l" />
         </>
       ) : (
@@ -174,6 +176,15 @@ function Output({
     </g>
   );
 }
+
+/** There while the variable of a pin is forced. */
+const Padlock = ({ x, y }: { x: number; y: number }) => (
+  <path
+    className="pad round"
+    transform={`translate(${x},${y - 13})`}
+    d="M1.5 5.5h7v4.5h-7zM3 5.5V3.7a2 2 0 0 1 4 0v1.8"
+  />
+);
 
 /** A variable with its value, or a literal or an expression. */
 function Text({ text, x, y, side }: { text: string; x: number; y: number; side: "l" | "r" }) {

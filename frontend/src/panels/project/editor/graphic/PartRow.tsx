@@ -10,6 +10,7 @@ import { Icon } from "../../../../ui/Icon";
 import type { Pou } from "../../../../wire/types";
 import { ChartPicture } from "./ChartPicture";
 import { DiagramPicture } from "./DiagramPicture";
+import { clear } from "./follow";
 import { showRung } from "./live";
 import { showChart } from "./liveChart";
 import { showDiagram } from "./liveDiagram";
@@ -89,9 +90,14 @@ function Picture({
   useEffect(() => {
     const svg = picture.current?.querySelector("svg");
     if (!svg || pou === undefined || !live) return;
-    if (rung) return showRung(svg, rung, pou);
-    if (diagram) return showDiagram(svg, diagram, pou);
-    return chart ? showChart(svg, chart, pou) : undefined;
+    const stop =
+      (rung && showRung(svg, rung, pou)) ||
+      (diagram && showDiagram(svg, diagram, pou)) ||
+      (chart && showChart(svg, chart, pou));
+    return () => {
+      stop?.();
+      clear(svg);
+    };
   }, [rung, diagram, chart, pou, live, instance, members, forces]);
 
   const marked = { id, cursor: cursor?.join(".") ?? null, next: marks.next, points: marks.points };

@@ -33,7 +33,9 @@ export function SpotGroup({ place, name, kind = "", box, dot, children, ...marke
   return (
     <g
       id={`${marked.id}-${key}`}
-      className={`el ${kind}${selected ? " sel" : ""}${halted ? " next" : ""}`}
+      // Classes are what is live: to select an element must not take them away.
+      className={`el ${kind}`}
+      data-next={halted || undefined}
       role="option"
       aria-selected={selected}
       aria-label={[name, halted && t("graphic.next"), point && t("graphic.point")].filter(Boolean).join(", ")}

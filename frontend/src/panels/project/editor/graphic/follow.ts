@@ -19,6 +19,14 @@ export interface Values {
 
 const truthOf = (text: string | null) => (text === "TRUE" ? true : text === "FALSE" ? false : null);
 
+const LIVE = ["on", "unsure", "closes", "enabled", "known", "forced"];
+
+/** Takes out of a drawing what was live in it: a drawing that is not followed any more must not look as if it were. */
+export function clear(svg: SVGSVGElement): void {
+  for (const each of svg.querySelectorAll(LIVE.map((name) => `.${name}`).join())) each.classList.remove(...LIVE);
+  for (const each of svg.querySelectorAll("[data-live], [data-value], [data-wirevalue]")) each.textContent = "";
+}
+
 /** Calls `paint` now and with each change, at most once a frame, until the returned function is called. */
 export function follow(pou: Pou, variables: Iterable<string>, paint: (values: Values) => void): () => void {
   const paths = new Map<string, string>();

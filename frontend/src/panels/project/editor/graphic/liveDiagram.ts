@@ -28,7 +28,7 @@ export function showDiagram(svg: SVGSVGElement, { elements }: DiagramDrawing, po
       const variable = place.dataset.value ?? "";
       const value = text(variable);
       write(place, value === null ? "" : ` ${value}`);
-      place.parentElement?.classList.toggle("forced", forced(variable));
+      place.closest("g")?.classList.toggle("forced", forced(variable));
     }
     for (const place of labels) write(place, values.get(place.dataset.wirevalue ?? "") ?? "");
   });
