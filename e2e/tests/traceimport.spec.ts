@@ -11,6 +11,21 @@ function recorded({ head = 'scan,start,motor,partsTotal', wrong = true } = {}): 
   return `${head}\n${rows.join('\n')}\n`;
 }
 
+/** The same as TwinCAT Scope exports it: a block of properties, tabs, a decimal comma, uneven times. */
+function scope(): string {
+  const names = ['GVL.start', 'GVL.motor', 'MAIN.fbBelt.nPosition'];
+  const rows = Array.from({ length: SCANS }, (_, scan) => [`${10 * scan + (scan % 3)},5`, '0', '0', '0']);
+  const head = [
+    ['Name', 'Line'],
+    ['File', 'scope.csv'],
+    ['Name', 'start', 'motor', 'nPosition'],
+    ['Data-Type', 'BIT', 'BIT', 'INT16'],
+    ['SampleTime[ms]', '10', '10', '10'],
+    ['SymbolName', ...names],
+  ];
+  return [...head, ...rows].map((row) => row.join('\t')).join('\r\n');
+}
+
 test('a controller log is mapped, verified and kept', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const trace = new TraceImport(mika.page);
@@ -24,6 +39,19 @@ test('a controller log is mapped, verified and kept', { tag: '@nightly' }, async
     await expect(trace.dialog).toContainText('broken.csv could not be read. Nothing was imported.');
     await expect(trace.problem('row 3')).toBeVisible();
     await expect(trace.start).toBeDisabled();
+  });
+
+  await test.step('a file of TwinCAT Scope is recognised, its columns are mapped, an output gets a tolerance', async () => {
+    await trace.choose('scope.csv', scope());
+    await expect(trace.dialog).toContainText('TwinCAT Scope');
+    await expect(trace.variable('MAIN.fbBelt.nPosition')).toHaveValue('Main.belt.position');
+    await expect(trace.column('GVL.motor')).toContainText('Proposed 93 %');
+    await trace.dialog.getByRole('button', { name: 'Tolerance of GVL.motor' }).click();
+    const within = mika.page.getByRole('dialog', { name: 'Tolerance of GVL.motor' });
+    await within.getByRole('textbox', { name: 'Earlier or later, in milliseconds' }).fill('20');
+    await within.getByRole('button', { name: 'Set' }).click();
+    await expect(trace.column('GVL.motor')).toContainText('20 ms');
+    await expect(trace.verdict).toContainText(`Scans 1 to ${SCANS} can be verified.`);
   });
 
   await test.step('unknown columns, gaps and invalid cells are reported with row and column', async () => {
@@ -81,6 +109,14 @@ test('a controller log is mapped, verified and kept', { tag: '@nightly' }, async
     await expect(verify.row(WRONG)).toHaveAttribute('aria-selected', 'true');
     await expect(verify.facts).toContainText(`partsTotal, scan ${WRONG}`);
     await expect(verify.facts).toContainText('line.csv');
+  });
+
+  await test.step('it says what was compared, and what was not', async () => {
+    await verify.press('What was compared');
+    const said = mika.page.getByRole('dialog', { name: 'What was compared' });
+    await expect(said.getByRole('row', { name: /^partsTotal 20 1 / })).toBeVisible();
+    await expect(said).toContainText('Main.station.run');
+    await said.getByRole('button', { name: 'Close' }).last().click();
   });
 
   await test.step('the verification is kept; a colleague opens, exports and deletes it', async () => {

@@ -29,6 +29,8 @@ from scanbench.wire.refused import Refused
 KEPT_NS = 3600 * 1_000_000_000
 MOST = 20
 """Files at a time; the oldest go."""
+LAST = "Last import"
+"""Name of the mapping with which somebody verified last: what was put right once is proposed the next time."""
 SAMPLE = 20
 """Rows that are shown."""
 
@@ -135,10 +137,11 @@ class TraceFiles:
     def _proposal(self, table: Table, saved: list[MappingRow], sources: Sources | None) -> Proposal:
         """A saved mapping that fits; else by names, where columns that any of them knows are what they were."""
         learned: dict[str, str] = {}
-        for mapping in readable(saved, mapping_of):
+        for mapping in readable(sorted(saved, key=lambda each: each.name != LAST), mapping_of):
             if fits(mapping, table):
                 return Proposal(mapping, ())
-            learned |= {each.column: each.path for each in mapping.columns if each.path and each.role != "ignore"}
+            known = {each.column: each.path for each in mapping.columns if each.path and each.role != "ignore"}
+            learned = known | learned
         if sources is None:
             return Proposal(TraceMapping(), ())
         try:

@@ -259,6 +259,18 @@ def test_a_trace_of_a_real_controller(server: Server) -> None:
         f"/api/projects/{project}/traces", params={"name": "real2.csv"}, content="\n".join(lines)
     ).json()
     assert again["mapping"] == mapping  # the saved one fits
+    names = {each["name"] for each in server.http.get(f"/api/projects/{project}/trace-mappings").json()}
+    assert names == {"line 3", "Last import"}
+    columns = [{"column": "B7", "path": "Main.level", "role": "input"}]
+    server.http.post(f"/api/projects/{project}/trace-mappings", json={"name": "B", "mapping": {"columns": columns}})
+    other = server.http.post(
+        f"/api/projects/{project}/traces", params={"name": "b.csv"}, content="Scan,B7,PLC.doubled\n1,2,4\n"
+    ).json()
+    assert {each["column"]: each["path"] for each in other["mapping"]["columns"]} == {
+        "B7": "Main.level",  # as it was mapped before
+        "PLC.doubled": "Main.doubled",
+    }
+    assert {each["column"]: each["score"] for each in other["guesses"]}["PLC.doubled"] < 1
     broken = server.http.post(
         f"/api/projects/{project}/traces", params={"name": "bad.csv"}, content="Scan,Main.level\n1,2\n1,x\n2"
     ).json()

@@ -9,7 +9,7 @@ from fastapi.responses import Response
 
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.server.kept import readable
-from scanbench.server.uploads import Checked
+from scanbench.server.uploads import LAST, Checked
 from scanbench.server.verifications import Exported
 from scanbench.server.verify_rows import RowsPage
 from scanbench.verify.trace.read import MAX_BYTES
@@ -49,13 +49,13 @@ async def on_new_trace_verification(
     bench: Bench, request: Request, instance: Id, new: wire.NewTraceVerification
 ) -> wire.VerificationInfo:
     """Verifies a controller log with the program that runs."""
-    file = bench.trace_files.get(new.file)
-    return translate_verify.info(
-        await bench.verifications.begin_trace(
-            bench.session(instance), file, translate_verify.mapping(new.mapping), translate_verify.range_of(new.range),
-            new.limit, user_of(request).name,
-        )
-    )  # fmt: skip
+    file, session, author = bench.trace_files.get(new.file), bench.session(instance), user_of(request).name
+    mapping = translate_verify.mapping(new.mapping)
+    begun = await bench.verifications.begin_trace(
+        session, file, mapping, translate_verify.range_of(new.range), new.limit, author
+    )
+    await bench.trace_files.save_mapping(session.project_id, LAST, mapping, author)
+    return translate_verify.info(begun)
 
 
 @router.patch("/verifications/{verification}")

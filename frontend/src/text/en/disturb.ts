@@ -90,6 +90,7 @@ export const disturb = {
   "import.trace.load.forget": "Delete “{name}”",
   "import.trace.lost": "{columns} is not in this file.",
   "import.trace.lost.many": "Not in this file: {columns}.",
+  "import.trace.last": "Last import",
   "import.trace.leftout": "{count} columns are no variables",
   "import.trace.mapping": "Mapping",
   "import.trace.noinstance": "Select a virtual PLC at the top left first: the log is compared with its program.",

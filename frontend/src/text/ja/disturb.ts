@@ -92,6 +92,7 @@ export const disturb: Record<keyof typeof english, string> = {
   "import.trace.load.forget": "「{name}」を削除",
   "import.trace.lost": "{columns} はこのファイルにありません。",
   "import.trace.lost.many": "このファイルにありません: {columns}",
+  "import.trace.last": "前回のインポート",
   "import.trace.leftout": "変数ではない列: {count}",
   "import.trace.mapping": "対応付け",
   "import.trace.noinstance": "先に左上で仮想 PLC を選んでください。そのプログラムとログを比較します。",

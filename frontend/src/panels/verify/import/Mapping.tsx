@@ -1,4 +1,3 @@
-import { useState } from "react";
 import {
   byColumn,
   changeColumn,
@@ -18,16 +17,18 @@ import { PathField } from "../../../ui/PathField";
 import { useColumns } from "../../../ui/useColumns";
 import type { TraceColumnMap, TraceMapping, TraceProblem, UploadedTrace } from "../../../wire/types";
 import { placeOf } from "./Problems";
-import { Tolerance, toleranceText } from "./Tolerance";
+import { toleranceText } from "./Tolerance";
 
 interface Props {
   trace: UploadedTrace;
   mapping: TraceMapping;
   onSave: () => void;
+  /** The tolerance of a column is to be changed. */
+  onTolerance: (column: string) => void;
 }
 
 /** The columns: the first values of each, its role, and the variable that it belongs to. */
-export function Mapping({ trace, mapping, onSave }: Props) {
+export function Mapping({ trace, mapping, onSave, onTolerance }: Props) {
   const problems = useTraceImport((state) => state.checked?.problems);
   const { style, head } = useColumns(useWidths("mapping"));
   const wrong = byColumn(problems ?? []);
@@ -60,6 +61,7 @@ export function Mapping({ trace, mapping, onSave }: Props) {
             trace={trace}
             wrong={wrong.get(row.column)}
             onChange={(change) => editMapping(changeColumn(mapping, row.column, change))}
+            onTolerance={onTolerance}
           />
         ))}
       </div>
@@ -71,15 +73,18 @@ function savedItems(): MenuItem[] {
   const { saved } = useTraceImport.getState();
   if (saved.length === 0) return [{ label: t("import.trace.load.none"), disabled: true, onSelect: () => undefined }];
   return [
-    ...saved.map((each) => ({ label: each.name, hint: each.by, onSelect: () => loadMapping(each) })),
+    ...saved.map((each) => ({ label: shownName(each.name), hint: each.by, onSelect: () => loadMapping(each) })),
     ...saved.map((each, index) => ({
-      label: t("import.trace.load.forget", { name: each.name }),
+      label: t("import.trace.load.forget", { name: shownName(each.name) }),
       icon: "trash" as const,
       separated: index === 0,
       onSelect: () => void forgetMapping(each),
     })),
   ];
 }
+
+/** The server saves the mapping of the last verification under this name. */
+const shownName = (name: string) => (name === "Last import" ? t("import.trace.last") : name);
 
 interface AxisRowProps {
   trace: UploadedTrace;
@@ -107,9 +112,10 @@ interface ColumnRowProps {
   trace: UploadedTrace;
   wrong: readonly TraceProblem[] | undefined;
   onChange: (change: Partial<TraceColumnMap>) => void;
+  onTolerance: (column: string) => void;
 }
 
-function ColumnRow({ row, trace, wrong, onChange }: ColumnRowProps) {
+function ColumnRow({ row, trace, wrong, onChange, onTolerance }: ColumnRowProps) {
   const { column, path, role } = row;
   return (
     <div className={`gr${role === "ignore" ? " unused" : ""}`} role="row" data-column={column}>
@@ -138,23 +144,19 @@ function ColumnRow({ row, trace, wrong, onChange }: ColumnRowProps) {
           onChange={(next) => onChange({ path: next })}
         />
       </span>
-      <span role="cell">{role === "output" && <Within row={row} onChange={onChange} />}</span>
+      <span role="cell">{role === "output" && <Within row={row} onTolerance={onTolerance} />}</span>
       <span role="cell">{isProposed(row, trace.mapping) && <Proposed trace={trace} column={column} />}</span>
     </div>
   );
 }
 
 /** How much the output may differ; the button changes that. */
-function Within({ row, onChange }: Pick<ColumnRowProps, "row" | "onChange">) {
-  const [editing, setEditing] = useState(false);
+function Within({ row, onTolerance }: { row: TraceColumnMap; onTolerance: (column: string) => void }) {
   const label = t("import.trace.tolerance.of", { column: row.column });
   return (
-    <>
-      <button type="button" className="btn quiet sm" aria-label={label} onClick={() => setEditing(true)}>
-        {hasTolerance(row) ? toleranceText(row) : <span className="faint">{t("import.trace.tolerance.none")}</span>}
-      </button>
-      {editing && <Tolerance row={row} onChange={onChange} onClose={() => setEditing(false)} />}
-    </>
+    <button type="button" className="btn quiet sm" aria-label={label} onClick={() => onTolerance(row.column)}>
+      {hasTolerance(row) ? toleranceText(row) : <span className="faint">{t("import.trace.tolerance.none")}</span>}
+    </button>
   );
 }
 

@@ -1,7 +1,14 @@
 import { useState } from "react";
 import { grouped } from "../../../logic/format/numbers";
+import { changeColumn } from "../../../logic/verify/traceImport";
 import { useBench } from "../../../store/plc/bench";
-import { beginTrace, closeTraceImport, saveMapping, useTraceImport } from "../../../store/verify/traceImport";
+import {
+  beginTrace,
+  closeTraceImport,
+  editMapping,
+  saveMapping,
+  useTraceImport,
+} from "../../../store/verify/traceImport";
 import { t } from "../../../text";
 import { AskName } from "../../../ui/AskName";
 import { Dialog } from "../../../ui/Dialog";
@@ -10,6 +17,7 @@ import { Axis } from "./Axis";
 import { ChooseFile } from "./ChooseFile";
 import { Mapping } from "./Mapping";
 import { Problems } from "./Problems";
+import { Tolerance } from "./Tolerance";
 import "./traceimport.css";
 
 const WIDTH = 940;
@@ -24,6 +32,8 @@ function ImportDialog() {
   const { trace, mapping, refused, checked, busy, trouble } = useTraceImport();
   const instance = useBench((bench) => bench.instance);
   const [naming, setNaming] = useState(false);
+  const [column, setColumn] = useState<string | null>(null);
+  const row = mapping?.columns.find((each) => each.column === column);
   // Problems of reading the file, and of the mapping.
   const told = [...(trace?.problems ?? []), ...(checked?.problems ?? [])];
   return (
@@ -63,12 +73,20 @@ function ImportDialog() {
           {trace && mapping && (
             <>
               <Axis trace={trace} mapping={mapping} />
-              <Mapping trace={trace} mapping={mapping} onSave={() => setNaming(true)} />
+              <Mapping trace={trace} mapping={mapping} onSave={() => setNaming(true)} onTolerance={setColumn} />
               {told.length > 0 && <Problems problems={told} />}
             </>
           )}
         </div>
       </Dialog>
+      {/* beside the dialog: a form inside of its form would not be one */}
+      {mapping && row && (
+        <Tolerance
+          row={row}
+          onChange={(within) => editMapping(changeColumn(mapping, row.column, within))}
+          onClose={() => setColumn(null)}
+        />
+      )}
       {naming && <SaveMapping onClose={() => setNaming(false)} />}
     </>
   );
