@@ -132,6 +132,23 @@ describe("the drawing of a chart", () => {
       }
   });
 
+  it("has nothing over anything else, whatever follows what", () => {
+    for (let seed = 50; seed < 80; seed += 1) {
+      const next = randomOf(seed);
+      const names = Array.from({ length: 3 + next(9) }, (_value, index) => `S${index}`);
+      const some = () => [
+        ...new Set(Array.from({ length: next(4) === 0 ? 2 + next(2) : 1 }, () => names[next(names.length)])),
+      ];
+      const more = Array.from({ length: names.length + next(6) }, () => `${some().join(", ")} -> ${some().join(", ")}`);
+      const chart = chartOf(textOf([`${names.join(", ")} -> S0`, ...more].slice(next(2))));
+      const drawing = layOutChart(chart);
+      const wanted = chart.steps.length + chart.transitions.length + chart.steps.flatMap((each) => each.actions).length;
+      expect(new Set(drawing.elements.map(({ element }) => element)).size, `seed ${seed}`).toBe(wanted);
+      expect(drawing.elements.length, `seed ${seed}`).toBe(wanted);
+      check(drawing);
+    }
+  });
+
   it("draws a chart of 300 steps", () => {
     const lines = Array.from({ length: 300 }, (_, index) => `S${index} -> S${(index + 1) % 300}`);
     const drawing = layOutChart(chartOf(textOf(lines)));
@@ -146,4 +163,13 @@ function placesOf(text: string): Map<string, { x: number; y: number }> {
       element.kind === "step" ? [[element.name, { x: axis, y }] as const] : [],
     ),
   );
+}
+
+/** Numbers below a limit, the same ones for a seed at every time. */
+function randomOf(seed: number): (limit: number) => number {
+  let state = seed * 2_654_435_761;
+  return (limit) => {
+    state = (Math.imul(state, 1_664_525) + 1_013_904_223) >>> 0;
+    return Math.floor((state / 4_294_967_296) * limit);
+  };
 }

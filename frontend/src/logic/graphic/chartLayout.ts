@@ -164,10 +164,12 @@ class Drawer {
     const columns: Block[] = [];
     for (const step of inDrawingOrder(this.chart.steps))
       if (!this.placed.has(keyOf(step.name))) columns.push(this.finished(this.sequence(step)));
-    // Transitions whose steps nobody wrote: they are drawn, too.
+    // Transitions whose steps nobody wrote, or whose paths all became arrows: below an arrow with the names of the steps.
     for (const each of this.chart.transitions)
-      if (!each.from.some((name) => this.flow.steps.has(keyOf(name))) && !this.placed.has(meetingOf(each)))
-        columns.push(this.finished(this.transition(each, null)));
+      if (!this.placed.has(meetingOf(each))) {
+        const from = arrow(each.from.join(", "), false);
+        columns.push(this.finished(this.met(together([from, moved(this.transition(each, null), 0, from.bottom)]))));
+      }
     return sideBySide(columns);
   }
 

@@ -94,6 +94,19 @@ describe("the drawing of a function block diagram", () => {
 
   it("has nothing over anything else with 40 boxes", () => check(drawingOf(MANY)));
 
+  it("has nothing over anything else, whatever reads what", () => {
+    for (let seed = 1; seed <= 20; seed += 1) {
+      const next = randomOf(seed);
+      const lines = Array.from({ length: 4 + next(20) }, (_value, index) => {
+        const pin = () =>
+          index > 0 && next(3) > 0 ? `#w${next(index)}` : next(5) === 0 ? `#w${index + next(3)}` : `v${next(9)}`;
+        const pins = Array.from({ length: 1 + next(4) }, pin).join(", ");
+        return next(6) === 0 ? `x${index} := ${pin()}; #w${index} = g();` : `#w${index} = f(${pins}, Q => q${index});`;
+      });
+      check(drawingOf(lines));
+    }
+  });
+
   it("leads each wire from its pin to each that reads it", () => {
     const { elements, wires } = drawingOf(DIAGRAMS.far ?? []);
     const ends = wires.filter(({ wire }) => wire === "#A").flatMap(({ points }) => points.map(([x, y]) => `${x} ${y}`));
@@ -131,3 +144,12 @@ describe("the drawing of a function block diagram", () => {
     expect(drawingOf(MANY)).toEqual(drawingOf(MANY));
   });
 });
+
+/** Numbers below a limit, the same ones for a seed at every time. */
+function randomOf(seed: number): (limit: number) => number {
+  let state = seed * 2_654_435_761;
+  return (limit) => {
+    state = (Math.imul(state, 1_664_525) + 1_013_904_223) >>> 0;
+    return Math.floor((state / 4_294_967_296) * limit);
+  };
+}
