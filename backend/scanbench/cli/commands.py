@@ -16,6 +16,7 @@ from scanbench.cli.lsp import lsp
 from scanbench.cli.model import model
 from scanbench.cli.replay import replay
 from scanbench.cli.run import run
+from scanbench.cli.scenario import scenario
 from scanbench.cli.serve import serve
 from scanbench.cli.verify import verify
 from scanbench.cli.vscode import vscode
@@ -36,6 +37,7 @@ for command in (present, log, clear):
 app.add_typer(model, name="model")
 app.add_typer(errors, name="errors")
 app.add_typer(library, name="library")
+app.add_typer(scenario, name="scenario")
 app.add_typer(vscode, name="vscode")
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import typer
 
-from scanbench.cli.inputs import unusable_run, usage, with_near
+from scanbench.cli.inputs import unusable_run, usage
 from scanbench.client import Json, Plc, Refused, connect
 from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.faults.device import read_device
@@ -21,6 +21,7 @@ from scanbench.recording.programs import observed
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.reports.sweep_report import table
 from scanbench.runtime.inside import front
+from scanbench.testing.said import with_near
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
 

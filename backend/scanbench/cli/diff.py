@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
+from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable
 from scanbench.cli.interrupt import Leaving
 from scanbench.engines.available import flavours
 from scanbench.history.contract import Change, Divergence
@@ -18,6 +18,7 @@ from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.programs import on, programs_of
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.programs import NoProgram
+from scanbench.testing.said import with_near
 from scanbench.wire.codec import ENTRIES
 
 _SHOWN = 40

@@ -1,6 +1,6 @@
 """Programs from files and folders, models by name; every complaint says what to do and exits with 2."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
@@ -68,12 +68,6 @@ def tell_damage(path: Path, recording: Recording) -> bool:
     if recording.damage:
         typer.echo(f"scanbench: {path}: {'' if recording.lost else 'note: '}{recording.damage}", err=True)
     return recording.lost
-
-
-def with_near(message: str, near: Sequence[str]) -> str:
-    """A sentence with one full stop, followed by what was perhaps meant, unless it says so itself."""
-    ended = message if message.endswith((".", "?", "!")) else f"{message}."
-    return ended if not near or "id you mean" in message else f"{ended} Near: {', '.join(near)}."
 
 
 def read_sources(paths: list[Path], dialect: str | None = None, libraries: bool = True) -> Sources:

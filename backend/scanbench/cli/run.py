@@ -9,7 +9,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
-from scanbench.cli.inputs import DIALECT_HELP, Sources, below, find_model, problem_json, read_sources, usage, with_near
+from scanbench.cli.inputs import DIALECT_HELP, Sources, below, find_model, problem_json, read_sources, usage
 from scanbench.cli.interrupt import interruptible, leaving
 from scanbench.cli.progress import progress
 from scanbench.cli.record import check_whole, recorded
@@ -33,6 +33,7 @@ from scanbench.recording.headless import run_headless
 from scanbench.runtime.command import Command
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.resource import Resource
+from scanbench.testing.said import with_near
 
 
 class EngineChoice(StrEnum):

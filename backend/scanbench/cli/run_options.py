@@ -3,13 +3,14 @@
 from dataclasses import astuple, dataclass
 
 from scanbench.check.typed.condition import Condition, compile_condition
-from scanbench.cli.command_text import before_scan, read_command
-from scanbench.cli.inputs import usage, with_near
-from scanbench.cli.raising import BadCommand
+from scanbench.cli.inputs import usage
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.syntax.literals import duration
+from scanbench.testing.command_text import before_scan, read_command
+from scanbench.testing.raising import BadCommand
+from scanbench.testing.said import with_near
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from scanbench.cli.inputs import usage, with_near
+from scanbench.cli.inputs import usage
+from scanbench.testing.said import with_near
 
 HERE = Path("data")
 """The folder of a server that was started here before there was a place for data; it is kept where it is."""

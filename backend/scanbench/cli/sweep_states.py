@@ -7,9 +7,6 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
-from scanbench.cli.command_text import VERBS, read_command
-from scanbench.cli.inputs import with_near
-from scanbench.cli.raising import BadCommand
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
 from scanbench.faults.reaction.steps import Point
@@ -18,6 +15,9 @@ from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.runtime.command import Command
+from scanbench.testing.command_text import VERBS, read_command
+from scanbench.testing.raising import BadCommand
+from scanbench.testing.said import with_near
 
 _RUN_KEYS, _FILE_KEYS = ("name", "scans", "do"), ("name", "run", "scan")
 _DO = re.compile(r"\s*(\d+)\s*:\s*(.+)", re.DOTALL)

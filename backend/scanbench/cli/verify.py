@@ -9,8 +9,7 @@ import typer
 
 from scanbench import __version__
 from scanbench.cli import INTERRUPTED
-from scanbench.cli.command_text import AUTHOR
-from scanbench.cli.inputs import DAMAGED, usage, with_near
+from scanbench.cli.inputs import DAMAGED, usage
 from scanbench.cli.interrupt import Leaving
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
@@ -25,6 +24,8 @@ from scanbench.reports.report import Collected, Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.runtime.clock import wall_time
+from scanbench.testing.command_text import AUTHOR
+from scanbench.testing.said import with_near
 from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Begun, Range
 from scanbench.verify.ranges import parse_range
 

@@ -10,17 +10,7 @@ from typing import NoReturn
 import typer
 
 from scanbench.check.build import check_sources
-from scanbench.cli.inputs import (
-    below,
-    find_model,
-    read_sources,
-    tell_damage,
-    unreadable,
-    unusable,
-    unusable_run,
-    usage,
-    with_near,
-)
+from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, unreadable, unusable, unusable_run, usage
 from scanbench.cli.interrupt import leaving
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, read_commands, read_interval
@@ -38,6 +28,7 @@ from scanbench.recording.reader import RunReader, Unreadable, no_programs
 from scanbench.recording.recording import Recording
 from scanbench.reports.report import Source
 from scanbench.runtime.programs import NoProgram
+from scanbench.testing.said import with_near
 from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.trace.bind import check
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping

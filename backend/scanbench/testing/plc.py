@@ -11,6 +11,7 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.inject import ACTIVE, Generate, Recover, present_texts
 from scanbench.faults.reference import parse_reference
+from scanbench.program.program import Program
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Refusal, RestartKind
 from scanbench.runtime.forces import Force, Release
@@ -66,6 +67,11 @@ class Plc:
     # ---- looking --------------------------------------------------------------------------------------------------
 
     @property
+    def program(self) -> Program:
+        """The program that runs."""
+        return self._resource.program
+
+    @property
     def scan(self) -> int:
         """The scan that runs next; the first is 0."""
         return self._resource.header.scan
@@ -99,9 +105,13 @@ class Plc:
             raise PlcRefused(_said(error.message, tuple(error.near))) from None
 
     def _condition(self, text: str) -> Condition:
+        known = self._project.conditions.get(text)
+        if known is not None:
+            return known
         made = compile_condition(self._resource.program, text)
         if not isinstance(made, Condition):
             raise PlcRefused(f"`{text}`: {_said(made.message, made.near)}")
+        self._project.conditions[text] = made
         return made
 
     # ---- changing -------------------------------------------------------------------------------------------------
@@ -159,6 +169,10 @@ class Plc:
         """Runs so many scans; they pass without the program while it is stopped. `PlcFailure` when it traps."""
         self._run_until(None, scans)
 
+    def run_to(self, scan: int, condition: str) -> bool:
+        """Runs until the condition holds after a scan, or up to a scan: whether it holds."""
+        return self._run_until(self._condition(condition), scan - self.scan)
+
     def run_until(self, condition: str, most: int = 10_000) -> int:
         """Runs until a condition holds after a scan: how many scans that took. `PlcFailure` after so many."""
         return self.within_scans(most, condition)
@@ -168,7 +182,7 @@ class Plc:
         begin = self.scan
         if not self.holds(condition) and not self._run_until(self._condition(condition), most):
             raise PlcFailure(
-                f"`{condition}` did not hold within {most} scans, {begin} to {self.scan - 1}. {self._values(condition)}"
+                f"`{condition}` did not hold within {most} scans, {begin} to {self.scan - 1}. {_values(self._resource, condition)}"
             )
         return self.scan - begin
 
@@ -185,7 +199,7 @@ class Plc:
         if self._run_until(self._condition(wrong), scans):
             ran = self.scan - 1
             raise PlcFailure(
-                f"`{condition}` {what} after scan {ran}, the {ran - begin + 1}. of {scans}. {self._values(condition)}"
+                f"`{condition}` {what} after scan {ran}, the {ran - begin + 1}. of {scans}. {_values(self._resource, condition)}"
             )
 
     def _run_until(self, condition: Condition | None, scans: int) -> bool:
@@ -203,31 +217,35 @@ class Plc:
                     continue
                 stop = self._timeline.run(end - resource.header.scan)
                 self._timeline.note()
-                self._must_not_trap()
+                _must_not_trap(resource)
                 if condition is not None and stop.reason is Reason.CONDITION:
                     return True
         finally:
             resource.waiting.until = None
         return False
 
-    def _must_not_trap(self) -> None:
-        trap = self._resource.trap
-        if trap is not None:
-            raise PlcFailure(
-                f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind} in scan {trap.scan}: {trap.message}"
-            )
+    def told(self, what: str, condition: str) -> str:
+        """A sentence about a condition, and what its variables are worth now."""
+        return f"{what}. {_values(self._resource, condition)}".rstrip()
 
-    def _values(self, condition: str) -> str:
-        """What the names in it are worth now."""
-        told: dict[str, str] = {}
-        for name in dict.fromkeys(_NAMES.findall(condition)):
-            try:
-                symbol = resolve(self._resource.program, name)
-            except UnknownPath:
-                continue
-            told[symbol.path] = worth_text(self._resource.program, self._resource.memory, symbol)
-        shown = [f"{path} = {text}" for path, text in told.items()][:_SHOWN]
-        return f"Now {', '.join(shown)}" if shown else ""
+
+def _must_not_trap(resource: Resource) -> None:
+    trap = resource.trap
+    if trap is not None:
+        raise PlcFailure(f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind} in scan {trap.scan}: {trap.message}")
+
+
+def _values(resource: Resource, condition: str) -> str:
+    """What the names in it are worth now."""
+    told: dict[str, str] = {}
+    for name in dict.fromkeys(_NAMES.findall(condition)):
+        try:
+            symbol = resolve(resource.program, name)
+        except UnknownPath:
+            continue
+        told[symbol.path] = worth_text(resource.program, resource.memory, symbol)
+    shown = [f"{path} = {text}" for path, text in told.items()][:_SHOWN]
+    return f"Now {', '.join(shown)}" if shown else ""
 
 
 def _typed(value: Value) -> str:

@@ -41,8 +41,17 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "scanbench(project): the folder or file with the program that this test needs")
 
 
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """A scenario file is a test."""
+    if not file_path.name.endswith(".scenario.yaml"):
+        return None
+    from scanbench.testing.collected import ScenarioFile
+
+    return ScenarioFile.from_parent(parent, path=file_path)
+
+
 @cache
-def _read(path: Path, engine: str) -> "Project":
+def read_project(path: Path, engine: str) -> "Project":
     from scanbench.testing.project import BrokenProject, Project
 
     try:
@@ -64,7 +73,7 @@ def project(request: pytest.FixtureRequest) -> "Project":
         path = config.rootpath / config.getini("scanbench_project")
     else:
         path = request.path.parent
-    return _read(path.resolve(), config.getoption("--scanbench-engine"))
+    return read_project(path.resolve(), config.getoption("--scanbench-engine"))
 
 
 @pytest.fixture
@@ -83,7 +92,7 @@ def pytest_runtest_makereport(
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
     """Leaves the run of a test that failed, and says where it is."""
     report = yield
-    plc: Plc | None = getattr(item, "funcargs", {}).get("plc")
+    plc: Plc | None = getattr(item, "plc", None) or getattr(item, "funcargs", {}).get("plc")
     if call.when == "call" and report.failed and plc is not None and hasattr(plc, "run_file"):
         report.sections.append(("run of the PLC", _left(item, plc)))
     return report  # as pytest wants it of a wrapper

@@ -1,10 +1,11 @@
 """A project in a folder, compiled once for all tests."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from scanbench.check.build import check_sources
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
@@ -39,6 +40,8 @@ class Project:
     files: dict[str, str]
     """Texts by their names in the project."""
     loaded: Loaded
+    conditions: dict[str, Condition] = field(default_factory=dict)
+    """Those that were asked for, by their texts."""
 
     @staticmethod
     def read(path: Path, engine: str = "native") -> "Project":

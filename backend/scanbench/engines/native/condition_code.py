@@ -32,12 +32,12 @@ next{n}:
 
 def link_condition(program: Program, *conditions: Condition) -> jit.Code:
     """The code, in this process, as `condition`: whether one of these holds."""
-    return jit.link([_compiled(emit_condition(program, *conditions))], jit.Timings())
+    return _linked(emit_condition(program, *conditions))
 
 
 @lru_cache(KEPT)
-def _compiled(text: str) -> bytes:
-    return jit.compile_object(text, FAST, jit.Timings())
+def _linked(text: str) -> jit.Code:
+    return jit.link([jit.compile_object(text, FAST, jit.Timings())], jit.Timings())
 
 
 def emit_condition(program: Program, *conditions: Condition) -> str:

@@ -15,7 +15,6 @@ import re
 from dataclasses import replace
 
 from scanbench.check.typed.condition import BadCondition, compile_condition
-from scanbench.cli.inputs import with_near
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate
 from scanbench.faults.lines import find_line
@@ -23,6 +22,7 @@ from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Refusal
+from scanbench.testing.said import with_near
 
 _LINE = re.compile(r"(\S.*\.\w+):(\d+)")
 _WORDS = ("for", "every", "on", "times", "seed", "gap", "chance")

@@ -6,13 +6,13 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from scanbench.cli.command_text import before_scan
 from scanbench.cli.commands import app
-from scanbench.cli.raising import BadCommand, read_raise
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Start, Wanted
+from scanbench.testing.command_text import before_scan
+from scanbench.testing.raising import BadCommand, read_raise
 from tests.runtime.bench import program
 
 SOURCE = """PROGRAM Main

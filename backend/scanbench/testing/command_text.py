@@ -4,8 +4,6 @@ import re
 from collections.abc import Callable, Mapping
 from typing import get_args
 
-from scanbench.cli.inputs import with_near
-from scanbench.cli.raising import BadCommand, read_error, read_raise
 from scanbench.faults.inject import Recover
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, RestartKind
@@ -16,6 +14,8 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.symbols.symbols import UnknownPath, resolve
 from scanbench.symbols.values import parse_value
+from scanbench.testing.raising import BadCommand, read_error, read_raise
+from scanbench.testing.said import with_near
 
 AUTHOR = "command line"
 _AT = re.compile(r"(.*)@(\d+)\s*", re.DOTALL)

@@ -1,0 +1,71 @@
+"""A scenario of what people did in a recorded run."""
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from scanbench.faults.inject import Generate, Recover
+from scanbench.history.rerun_plan import comes_by_itself
+from scanbench.plcmodel.model import Model
+from scanbench.runtime.command import Command, Entry
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.set_clock import SetClock
+from scanbench.runtime.write import Write
+from scanbench.runtime.write_areas import AreaWrite, WriteAreas
+from scanbench.testing.scenario import Expectation, Scenario, Step
+
+
+def from_run(
+    entries: Iterable[Entry], scans: int, model: Model, expect: Sequence[tuple[str, str]] = (), project: str = "."
+) -> Scenario:
+    """The steps of a run of so many scans from its cold start; `expect`: what variables are worth at its end. Of what no step can say
+    there is a note."""
+    steps: list[Step] = []
+    notes: list[str] = []
+    for entry in entries:
+        if comes_by_itself(entry.command) or isinstance(entry.command, SetClock):
+            continue
+        told = list(_steps(entry.command, model))
+        if not told:
+            notes.append(f"left out before scan {entry.scan}: {entry.plan.message} ({entry.command.author})")
+        if entry.step:
+            notes.append(f"before scan {entry.scan}, it was inside of that scan: {entry.plan.message}")
+        steps += (Step(entry.scan, each) for each in told)
+    held = tuple(Expectation("holds", f"{path} = {value}", scans, scans) for path, value in expect)
+    return Scenario(scans, tuple(steps), held, project, tuple(notes))
+
+
+def _steps(command: Command, model: Model) -> Iterator[str]:
+    match command:
+        case Write(path=path, value=value):
+            yield f"write {path}={value}"
+        case Force(path=path, value=value):
+            yield f"force {path}={value}"
+        case Release(path=str(path)):
+            yield f"release {path}"
+        case Generate(errors=errors):
+            for each in errors:
+                yield f"raise {each}"
+        case Recover(ids=None):
+            yield "clear all"
+        case Recover(ids=tuple(ids), numbers=()):
+            for id in ids:
+                yield f"clear {id}"
+        case SetMode(mode=mode):
+            yield f"mode {mode}"
+        case Restart(kind=kind):
+            yield f"restart {kind}"
+        case WriteAreas(writes=writes):
+            for write in writes:
+                yield from _words(write, model)
+
+
+def _words(write: AreaWrite, model: Model) -> Iterator[str]:
+    """What a protocol client wrote, word by word."""
+    area = next(each for each in model.areas if each.name == write.area)
+    if write.bit is not None:
+        yield f"write {model.format(area, write.byte, write.bit, 1)}={'TRUE' if write.data[0] else 'FALSE'}"
+        return
+    for at in range(0, len(write.data) - 1, 2):
+        value = int.from_bytes(write.data[at : at + 2], "little")
+        yield f"write {model.format(area, write.byte + at, None, 16)}=16#{value:04X}"

@@ -1,0 +1,110 @@
+"""Plays a scenario on a PLC: its steps, and whether what it expects holds."""
+
+from dataclasses import dataclass
+
+from scanbench.testing.command_text import read_command
+from scanbench.testing.plc import Plc, PlcFailure, PlcRefused
+from scanbench.testing.raising import BadCommand
+from scanbench.testing.said import with_near
+from scanbench.testing.scenario import Expectation, Scenario, Step
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """The first thing that was not as it is to be."""
+
+    what: str
+    """`trap`, `refused: ...` or the expectation: the same failure of a shorter scenario has the same."""
+    scan: int
+    message: str
+
+
+def play(plc: Plc, scenario: Scenario) -> Failed | None:
+    """From the PLC's cold start. None: all of it was as expected."""
+    player = _Player(plc, scenario)
+    while True:
+        failed = player.seam()
+        if failed is not None or plc.scan >= scenario.scans:
+            return failed
+        failed = player.advance()
+        if failed is not None:
+            return failed
+
+
+class _Player:
+    def __init__(self, plc: Plc, scenario: Scenario) -> None:
+        self._plc, self._scenario = plc, scenario
+        self._steps = list(scenario.steps)
+        self._open = list(scenario.expect)
+
+    def seam(self) -> Failed | None:
+        """What is expected after the scan that ran last, then what comes before the next one."""
+        return self._look() or self._enter()
+
+    def advance(self) -> Failed | None:
+        """Runs until something could be different."""
+        now = self._plc.scan
+        bounds = (
+            [step.at for step in self._steps] + [each.last for each in self._open] + [each.first for each in self._open]
+        )
+        end = min([self._scenario.scans, *(each for each in bounds if each > now)])
+        looked = [_interesting(each) for each in self._open if each.first <= now]
+        try:
+            if looked:
+                self._plc.run_to(end, " OR ".join(looked))
+            else:
+                self._plc.run(end - now)
+        except PlcFailure as failure:
+            return Failed("trap", self._plc.scan, str(failure))
+        return None
+
+    def _look(self) -> Failed | None:
+        now = self._plc.scan
+        for each in [each for each in self._open if each.first <= now]:
+            try:
+                held = self._plc.holds(each.condition)
+            except PlcRefused as refused:
+                return Failed(f"refused: {each}", now, str(refused))
+            if each.kind == "holds" and held:
+                self._open.remove(each)
+            elif each.kind == "holds" and now >= each.last:
+                return Failed(
+                    str(each),
+                    now,
+                    self._plc.told(f"`{each.condition}` does not hold after {now} scans", each.condition),
+                )
+            elif each.kind != "holds" and now > each.first and held != (each.kind == "always"):
+                word = "holds" if held else "does not hold"
+                return Failed(
+                    str(each), now, self._plc.told(f"`{each.condition}` {word} after {now} scans", each.condition)
+                )
+            elif each.kind != "holds" and now >= each.last:
+                self._open.remove(each)
+        return None
+
+    def _enter(self) -> Failed | None:
+        while self._steps and self._steps[0].at <= self._plc.scan:
+            step = self._steps.pop(0)
+            why = _entered(self._plc, step)
+            if why:
+                return Failed(
+                    f"refused: {step.do}", self._plc.scan, f"`{step.do}` before scan {step.at} is refused: {why}"
+                )
+        return None
+
+
+def _interesting(each: Expectation) -> str:
+    """When the PLC has to be looked at."""
+    return f"(NOT ({each.condition}))" if each.kind == "always" else f"({each.condition})"
+
+
+def _entered(plc: Plc, step: Step) -> str:
+    """Why a step was not taken; empty: it was."""
+    verb, _, text = step.do.partition(" ")
+    try:
+        plc.submit(read_command(plc.program, verb, text))
+    except BadCommand as error:
+        return str(error)
+    except PlcRefused as error:
+        return with_near(str(error), ())
+    return ""

@@ -1,0 +1,169 @@
+"""Scenario files: read and written, played, recorded from a run, and made as short as they can be."""
+
+import random
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scanbench.testing.attempts import Attempts
+from scanbench.testing.play import Failed
+from scanbench.testing.project import Project
+from scanbench.testing.scenario import BadScenario, Expectation, Scenario, Step, read_scenario, write_scenario
+from scanbench.testing.shrink import shrink
+from tests.amounts import amount
+from tests.cli.calling import scanbench
+
+SOURCE = """
+VAR_GLOBAL a, b, c, d, start, motor : BOOL; level, n : INT; END_VAR
+PROGRAM Main
+VAR seen : INT; broken : BOOL; list : ARRAY[1..3] OF INT; END_VAR
+  n := n + 1;
+  motor := start;
+  // a comes before b, b before c; then d breaks it
+  IF a AND seen = 0 THEN seen := 1; END_IF;
+  IF b AND seen = 1 THEN seen := 2; END_IF;
+  IF c AND seen = 2 THEN seen := 3; END_IF;
+  IF d AND seen = 3 THEN broken := TRUE; END_IF;
+  IF level > 90 THEN list[level] := 0; END_IF;
+END_PROGRAM
+"""
+FILE = """# a comment
+scans: 40
+steps:
+- {at: 5, do: write start=TRUE}
+- {at: 20, do: raise battery-error}
+- {at: 25, do: clear all}
+expect:
+- {after: 6, holds: motor}
+- {from: 6, to: 40, always: motor}
+- {from: 0, to: 20, never: A402.04}
+- {from: 20, within: 3, holds: A402.04}
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("plant")
+    (folder / "main.st").write_text(SOURCE)
+    (folder / "project.json").write_text('{"model": "CJ1M-CPU63"}')
+    return folder
+
+
+@pytest.fixture(scope="module")
+def attempt(folder: Path) -> Iterator[Callable[[Scenario], Failed | None]]:
+    with Attempts(Project.read(folder)) as attempt:
+        yield attempt
+
+
+def test_a_file_comes_back_as_it_was() -> None:
+    scenario = read_scenario(FILE)
+    assert read_scenario(write_scenario(scenario)) == scenario
+    assert [each.at for each in scenario.steps] == [5, 20, 25]
+    assert str(scenario.expect[3]) == "from 20 within 3: holds A402.04"
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("scans: [", "it is no YAML"),
+        ("7", "has to be names with values"),
+        ("steps: []", "scans has to be a number"),
+        ("{scans: 5, stops: []}", "stops is unknown"),
+        ("{scans: 5, steps: [{at: 9, do: mode RUN}]}", "at has to be a number from 0 to 5"),
+        ("{scans: 5, steps: [{at: 1, do: jump}]}", "do has to begin with one of write"),
+        ("{scans: 5, expect: [{after: 1}]}", "has to be a condition"),
+        ("{scans: 5, expect: [{from: 4, to: 2, never: x}]}", "which is not from 4 to 5"),
+    ],
+)
+def test_what_is_no_scenario_says_why(text: str, why: str) -> None:
+    with pytest.raises(BadScenario, match=why):
+        read_scenario(text)
+
+
+@given(st.text(max_size=60))
+def test_any_text_is_a_scenario_or_none(text: str) -> None:
+    with suppress(BadScenario):
+        assert write_scenario(read_scenario(text))
+
+
+def test_what_is_expected_holds(attempt: Callable[[Scenario], Failed | None]) -> None:
+    assert attempt(read_scenario(FILE)) is None
+
+
+@pytest.mark.parametrize(
+    ("change", "what", "scan", "message"),
+    [
+        (("after: 6", "after: 5"), "after 5: holds motor", 5, "`motor` does not hold after 5 scans. Now motor = FALSE"),
+        (("from: 6, to: 40, always: motor", "from: 6, to: 40, always: n < 12"), "from 6 to 40: always n < 12", 12,
+         "`n < 12` does not hold after 12 scans. Now n = 12"),
+        (("from: 0, to: 20, never: A402.04", "from: 0, to: 30, never: A402.04"), "from 0 to 30: never A402.04", 21,
+         "`A402.04` holds after 21 scans. Now A402.04 = TRUE"),
+        (("from: 20, within: 3, holds: A402.04", "from: 26, within: 3, holds: A402.04"), "from 26 within 3: holds A402.04", 29,
+         "`A402.04` does not hold after 29 scans. Now A402.04 = FALSE"),
+        (("write start=TRUE", "write level=99"), "trap", 5, "main.st:12:27: trap bounds"),
+        (("write start=TRUE", "write A400=1"), "refused: write A400=1", 5, "read-only"),
+    ],
+)  # fmt: skip
+def test_what_is_not_so_is_told(
+    attempt: Callable[[Scenario], Failed | None], change: tuple[str, str], what: str, scan: int, message: str
+) -> None:
+    failed = attempt(read_scenario(FILE.replace(*change)))
+    assert failed is not None
+    assert (failed.what, failed.scan) == (what, scan)
+    assert message in failed.message
+
+
+def test_random_scenarios_shrink_to_what_was_planted(attempt: Callable[[Scenario], Failed | None]) -> None:
+    shortest = 0
+    rounds = amount(200, 8)
+    for seed in range(rounds):
+        scenario = planted(random.Random(seed))
+        failed = attempt(scenario)
+        assert failed is not None
+        short = shrink(scenario, failed, attempt)
+        again = attempt(short)
+        assert again is not None
+        assert again.what == failed.what
+        assert set(short.steps) <= set(scenario.steps)
+        shortest += len(short.steps) == 4
+    assert shortest >= 0.8 * rounds
+
+
+def planted(chance: random.Random) -> Scenario:
+    """Four writes that break it, among up to 40 that do not matter."""
+    at = sorted(chance.sample(range(100), 4))
+    needed = [Step(scan, f"write {name}=TRUE") for scan, name in zip(at, "abcd", strict=True)]
+    noise = [
+        Step(chance.randrange(100), chance.choice([
+            "write start=TRUE", "write start=FALSE", f"write level={chance.randrange(90)}", "raise battery-error", "clear all",
+            f"write n={chance.randrange(100)}", "mode MONITOR", "force motor=TRUE",
+        ]))
+        for _ in range(chance.randrange(40))
+    ]  # fmt: skip
+    steps = sorted((each for each in (*needed, *noise) if each.do != "raise battery-error"), key=lambda step: step.at)
+    return Scenario(120, tuple(steps), (Expectation("never", "Main.broken", 0, 120),))
+
+
+def test_a_scenario_is_recorded_from_a_run_played_and_shortened(folder: Path, tmp_path: Path) -> None:
+    run, file = tmp_path / "it.scanrun", folder / "it.scenario.yaml"
+    ran = scanbench(
+        "run", str(folder), "--scans", "50", "--set", "start=TRUE@5", "--set", "level=7@9", "--raise", "io-bus-error:rack=1,slot=3@30",
+        "--clear", "all@35", "--mode", "PROGRAM@40", "--record", str(run),
+    )  # fmt: skip
+    assert ran.returncode == 0, ran.stderr
+    recorded = scanbench("scenario", "record", str(run), "--expect", "motor", "--expect", "level")
+    assert recorded.returncode == 0, recorded.stderr
+    assert "- {at: 30, do: 'raise io-bus-error:" in recorded.stdout
+    assert "- {after: 50, holds: level = 7}" in recorded.stdout
+    file.write_text(recorded.stdout)
+    assert scanbench("scenario", "run", str(file)).stdout == f"{file}: as expected\n"
+    file.write_text(recorded.stdout.replace("level = 7", "level = 0"))
+    assert scanbench("scenario", "run", str(file)).returncode == 1
+    short = scanbench("scenario", "shrink", str(file))
+    assert short.returncode == 0, short.stderr
+    assert "# 1 of 5 steps are left" in short.stdout
+    assert [each.do for each in read_scenario(short.stdout).steps] == ["write level=7"]
