@@ -1,5 +1,6 @@
 """Files as the tools of vendors write them: read without editing, mapped by themselves, and judged rightly."""
 
+import random
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -15,6 +16,7 @@ from scanbench.verify.trace.read import read_trace
 from scanbench.verify.trace.subject import TraceSubject
 from scanbench.verify.trace.table import BadTraceFile, Table
 from scanbench.verify.verifier import Verifier
+from tests.amounts import amount
 from tests.verify.vendor_files import FILES, SCANS, SIGNALS, WRONG, Recorded, clean, faulty, lines, program
 
 NAMES = list(FILES)
@@ -181,3 +183,48 @@ def test_other_files_are_read_by_their_shape(text: str, columns: tuple[str, ...]
 def test_what_is_broken_is_refused_whole(name: str, text: str, words: str) -> None:
     with pytest.raises(BadTraceFile, match=words):
         read_trace(text.encode(), name)
+
+
+# ---- anything -------------------------------------------------------------------------------------------------------
+
+
+def spoiled(data: bytes, chance: random.Random) -> bytes:
+    """The same file with lines or cells gone, moved, emptied or of something else, or bytes changed."""
+    rows = data.split(b"\n")[:40]
+    for _ in range(chance.randrange(1, 4)):
+        at = chance.randrange(len(rows))
+        kind = chance.randrange(6)
+        if kind == 0:
+            del rows[at]
+        elif kind == 1:
+            rows.insert(at, chance.choice(rows))
+        elif kind == 2:
+            rows[at] = rows[at][: chance.randrange(len(rows[at]) + 1)]
+        elif kind == 3:
+            cells = rows[at].replace(b";", b",").replace(b"\t", b",").split(b",")
+            cells[chance.randrange(len(cells))] = chance.choice(
+                (b"", b"x", b"-1e999", b"99:99:99", b'"', b"1,5", b"Name")
+            )
+            rows[at] = chance.choice((b",", b";", b"\t")).join(cells)
+        elif kind == 4:
+            rows[at] = bytes(each ^ (chance.random() < 0.02) for each in rows[at])
+        else:
+            rows[at], rows[-1] = rows[-1], rows[at]
+        if not rows:
+            return b"\n"
+    return b"\n".join(rows)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_spoiled_file_is_read_or_refused(name: str) -> None:
+    data, chance = FILES[name](clean()), random.Random(name)
+    for _ in range(amount(150, 12)):
+        changed = spoiled(data, chance)
+        try:
+            table = read_trace(changed, name)
+        except BadTraceFile:
+            continue
+        assert table.rows
+        assert all(len(row) == len(table.columns) for row in table.rows)
+        assert len(set(table.columns)) == len(table.columns)
+        check(table, propose(table, program()).mapping, program())

@@ -125,8 +125,15 @@ def _timed(
     """Times count from the PLC's start; where the first one cannot, from the first row, which is scan 1 then: not the first
     cycle of a program. A controller does not take its samples evenly, and its clock is not ours: a time belongs to the scan
     that is nearest to it, going by the times before it."""
+    before = problems.count
     exact = [each * UNITS_NS[unit] / interval_ns for each in numbers]
     start = exact[0]
+    for each, shown, row in zip(exact, numbers, table.numbers, strict=True):
+        if abs(each - start) > MAX_SCAN or abs(each) > MAX_SCAN << 10:
+            message = f"{shown:.6g} is too far from the time of the first row."
+            problems.add(row, axis, message, cause="far")
+    if problems.count > before:
+        return [0] * len(numbers), False
     counts = (
         table.from_start
         and not _on_clock(table, axis, unit)

@@ -32,7 +32,10 @@ def read(sheet: Sheet) -> Table | None:
     kinds = padded(kinds, width)
     rows = [padded(cells, width) for cells in sheet.lines[data_at:]]
     keep = [at for at in range(width) if _plain(kinds[at]) in _KINDS and names[at]]
-    axis, unit, times = _axis(kinds, rows)
+    try:
+        axis, unit, times = _axis(kinds, rows)
+    except ValueError as error:
+        raise bad(f"The interval cannot be read: {error}.", None, "INTERVAL") from None
     columns = [axis, *unique(names[at] for at in keep)] if axis else unique(names[at] for at in keep)
     made = [
         (*([times[line]] if axis else []), *(_cell(row[at], kinds[at]) for at in keep)) for line, row in enumerate(rows)

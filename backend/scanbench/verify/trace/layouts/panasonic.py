@@ -37,7 +37,10 @@ def read(sheet: Sheet) -> Table | None:
         except ValueError as error:
             raise bad(f"The interval cannot be read: {error}.", at) from None
         times.append(passed)
-    step = _step(passed, seconds([f"{cells[0]} {cells[1]}" for cells, _ in rows])[-1])
+    try:
+        step = _step(passed, seconds([f"{cells[0]} {cells[1]}" for cells, _ in rows])[-1])
+    except ValueError as error:
+        raise bad(f"The time cannot be read: {error}.", None, head[1]) from None
     made = [
         (f"{time * step:f}", *padded(cells, width)[3:]) for time, (cells, _) in zip(times, rows, strict=True)
     ]  # fmt: skip

@@ -87,9 +87,16 @@ def _scaled(properties: dict[str, tuple[str, ...]], at: int) -> bool:
     plain = (("scalefactor", 1), ("offset", 0), ("unitscalefactor", 1), ("unitoffset", 0))
     for label, neutral in plain:
         cells = properties.get(label, ())
-        if at < len(cells) and cells[at] and number(cells[at], True) != neutral:
+        if at < len(cells) and cells[at] and not _is(cells[at], neutral):
             return True
     return False
+
+
+def _is(text: str, neutral: int) -> bool:
+    try:
+        return number(text, True) == neutral
+    except ValueError:
+        return False
 
 
 def _series(sheet: Sheet, channel: _Channel, body: list[int]) -> Series:
