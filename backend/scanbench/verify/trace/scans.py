@@ -128,8 +128,8 @@ def _timed(
     before = problems.count
     exact = [each * UNITS_NS[unit] / interval_ns for each in numbers]
     start = exact[0]
-    for each, shown, row in zip(exact, numbers, table.numbers, strict=True):
-        if abs(each - start) > MAX_SCAN or abs(each) > MAX_SCAN << 10:
+    for time, shown, row in zip(exact, numbers, table.numbers, strict=True):
+        if abs(time - start) > MAX_SCAN or abs(time) > MAX_SCAN << 10:
             message = f"{shown:.6g} is too far from the time of the first row."
             problems.add(row, axis, message, cause="far")
     if problems.count > before:
