@@ -8,6 +8,8 @@ import typer
 from scanbench.check.build import check_sources
 from scanbench.cli.inputs import find_model_named, unreadable, unusable_run, usage
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.history.scenario import BadScenario, Scenario, project_of, read_scenario, write_scenario
+from scanbench.history.scenario_steps import from_run
 from scanbench.host.run_files import sources_in
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
@@ -16,10 +18,8 @@ from scanbench.runtime.programs import Loaded, LoadedPrograms
 from scanbench.symbols.symbols import UnknownPath, resolve
 from scanbench.symbols.whole import worth_text
 from scanbench.testing.attempts import Attempts
-from scanbench.testing.from_run import from_run
 from scanbench.testing.project import BrokenProject, Project
 from scanbench.testing.said import with_near
-from scanbench.testing.scenario import BadScenario, Scenario, project_of, read_scenario, write_scenario
 from scanbench.testing.shrink import shrink
 from scanbench.wire.codec import ENTRIES
 

@@ -10,6 +10,8 @@ from scanbench.faults.schedule import Schedule
 from scanbench.history.changes import find_changes
 from scanbench.history.divergence import OnProgress, find_divergence
 from scanbench.history.rerun import rerun
+from scanbench.history.scenario import write_scenario
+from scanbench.history.scenario_of_run import scenario_of
 from scanbench.history.writer import find_writer
 from scanbench.host.run_files import ProgramOf, programs_by, texts_in
 from scanbench.recording.programs import on
@@ -22,15 +24,18 @@ from scanbench.wire.verification import (
     CompareRuns,
     FindChanges,
     FindWriter,
+    MakeScenario,
     RerunDone,
     RerunRun,
     RunsCompared,
+    ScenarioMade,
     WriterFound,
 )
 
 _OPEN = 3
 """Run files that stay open."""
-Request = FindWriter | FindChanges | CompareRuns | RerunRun
+Request = FindWriter | FindChanges | CompareRuns | RerunRun | MakeScenario
+Answer = WriterFound | ChangesFound | RunsCompared | RerunDone | ScenarioMade
 
 
 class HistoryJob:
@@ -43,13 +48,16 @@ class HistoryJob:
         self._programs_of = programs_by(program_of, on(code))
         self._open: dict[str, RunReader] = {}
 
-    def answer(self, ask: Request, on_progress: OnProgress) -> WriterFound | ChangesFound | RunsCompared | RerunDone:
+    def answer(self, ask: Request, on_progress: OnProgress) -> Answer:
         """The answer; raises what is wrong with it."""
         reader = self._reader(ask.run, ask.until)
         match ask:
             case FindWriter():
                 scan = reader.end if ask.scan == NOW else ask.scan
                 return WriterFound(ask.ref, find_writer(reader, ask.path, scan, self._prober))
+            case MakeScenario():
+                scan = reader.end if ask.scan == NOW else ask.scan
+                return ScenarioMade(ask.ref, write_scenario(scenario_of(reader, scan)))
             case FindChanges():
                 other = self._reader(ask.other, ask.other_until) if ask.other else None
                 return ChangesFound(ask.ref, find_changes(reader, ask.first, ask.last, other))

@@ -59,7 +59,7 @@ from scanbench.wire.jobs import (
 )
 from scanbench.wire.refused import Refused
 from scanbench.wire.traces import RecordRetrospective, RetrospectiveAt
-from scanbench.wire.verification import CompareRuns, FindChanges, FindWriter, PastAt, RerunRun
+from scanbench.wire.verification import CompareRuns, FindChanges, FindWriter, MakeScenario, PastAt, RerunRun
 
 log = logging.getLogger("scanbench")
 X = TypeVar("X")
@@ -119,7 +119,7 @@ class Job:
                 return record(
                     request, programs_by(self._program, on(self._flavours)), self._telling(RetrospectiveAt, request.ref)
                 )
-            case FindWriter() | FindChanges() | CompareRuns() | RerunRun():
+            case FindWriter() | FindChanges() | CompareRuns() | RerunRun() | MakeScenario():
                 if self._past is None:
                     self._past = history_job.HistoryJob(self._program, self._cache, self._flavours.observed)
                 return self._past.answer(request, self._telling(PastAt, request.ref))

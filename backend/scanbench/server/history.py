@@ -19,10 +19,12 @@ from scanbench.wire.verification import (
     CompareRuns,
     FindChanges,
     FindWriter,
+    MakeScenario,
     PastAt,
     RerunDone,
     RerunRun,
     RunsCompared,
+    ScenarioMade,
     WriterFound,
 )
 
@@ -104,6 +106,12 @@ class RunHistory:
             lambda ref: FindChanges(ref, run, first, last, live, second, live_other), ChangesFound
         )
         return found.changes
+
+    async def scenario(self, session: Session, scan: int | None) -> str:
+        """The scenario file of what people did before `scan`, or so far."""
+        live, run = _until(session), str(session.instance.run_file)
+        wanted = NOW if scan is None else scan
+        return (await self._questions.ask(lambda ref: MakeScenario(ref, run, wanted, live), ScenarioMade)).text
 
     # ---- two runs -------------------------------------------------------------------------------------------------
 

@@ -5,10 +5,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import TracebackType
 
+from scanbench.history.scenario import Scenario
 from scanbench.testing.play import Failed, play
 from scanbench.testing.plc import Plc
 from scanbench.testing.project import Project
-from scanbench.testing.scenario import Scenario
 
 
 class Attempts:

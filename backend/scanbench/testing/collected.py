@@ -6,10 +6,10 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
+from scanbench.history.scenario import ENDING, BadScenario, project_of, read_scenario
 from scanbench.testing.play import play
 from scanbench.testing.plc import Plc, PlcFailure
 from scanbench.testing.plugin import read_project
-from scanbench.testing.scenario import ENDING, BadScenario, project_of, read_scenario
 
 
 class ScenarioFile(pytest.File):

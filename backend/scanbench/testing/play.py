@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
+from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.testing.command_text import read_command
 from scanbench.testing.plc import Plc, PlcFailure, PlcRefused
 from scanbench.testing.raising import BadCommand
 from scanbench.testing.said import with_near
-from scanbench.testing.scenario import Expectation, Scenario, Step
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,8 @@ first, until none of those that are left can be left out alone.
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from scanbench.history.scenario import Scenario, Step
 from scanbench.testing.play import Failed
-from scanbench.testing.scenario import Scenario, Step
 
 Try = Callable[[Scenario], Failed | None]
 """Plays a scenario from a cold start."""

@@ -118,7 +118,7 @@ _CLASSES: dict[str, type] = {
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.ScansDone,
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
-        verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
+        verify_protocol.MakeScenario, verify_protocol.ScenarioMade, verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
         verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,

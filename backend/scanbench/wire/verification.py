@@ -210,6 +210,25 @@ class WriterFound:
 
 
 @dataclass(frozen=True, slots=True)
+class MakeScenario:
+    """The scenario of what people did before `scan`. Answered with `ScenarioMade`."""
+
+    ref: int
+    run: str
+    scan: int
+    """`NOW`: where the run ends."""
+    until: int
+
+
+@dataclass(frozen=True, slots=True)
+class ScenarioMade:
+    """The text of its file."""
+
+    ref: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class FindChanges:
     """The values that differ between the beginnings of scan `first` and of scan `last` of `run`; with `other`, a second run file:
     between `first` in `run` and `last` in `other`. Answered with `ChangesFound`."""

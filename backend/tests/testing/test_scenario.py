@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scanbench.history.scenario import BadScenario, Expectation, Scenario, Step, read_scenario, write_scenario
 from scanbench.testing.attempts import Attempts
 from scanbench.testing.play import Failed
 from scanbench.testing.project import Project
-from scanbench.testing.scenario import BadScenario, Expectation, Scenario, Step, read_scenario, write_scenario
 from scanbench.testing.shrink import shrink
 from tests.amounts import amount
 from tests.cli.calling import scanbench

@@ -1,5 +1,8 @@
 """Questions about the past through the whole house."""
 
+from pathlib import Path
+
+from tests.cli.calling import scanbench
 from tests.web.server import Message, Server
 from tests.web.test_verify import MODEL, paused, scans
 
@@ -96,3 +99,28 @@ def test_a_replay_with_another_error_is_compared(server: Server) -> None:
         refused = server.http.post(f"{path}/reruns", json={**wanted, "error": "no-such-error"})
         assert refused.status_code in (201, 422)
         assert server.http.post(f"{path}/comparisons", json={"other": instance}).status_code == 422
+
+
+def test_what_people_did_becomes_a_test(server: Server, tmp_path: Path) -> None:
+    source = (
+        "VAR_GLOBAL start AT CIO 0.00 : BOOL; motor AT CIO 100.00 : BOOL; END_VAR\n"
+        "PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1; motor := start;\nEND_PROGRAM\n"
+    )
+    instance = server.instance("scenario", "CJ1M-CPU63", main=source)
+    path = f"/api/instances/{instance}"
+    server.http.post(f"{path}/write", json={"path": "start", "value": "TRUE"}).raise_for_status()
+    server.http.post(f"{path}/errors/generate", json={"errors": [{"id": "battery-error"}]}).raise_for_status()
+    scan = server.http.post(f"{path}/run", json={"action": "pause"}).raise_for_status().json()["scan"] + 1
+    server.http.post(f"{path}/run", json={"action": "scan"}).raise_for_status()
+    text = server.http.get(f"{path}/scenario?scan={scan}").raise_for_status().text
+    assert "do: write start=TRUE}" in text
+    assert "do: raise battery-error}" in text
+    assert f"- {{after: {scan}, holds: motor = TRUE}}" in text
+    (tmp_path / "main.st").write_text(source)
+    (tmp_path / "project.json").write_text('{"model": "CJ1M-CPU63"}')
+    file = tmp_path / "it.scenario.yaml"
+    file.write_text(text)
+    said = scanbench("scenario", "run", str(file))
+    assert said.stdout == f"{file}: as expected\n", said.stderr
+    later = server.http.get(f"{path}/scenario?scan={scan + 1000}")
+    assert later.status_code == 422

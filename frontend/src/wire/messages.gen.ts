@@ -1087,6 +1087,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/scenario": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * A scenario file of what people and protocol clients did before `scan`, or so far: a test that expects the outputs to be the same again
+         * @description A scenario file of what people and protocol clients did before `scan`, or so far: a test that expects the outputs to be the same again.
+         */
+        get: operations["get_instance_scenario"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/states": {
         parameters: {
             query?: never;
@@ -11248,6 +11268,37 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["CommandResult"];
                 };
+            };
+        };
+    };
+    get_instance_scenario: {
+        parameters: {
+            query?: {
+                scan?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };

@@ -3,6 +3,7 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
+from fastapi.responses import Response
 
 from scanbench.history.contract import Changes, RerunChange, Writer
 from scanbench.web import messages_past as wire
@@ -27,6 +28,15 @@ async def on_changes(bench: Bench, instance: Id, first: Scan, last: Scan, other:
     """The variables that differ between the beginnings of scans `first` and `last`; with `other`, in that instance at `last`."""
     second = None if other is None else bench.session(other)
     return await bench.history.changes(bench.session(instance), first, last, second)
+
+
+@router.get("/instances/{instance}/scenario", response_class=Response)
+async def on_scenario(bench: Bench, instance: Id, scan: Scan | None = None) -> Response:
+    """A scenario file of what people and protocol clients did before `scan`, or so far: a test that expects the outputs to be the same again."""
+    session = bench.session(instance)
+    text = await bench.history.scenario(session, scan)
+    name = f'attachment; filename="{session.id}.scenario.yaml"'
+    return Response(text, media_type="application/yaml", headers={"content-disposition": name})
 
 
 @router.get("/instances/{instance}/comparisons")

@@ -1,9 +1,14 @@
 /** The run from its first scan to the live one, and going back in it. */
 
 import { create } from "zustand";
+import { messageOf } from "../../logic/format/messageOf";
 import { type Axis, including } from "../../logic/plc/timeline";
+import { t } from "../../text";
+import { blob } from "../../wire/rest";
 import { send } from "../../wire/send";
 import type { Mark, Timeline, TimelineInfo } from "../../wire/types";
+import { saveFile } from "../page/download";
+import { useBench } from "./bench";
 import { readClock } from "./clock";
 import { usePlc } from "./plc";
 import { onInstanceChange } from "./reset";
@@ -150,4 +155,17 @@ export function stepForward(): void {
 /** Shift+Esc, and the button of the banner. */
 export function returnToLive(): void {
   if (usePlc.getState().state?.past) void travel(null);
+}
+
+/** Saves the file of a scenario: what people did before a scan, as a test. */
+export async function saveScenario(scan: number): Promise<void> {
+  const { instance } = useBench.getState();
+  if (instance === null) return;
+  try {
+    const text = await blob(`/instances/${instance.id}/scenario?scan=${scan}`);
+    saveFile(text, `${instance.name}.scenario.yaml`);
+    set({ refused: null });
+  } catch (error) {
+    set({ refused: t("scenario.failed", { message: messageOf(error) }) });
+  }
 }

@@ -136,6 +136,8 @@ export const past = {
   "rerun.when": "When",
   "rerun.when.same": "in the same scan",
   "rerun.where": "before scan {scan}",
+  "scenario.failed": "No test could be made: {message}",
+  "scenario.make": "Make a test of the run before scan {scan}",
   "stretch.changes": "What changed in scans {first} to {last}",
   "stretch.clear": "Clear the selection",
   "stretch.hint": "Shift with drag or arrow keys selects scans",

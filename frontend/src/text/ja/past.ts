@@ -136,6 +136,8 @@ export const past: Record<keyof typeof english, string> = {
   "rerun.when": "時点",
   "rerun.when.same": "同じスキャン",
   "rerun.where": "スキャン {scan} の前",
+  "scenario.failed": "テストを作成できません：{message}",
+  "scenario.make": "スキャン {scan} までの操作からテストを作成",
   "stretch.changes": "スキャン {first} から {last} の変化",
   "stretch.clear": "選択を解除",
   "stretch.hint": "Shift+ドラッグまたは Shift+矢印で区間を選択",

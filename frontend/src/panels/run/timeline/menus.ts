@@ -6,7 +6,7 @@ import { catalogueNow } from "../../../store/errors/catalogue";
 import { showChanges } from "../../../store/past/changes";
 import { showRerun } from "../../../store/past/reruns";
 import { scanLink } from "../../../store/plc/links";
-import { selectStretch, setView, travel } from "../../../store/plc/timeline";
+import { saveScenario, selectStretch, setView, travel } from "../../../store/plc/timeline";
 import { verifyStretch } from "../../../store/verify/verify";
 import { t } from "../../../text";
 import { copyText } from "../../../ui/clipboard";
@@ -51,6 +51,11 @@ export function pointMenu({ scan, marks, position }: Point): MenuItem[] {
       label: t("link.copy.scan", { scan: grouped(scan) }),
       icon: "link",
       onSelect: () => void copyText(scanLink(scan)),
+    },
+    {
+      label: t("scenario.make", { scan: grouped(scan) }),
+      icon: "export",
+      onSelect: () => void saveScenario(scan),
     },
     ...errorsOf(marks).flatMap((error, index, all) => replayItems(error, all.length > 1, index)),
   ];

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from scanbench.faults.inject import Generate, Recover
 from scanbench.history.rerun_plan import comes_by_itself
+from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force, Release
@@ -12,7 +13,6 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from scanbench.runtime.write_areas import AreaWrite, WriteAreas
-from scanbench.testing.scenario import Expectation, Scenario, Step
 
 
 def from_run(

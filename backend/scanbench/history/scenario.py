@@ -21,9 +21,9 @@ from typing import Literal
 
 import yaml
 
-from scanbench.testing.command_text import VERBS
-
 ENDING = ".scenario.yaml"
+VERBS = ("write", "force", "release", "raise", "clear", "mode", "restart")
+"""What `do` begins with."""
 _KINDS: tuple[Literal["holds"], Literal["always"], Literal["never"]] = ("holds", "always", "never")
 _MOST_SCANS = 10_000_000
 _LARGEST = 1 << 20

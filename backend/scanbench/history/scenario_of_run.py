@@ -1,0 +1,36 @@
+"""The scenario of a recorded run up to a scan: what people did, and what the outputs are there."""
+
+from scanbench.history.scenario import Scenario
+from scanbench.history.scenario_steps import from_run
+from scanbench.program.program import Program
+from scanbench.program.types import Elementary
+from scanbench.recording.reader import RunReader, Unreadable
+from scanbench.symbols.rack import INPUT, OUTPUT, terminals
+from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.whole import worth_text
+
+_EXPECTED = 50
+"""Outputs that are looked at."""
+
+
+def scenario_of(reader: RunReader, scan: int) -> Scenario:
+    """What people did up to a scan, and what the outputs are there. `Unreadable`."""
+    if reader.first:
+        raise Unreadable(f"the run begins with scan {reader.first}, and a scenario with a cold start: begin a new run")
+    if scan > reader.end:
+        raise Unreadable(f"scan {scan} has not come yet: the run ends at scan {reader.end}")
+    plc = reader.at(scan)
+    expect = [(each.path, worth_text(plc.program, plc.memory, each)) for each in _outputs(plc.program)[:_EXPECTED]]
+    return from_run([each for each in reader.entries if each.scan < scan], scan, plc.program.layout.model, expect)
+
+
+def _outputs(program: Program) -> list[Symbol]:
+    """The variables that the program has in its words of outputs."""
+    found: list[Symbol] = []
+    output = False
+    for each in terminals(program):
+        if each.section in (INPUT, OUTPUT):
+            output = each.section == OUTPUT
+        elif output and each.address != each.path and isinstance(each.type, Elementary):
+            found.append(each)
+    return found
