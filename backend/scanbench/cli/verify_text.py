@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.sweep_report import count
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.contract import ENDED, Column, Coverage, Mismatch, Row
+from scanbench.verify.contract import ENDED, Column, Mismatch, Row, VerifyCoverage
 
 STRETCHES = 5
 """Of scans that were not compared that are named."""
@@ -40,7 +40,7 @@ def verify_text(report: Report) -> Iterator[str]:
     yield _summary(head)
 
 
-def _coverage(coverage: Coverage) -> Iterator[str]:
+def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
     """What of a trace was compared, and what was not."""
     yield "compared, values of each output:"
     for each in coverage.outputs:

@@ -4,7 +4,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import Literal
 
-from scanbench.verify.contract import DEFAULT_LIMIT, Column, Coverage, Mismatch, Row, ScanVerified
+from scanbench.verify.contract import DEFAULT_LIMIT, Column, Mismatch, Row, ScanVerified, VerifyCoverage
 
 Source = Literal["live", "past", "trace"]
 CONTEXT = 2
@@ -47,7 +47,7 @@ class ReportHead:
     limit: int = DEFAULT_LIMIT
     stretches: tuple[tuple[int, int], ...] = ()
     """The skipped scans, both ends included; perhaps only the last of them."""
-    coverage: Coverage | None = None
+    coverage: VerifyCoverage | None = None
     """Of a trace: what was compared, and what was not."""
     note: str = ""
     """What else a reader should know: how the trace was mapped, why it ended early."""

@@ -4,7 +4,7 @@ import json
 
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.contract import Column, Coverage, Mismatch, Place, Row
+from scanbench.verify.contract import Column, Mismatch, Place, Row, VerifyCoverage
 
 FORMAT = 1
 """Raised when the meaning of a key changes; new keys may come at any time."""
@@ -42,7 +42,7 @@ def _head(head: ReportHead) -> dict[str, Json]:
     }  # fmt: skip
 
 
-def _coverage(coverage: Coverage | None) -> Json:
+def _coverage(coverage: VerifyCoverage | None) -> Json:
     if coverage is None:
         return None
     return {

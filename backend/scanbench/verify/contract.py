@@ -195,10 +195,8 @@ class Compared(Public):
 
 
 @dataclass(frozen=True, slots=True)
-class Coverage(Public):
+class VerifyCoverage(Public):
     """What of a trace was compared so far, and what was not."""
-
-    PUBLIC: ClassVar = "VerifyCoverage"
 
     outputs: tuple[Compared, ...]
     inputs: tuple[str, ...]

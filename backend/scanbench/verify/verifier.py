@@ -11,11 +11,11 @@ from scanbench.verify.contract import (
     BadRange,
     Begun,
     Column,
-    Coverage,
     Range,
     Row,
     ScanVerified,
     Use,
+    VerifyCoverage,
 )
 from scanbench.verify.edits import BadEdit, Edit, Edits
 from scanbench.verify.rows import Columns
@@ -61,7 +61,7 @@ class Subject(Protocol):
         """What a pass reads from outside of it, by column. `BadEdit` when there is no such pass."""
 
     @property
-    def coverage(self) -> Coverage | None:
+    def coverage(self) -> VerifyCoverage | None:
         """What of a trace was compared so far; None: everything of a scan is."""
 
     def edited(self, row: Row, edits: Mapping[str, Edit]) -> Row:
@@ -103,7 +103,7 @@ class Verifier:
         return self._subject.columns.all
 
     @property
-    def coverage(self) -> Coverage | None:
+    def coverage(self) -> VerifyCoverage | None:
         """What of a trace was compared so far; None: everything of a scan is."""
         return self._subject.coverage
 

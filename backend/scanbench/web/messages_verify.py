@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
-from scanbench.verify.contract import Coverage, Mismatch
+from scanbench.verify.contract import Mismatch, VerifyCoverage
 from scanbench.verify.trace.propose import Guess
 from scanbench.verify.trace.table import TraceProblem
 from scanbench.web.messages_base import Scan, Wire
@@ -81,7 +81,7 @@ class VerificationInfo(Wire):
     rows: int
     forgotten: int = Field(description="rows at the front that found no room any more")
     used: int = Field(description="the most uses of a row")
-    coverage: Coverage | None = Field(description="of a trace: what was compared so far, and what was not")
+    coverage: VerifyCoverage | None = Field(description="of a trace: what was compared so far, and what was not")
     generation: int = Field(description="raised when rows that were already sent have changed")
 
 

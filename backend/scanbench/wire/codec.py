@@ -68,7 +68,7 @@ from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.typed import check
-from scanbench.verify.contract import Column, Compared, Coverage, Input, Mismatch, Output, Place, Range, Row
+from scanbench.verify.contract import Column, Compared, Input, Mismatch, Output, Place, Range, Row, VerifyCoverage
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events, memory, symbols
 from scanbench.wire import host as protocol
@@ -114,7 +114,7 @@ _CLASSES: dict[str, type] = {
         trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
         trace_protocol.RecordRetrospective, trace_protocol.RetrospectiveAt, trace_protocol.RetrospectiveDone,
         Calm, Corrupt, Disturb, Disturbance, DisturbanceInfo, Flip, Freed, Held, Hold, Unfired, Unhold,
-        Column, Compared, Coverage, Input, Mismatch, Output, Place, Range, Row, BetweenEntry, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
+        Column, Compared, VerifyCoverage, Input, Mismatch, Output, Place, Range, Row, BetweenEntry, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.ScansDone,
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,

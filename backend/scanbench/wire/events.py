@@ -21,7 +21,7 @@ from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
-from scanbench.verify.contract import DEFAULT_LIMIT, Coverage, Memory, Mismatch, Range
+from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range, VerifyCoverage
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire.host import MarkKind, PlcState, Previewed, RunMark
 from scanbench.wire.symbols import WatchItem
@@ -342,7 +342,7 @@ class VerificationStatus:
     generation: int = 0
     note: str = ""
     """What is not quite as it was asked for."""
-    coverage: Coverage | None = None
+    coverage: VerifyCoverage | None = None
 
 
 @dataclass(frozen=True, slots=True)

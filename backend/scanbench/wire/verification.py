@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from scanbench.history.contract import Changes, Divergence, RerunChange, Writer
 from scanbench.public import Public
-from scanbench.verify.contract import Column, Coverage, Mismatch, Range
+from scanbench.verify.contract import Column, Mismatch, Range, VerifyCoverage
 from scanbench.wire.host import Sources
 
 NOW = (1 << 63) - 1
@@ -143,7 +143,7 @@ class ScansDone(ScansVerified):
 
     failed: str = ""
     """Why it cannot go on."""
-    coverage: Coverage | None = None
+    coverage: VerifyCoverage | None = None
     """Of a trace: what was compared so far, and what was not."""
 
 

@@ -1,5 +1,6 @@
 """The language between parent and hosts, and what both keep."""
 
+import ast
 import dataclasses
 import socket
 from datetime import UTC, datetime
@@ -164,3 +165,15 @@ def test_watched_is_what_somebody_watches(steps: list[tuple[int, bool, str]]) ->
             watches.forget(who, [ids[path]])
             expected.discard((who, path))
         assert {path for _, path in watches.all()} == {path for _, path in expected}
+
+
+def test_no_two_classes_have_one_name() -> None:
+    """The second one would take the place of the first, which nobody could send any more."""
+    tree = ast.parse(Path(codec.__file__).read_text("utf-8"))
+    (listed,) = (
+        each.iter for each in ast.walk(tree) if isinstance(each, ast.comprehension) and isinstance(each.iter, ast.Tuple)
+    )
+    assert isinstance(listed, ast.Tuple)
+    classes = [eval(ast.unparse(each), vars(codec)) for each in listed.elts]  # names of the module itself
+    assert len(classes) > 100
+    assert [each for each in classes if each not in codec._NAMES] == []

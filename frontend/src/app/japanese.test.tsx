@@ -90,6 +90,8 @@ function busy(server: FakeServer): void {
   } as FakeServer["greeting"]);
   server.on("GET", "/instances/*/model", () => inJapanese(CATALOGUE));
   server.on("GET", "/instances/*/rack", () => []);
+  server.on("GET", "/instances/*/communication", () => ({ servers: [], error_readers: [] }));
+  server.on("GET", "/instances/*/communication/modbus/map", () => []);
   server.on("GET", "/projects/*/user-errors", () => ({
     errors: [],
     groups: [],

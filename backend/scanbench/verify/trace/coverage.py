@@ -8,7 +8,7 @@ from scanbench.program.program import Program
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.sites import Sites
 from scanbench.symbols.symbols import Symbol
-from scanbench.verify.contract import Compared, Coverage
+from scanbench.verify.contract import Compared, VerifyCoverage
 from scanbench.verify.trace.assume import Assumed
 from scanbench.verify.trace.bind import Signal, Trace
 from scanbench.verify.trace.mapping import bits_of, written
@@ -84,7 +84,7 @@ class Tally:
         symbol = Symbol(name, name, leaf.type, "", leaf.offset, leaf.bit)
         return self._mapped.isdisjoint(bits_of(symbol)) and written(self._program, self._sites, symbol)
 
-    def made(self, alone: Iterable[str]) -> Coverage:
+    def made(self, alone: Iterable[str]) -> VerifyCoverage:
         """So far. `alone`: what the range wrote and the trace has no column of."""
         outputs = tuple(
             Compared(
@@ -95,7 +95,7 @@ class Tally:
         )  # fmt: skip
         unrecorded, remembered = list(alone), self.remembered
         more = max(0, len(unrecorded) - MOST_NAMES) + max(0, len(remembered) - MOST_NAMES)
-        return Coverage(
+        return VerifyCoverage(
             outputs, tuple(each.path for each in self._trace.inputs), self._trace.ignored, tuple(unrecorded[:MOST_NAMES]),
             tuple(remembered[:MOST_NAMES]), more, tuple(map(str, self._assumed)),
         )  # fmt: skip

@@ -6,7 +6,7 @@ from scanbench.program.program import Program
 from scanbench.recording.reader import Unreadable
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names
-from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, Begun, Coverage, Range, Row, Use
+from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, Begun, Range, Row, Use, VerifyCoverage
 from scanbench.verify.edits import BadEdit, Edit
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
@@ -76,7 +76,7 @@ class TraceSubject:
         return self._reader.columns
 
     @property
-    def coverage(self) -> Coverage:
+    def coverage(self) -> VerifyCoverage:
         """See `Subject`."""
         return self._tally.made(self._rows.unrecorded)
 
