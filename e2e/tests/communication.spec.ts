@@ -21,7 +21,7 @@ test('clients that somebody else wrote see an error that was raised here, and wh
     await page.getByRole('option', { name: 'Show the communication unit' }).click();
     await fins.getByRole('radio', { name: 'read and write' }).click();
     await fins.getByRole('button', { name: 'Apply' }).click();
-    await fins.getByRole('switch').click();
+    await fins.getByRole('switch', { name: 'FINS' }).click(); // at once: it begins with what was applied
     await expect(fins).toContainText('No client is connected.');
   });
 
@@ -49,7 +49,7 @@ test('clients that somebody else wrote see an error that was raised here, and wh
 
   await test.step('an HMI by Modbus sees the same, and that it is recovered', async () => {
     const section = pane.getByRole('region', { name: 'Modbus TCP', exact: true });
-    await section.getByRole('switch').click();
+    await section.getByRole('switch', { name: 'Modbus TCP' }).click();
     await expect(section).toContainText('No client is connected.');
     const socket = new net.Socket();
     const hmi = new modbus.TCP(socket, 1);

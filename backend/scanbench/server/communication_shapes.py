@@ -25,6 +25,8 @@ class ServerWanted(Public):
     """What clients may do."""
     node: int = 1
     """The node number of the PLC; of FINS only."""
+    error_bits: bool = True
+    """Each end code says that the PLC has errors (0040, 0080), as at the device; of FINS only. Some clients take that for a failure."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,8 @@ def commands(name: str) -> list[str]:
     return [each["run"] for each in content["jobs"]["test"]["steps"] if each.get("name") in ("check", "test")]
 
 
-@pytest.mark.parametrize("name", ["gitlab-ci.yml", pytest.param("github-actions.yml", marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", ["gitlab-ci.yml", "github-actions.yml"])
 def test_its_commands_do_what_it_says(name: str, tmp_path: Path) -> None:
     copytree(Path(scanbench.__file__).parent / "samples" / "conveyor", tmp_path / "plc")
     (tmp_path / "tests").mkdir()

@@ -119,7 +119,7 @@ def test_what_is_not_so_is_told(
 
 def test_random_scenarios_shrink_to_what_was_planted(attempt: Callable[[Scenario], Failed | None]) -> None:
     shortest = 0
-    rounds = amount(200, 8)
+    rounds = amount(200, 2)
     for seed in range(rounds):
         scenario = planted(random.Random(seed))
         failed = attempt(scenario)

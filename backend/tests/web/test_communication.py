@@ -87,6 +87,7 @@ def test_a_fins_client_reads_writes_is_refused_and_sees_errors(server: Server) -
     until(lambda: client.memory_area_read("CIO100.00").data == b"\x01")
 
     told = seen(server, instance, "fins")
+    assert told["settings"]["error_bits"]
     assert [each["name"] for each in told["clients"]] == ["FINS 127.0.0.1, node 1"]
     assert told["clients"][0]["last_refused"] == "memory area write A400, 1: 2101 this memory is read-only"
     assert told["frames"][0]["text"] == "memory area write D100, 1"
@@ -94,6 +95,17 @@ def test_a_fins_client_reads_writes_is_refused_and_sees_errors(server: Server) -
     assert {"word": "A400", "clients": ["FINS 127.0.0.1, node 1"]} in readers
     log = server.http.get(f"/api/instances/{instance}/log?count=100").json()["lines"]
     assert [each["author"] for each in log if each["text"] == "D100 := 16#0015"] == ["FINS 127.0.0.1, node 1"]
+    client.close()
+
+
+def test_end_codes_tell_of_errors_unless_that_is_switched_off(server: Server) -> None:
+    instance = server.instance("error bits", MODEL, main=SOURCE)
+    wanted = {"on": True, "access": "write", "error_bits": False}
+    told = server.http.put(f"/api/instances/{instance}/communication/fins", json=wanted).json()
+    client = fins(int(told["servers"][0]["address"].rpartition(":")[2]))
+    raise_battery_error(server, instance)
+    until(lambda: words(client.memory_area_read("A400")) == [BATTERY])
+    assert client.memory_area_read("A400").code == b"\x00\x00"
     client.close()
 
 

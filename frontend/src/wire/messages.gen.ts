@@ -3608,6 +3608,12 @@ export interface components {
              */
             access: "read" | "write";
             /**
+             * Error Bits
+             * @description Each end code says that the PLC has errors (0040, 0080), as at the device; of FINS only. Some clients take that for a failure.
+             * @default true
+             */
+            error_bits: boolean;
+            /**
              * Host
              * @description The address it listens on: a loopback address of its own for each PLC (127.0.0.11), or one of the machine's.
              * @default 127.0.0.1

@@ -219,7 +219,7 @@ async def _end(tasks: set[asyncio.Task[None]]) -> None:
 class FinsServer:
     """Both on the same port number."""
 
-    def __init__(self, desk: Desk, node: int, error_bits: bool = True) -> None:
+    def __init__(self, desk: Desk, node: int, error_bits: bool) -> None:
         answering = Answering(desk, error_bits)
         self._udp, self._tcp = Udp(answering), Tcp(answering, node)
         self._listening: asyncio.Server | None = None

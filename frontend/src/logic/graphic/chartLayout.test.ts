@@ -48,6 +48,7 @@ function check(drawing: ChartDrawing): void {
     bottom: each.y + each.down,
     ...each,
   }));
+  const wrong: string[] = [];
   for (const box of boxes) {
     expect(box.left).toBeGreaterThanOrEqual(0);
     expect(box.top).toBeGreaterThanOrEqual(0);
@@ -56,15 +57,18 @@ function check(drawing: ChartDrawing): void {
   }
   for (const [index, a] of boxes.entries()) {
     for (const b of boxes.slice(index + 1))
-      expect(a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top).toBe(true);
+      if (!(a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top))
+        wrong.push(`boxes at ${a.left} ${a.top} and ${b.left} ${b.top}`);
     // No line goes through a step or an action, and none across the text of a transition.
     for (const { points } of drawing.lines) {
       const [[x1, y1], [x2, y2]] = points as [[number, number], [number, number]];
       const [left, right, top, bottom] = [Math.min(x1, x2), Math.max(x1, x2), Math.min(y1, y2), Math.max(y1, y2)];
       const inside = left < a.right - 1 && right > a.left + 1 && top < a.bottom - 1 && bottom > a.top + 1;
-      expect(inside && !(a.element.kind === "transition" && left === right && left === a.axis)).toBe(false);
+      if (inside && !(a.element.kind === "transition" && left === right && left === a.axis))
+        wrong.push(`line from ${x1} ${y1} to ${x2} ${y2} in the box at ${a.left} ${a.top}`);
     }
   }
+  expect(wrong).toEqual([]); // once: so many calls take seconds
 }
 
 describe("the drawing of a chart", () => {

@@ -32,8 +32,15 @@ let turn = 0;
 
 export const loadCommunication = () => ask((instance) => rest.communication(instance));
 
-export const setServer = (kind: ServerKind, wanted: CommunicationServerSettings) =>
-  ask((instance) => rest.setCommunication(instance, kind, wanted));
+/** Changes settings, one change after the other: each begins with what the one before it made of them. */
+export function changeServer(kind: ServerKind, wanted: Partial<CommunicationServerSettings>): void {
+  changes = changes.then(async () => {
+    const settings = useCommunication.getState().seen?.servers.find((each) => each.kind === kind)?.settings;
+    if (settings) await ask((instance) => rest.setCommunication(instance, kind, { ...settings, ...wanted }));
+  });
+}
+
+let changes: Promise<void> = Promise.resolve();
 
 export const breakLine = (kind: ServerKind, fault: CommunicationFault) =>
   ask((instance) => rest.breakLine(instance, kind, fault));

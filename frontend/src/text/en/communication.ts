@@ -12,6 +12,9 @@ export const communication = {
   "communication.clients.none": "No client is connected.",
   "communication.copied": "Copied",
   "communication.copy": "Copy",
+  "communication.errorbits": "Tell of errors in end codes",
+  "communication.errorbits.about":
+    "Each end code says that the PLC has errors (0040, 0080), as at the device; some clients take that for a failure",
   "communication.errorreaders": "Who reads the error memory",
   "communication.errorreaders.none": "No client has read a word of the error memory since its server was switched on.",
   "communication.fault": "Fault of the line",

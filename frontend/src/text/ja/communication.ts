@@ -14,6 +14,9 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.clients.none": "接続中のクライアントはありません。",
   "communication.copied": "コピーしました",
   "communication.copy": "コピー",
+  "communication.errorbits": "終了コードで異常を通知",
+  "communication.errorbits.about":
+    "PLC に異常があるあいだ、実機と同じく終了コードに 0040、0080 が付きます。失敗とみなすクライアントもあります",
   "communication.errorreaders": "異常メモリを読んでいるクライアント",
   "communication.errorreaders.none": "サーバを有効にしてから、異常メモリのワードを読んだクライアントはありません。",
   "communication.fault": "回線の異常",

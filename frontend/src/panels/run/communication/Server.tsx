@@ -1,5 +1,5 @@
 import { useEffect, useId, useState } from "react";
-import { setServer } from "../../../store/plc/communication";
+import { changeServer } from "../../../store/plc/communication";
 import { t } from "../../../text";
 import { CopyButton } from "../../../ui/CopyButton";
 import { Icon } from "../../../ui/Icon";
@@ -16,7 +16,7 @@ export function Server({ server }: { server: CommunicationServer }) {
   return (
     <section className="comserver" aria-label={title} data-server={kind}>
       <div className="row">
-        <Switch on={settings.on ?? false} onToggle={() => void setServer(kind, { ...settings, on: !settings.on })}>
+        <Switch on={settings.on ?? false} onToggle={() => changeServer(kind, { on: !settings.on })}>
           <h2>{title}</h2>
         </Switch>
         <span className="grow" />
@@ -70,7 +70,8 @@ function Settings({ kind, settings }: SettingsProps) {
       className="comsettings"
       onSubmit={(event) => {
         event.preventDefault();
-        void setServer(kind, draft);
+        const { on: _on, ...wanted } = draft;
+        changeServer(kind, wanted);
       }}
     >
       <Text
@@ -100,6 +101,11 @@ function Settings({ kind, settings }: SettingsProps) {
           onChoose={(access) => change({ access })}
         />
       </span>
+      {kind === "fins" && (
+        <Switch on={draft.error_bits ?? true} onToggle={() => change({ error_bits: !(draft.error_bits ?? true) })}>
+          <span title={t("communication.errorbits.about")}>{t("communication.errorbits")}</span>
+        </Switch>
+      )}
       <button type="submit" className="btn sm" disabled={!edited}>
         {t("communication.apply")}
       </button>
