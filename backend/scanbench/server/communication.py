@@ -52,7 +52,11 @@ class Kind:
 
 
 KINDS: Mapping[ServerKind, Kind] = {
-    "fins": Kind("FINS", lambda model: model.vendor == "omron", lambda desk, wanted: FinsServer(desk, wanted.node, wanted.error_bits)),
+    "fins": Kind(
+        "FINS",
+        lambda model: model.vendor == "omron",
+        lambda desk, wanted: FinsServer(desk, wanted.node, wanted.error_bits),
+    ),
     "slmp": Kind("SLMP", lambda model: model.vendor == "mitsubishi", lambda desk, _wanted: slmp_server(desk)),
     "modbus": Kind("Modbus TCP", lambda model: True, lambda desk, _wanted: modbus_server(desk)),
 }
