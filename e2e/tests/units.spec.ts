@@ -12,7 +12,7 @@ async function addUnit(page: Page, kind: string, number: number, name: string): 
   await section.getByRole('button', { name: `Add: ${kind}` }).click();
   const row = section.locator('[data-fitted]').nth(before);
   await row.getByRole('spinbutton').first().fill(`${number}`);
-  await row.getByRole('textbox', { name: /: Name$/ }).fill(name);
+  await row.getByRole('textbox', { name: /: (Name|Text)$/ }).fill(name);
 }
 
 test('two units are fitted: both are raised, with a row each; one is recovered, the other stays', {
