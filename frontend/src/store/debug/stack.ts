@@ -86,6 +86,8 @@ function askNow<T>(command: string, args: object): Promise<T | null> {
 async function load(threadId: number): Promise<void> {
   turn += 1;
   const mine = turn;
+  // The PLC may have halted again before the page knew: what was refused of the halt before means nothing any more.
+  useDebug.setState({ refused: null });
   const body = await askNow<DebugProtocol.StackTraceResponse["body"]>("stackTrace", { threadId, levels: 200 });
   if (mine !== turn || !body) return;
   const frames = body.stackFrames as Frame[];
