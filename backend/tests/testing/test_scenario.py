@@ -117,6 +117,7 @@ def test_what_is_not_so_is_told(
     assert message in failed.message
 
 
+@pytest.mark.nightly
 def test_random_scenarios_shrink_to_what_was_planted(attempt: Callable[[Scenario], Failed | None]) -> None:
     shortest = 0
     rounds = amount(200, 2)
