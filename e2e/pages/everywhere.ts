@@ -10,6 +10,7 @@ export const PAGES = {
   en: [
     'Show all inputs and outputs',
     'Show memory',
+    'Show the communication unit',
     'Variables the program never reads',
     'Edit user-defined errors',
     'Show error sweeps',
@@ -18,6 +19,7 @@ export const PAGES = {
   ja: [
     'すべての入出力を表示',
     'メモリを表示',
+    '通信ユニットを表示',
     'プログラムが読み出さない変数',
     'ユーザー定義異常を編集',
     '異常スイープを表示',

@@ -63,6 +63,15 @@ test('clients that somebody else wrote see an error that was raised here, and wh
     socket.end();
   });
 
+  await test.step('what cannot be set is told where it was typed, and stays told', async () => {
+    await fins.getByRole('textbox', { name: 'Address' }).fill('somewhere');
+    await fins.getByRole('button', { name: 'Apply' }).click();
+    await expect(fins.getByRole('alert')).toContainText('is no IP address');
+    await expect.poll(() => client.words('D20000')).toEqual([42]);
+    await expect(fins.getByRole('alert')).toContainText('is no IP address');
+    await expect(fins.getByRole('textbox', { name: 'Address' })).toHaveValue('somewhere');
+  });
+
   await test.step('it can be read by everybody', async () => {
     const { violations } = await new AxeBuilder({ page }).include('[data-pane=communication]').analyze();
     expect(violations).toEqual([]);

@@ -36,7 +36,7 @@ def replay(
     """
 
     def programs_of(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
-        return LoadedPrograms(*(_load(each, ENGINES[engine]) for each in kept.values()))
+        return LoadedPrograms(*(load_kept(each, ENGINES[engine]) for each in kept.values()))
 
     agreed: list[int] = []
     try:
@@ -56,7 +56,8 @@ def replay(
         raise typer.Exit(DAMAGED)
 
 
-def _load(kept: KeptProgram, engine_factory: EngineFactory) -> Loaded:
+def load_kept(kept: KeptProgram, engine_factory: EngineFactory) -> Loaded:
+    """A program of a run file, ready to run; one that does not compile here ends the command."""
     sources = sources_in(kept)
     checked = check_sources(sources.files, find_model_named(sources.model), sources.interval_ns)
     if checked.program is None:

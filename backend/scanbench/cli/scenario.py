@@ -5,21 +5,16 @@ from pathlib import Path
 
 import typer
 
-from scanbench.check.build import check_sources
-from scanbench.cli.inputs import find_model_named, unreadable, unusable_run, usage
+from scanbench.cli.inputs import unreadable, unusable_run, usage
+from scanbench.cli.replay import load_kept
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.history.scenario import BadScenario, Scenario, project_of, read_scenario, write_scenario
-from scanbench.history.scenario_steps import from_run
-from scanbench.host.run_files import sources_in
-from scanbench.program.program import Program
+from scanbench.history.scenario_of_run import scenario_of
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.reader import RunReader, Unreadable
-from scanbench.runtime.programs import Loaded, LoadedPrograms
-from scanbench.symbols.symbols import UnknownPath, resolve
-from scanbench.symbols.whole import worth_text
+from scanbench.runtime.programs import LoadedPrograms
 from scanbench.testing.attempts import Attempts
 from scanbench.testing.project import BrokenProject, Project
-from scanbench.testing.said import with_near
 from scanbench.testing.shrink import shrink
 from scanbench.wire.codec import ENTRIES
 
@@ -38,32 +33,14 @@ def record(
     try:
         with RunReader(path, _programs, ENTRIES) as reader:
             reader.follow()
-            if reader.first:
-                usage(f"{path}: the run begins with scan {reader.first}: a scenario begins with a cold start")
-            plc = reader.at(reader.end)
-            told = [(each, _worth(plc.program, plc.memory, each)) for each in expect]
-            made = from_run(reader.entries, reader.end, plc.program.layout.model, told, project)
+            made = scenario_of(reader, reader.end, expect, project)
     except Unreadable as error:
         unusable_run(path, error)
     typer.echo(write_scenario(made), nl=False)
 
 
 def _programs(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
-    made: list[Loaded] = []
-    for each in kept.values():
-        sources = sources_in(each)
-        checked = check_sources(sources.files, find_model_named(sources.model), sources.interval_ns)
-        if checked.program is None:
-            usage(f"program version {each.version} does not compile any more: {checked.problems[0]}")
-        made.append(Loaded.make(checked.program, NativeEngine, each.version))
-    return LoadedPrograms(*made)
-
-
-def _worth(program: Program, memory: bytearray, path: str) -> str:
-    try:
-        return worth_text(program, memory, resolve(program, path))
-    except UnknownPath as error:
-        usage(f"--expect {path}: {with_near(error.message, error.near)}")
+    return LoadedPrograms(*(load_kept(each, NativeEngine) for each in kept.values()))
 
 
 @scenario.command("run")

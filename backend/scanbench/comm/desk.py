@@ -4,17 +4,14 @@ import asyncio
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from datetime import datetime
 from typing import ClassVar, Literal
 
 from scanbench.comm.door import Door
 from scanbench.public import Moment, Public
 from scanbench.runtime.clock import monotonic_ns, wall_time
 
-FRAMES_KEPT = 200
+FRAMES_KEPT = 50
 CLIENTS_KEPT = 64
-IDLE_NS = 60_000_000_000
-"""Who has asked nothing for so long is not there any more, where nothing else says that a client went."""
 _WINDOW_NS = 2_000_000_000
 _SECOND_NS = 1_000_000_000
 _HEX_SHOWN = 48
@@ -78,7 +75,8 @@ NO_FAULT = LineFault()
 @dataclass(slots=True)
 class _Client:
     seen: ClientSeen
-    last_ns: int
+    times: int = 1
+    """Connections that have this name: some clients do not say which node they are."""
 
 
 @dataclass(slots=True)
@@ -127,37 +125,33 @@ class Desk:
         """A client is there; false where there is no room for one more."""
         known = self._clients.get(name)
         if known is not None:
-            known.last_ns = monotonic_ns()
+            known.times += 1
             return True
         if len(self._clients) >= CLIENTS_KEPT:
-            self.tidy()
-        if len(self._clients) >= CLIENTS_KEPT:
             return False
-        self._clients[name] = _Client(ClientSeen(name, wall_time(), 0, 0, ""), monotonic_ns())
+        self._clients[name] = _Client(ClientSeen(name, wall_time(), 0, 0, ""))
         self.on_clients()
         return True
 
     def leave(self, name: str) -> None:
         """A client is gone."""
-        if self._clients.pop(name, None) is not None:
+        known = self._clients.get(name)
+        if known is None:
+            return
+        known.times -= 1
+        if not known.times:
+            del self._clients[name]
             self.on_clients()
-
-    def tidy(self) -> None:
-        """Those that were not heard for long are gone."""
-        now = monotonic_ns()
-        for name in [name for name, each in self._clients.items() if now - each.last_ns > IDLE_NS]:
-            self.leave(name)
 
     def note(self, name: str, text: str, outcome: str, request: bytes, answer: bytes) -> None:
         """A request was answered; `outcome` is empty where it was done."""
-        at: datetime = wall_time()
         self._answered.append(monotonic_ns())
         self._noted += 1
-        self._frames.append(FrameSeen(self._noted, at, name, text, outcome, _shown(request), _shown(answer)))
+        self._frames.append(FrameSeen(self._noted, wall_time(), name, text, outcome, _shown(request), _shown(answer)))
         client = self._clients.get(name)
         if client is None:
             return
-        client.last_ns, seen = monotonic_ns(), client.seen
+        seen = client.seen
         client.seen = replace(
             seen, requests=seen.requests + 1, refused=seen.refused + bool(outcome),
             last_refused=f"{text}: {outcome}" if outcome else seen.last_refused,

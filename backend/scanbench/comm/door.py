@@ -47,7 +47,7 @@ class Door(Protocol):
 
     @property
     def model(self) -> Model:
-        """The model, with the errors of the project."""
+        """The model, as it was when the client came: its memory is the same for every program."""
 
     async def read(self, spans: Sequence[AreaSpan], also: Sequence[AreaSpan] = ()) -> Read:
         """Bytes of areas that the model has, in these bounds; `Away`. `also`: more of the same scan, after those, that the protocol

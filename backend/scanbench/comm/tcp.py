@@ -1,4 +1,4 @@
-"""A server of a protocol whose connections are streams of requests: each is answered before the next one of its connection."""
+"""A listening socket, its connections, and that of a server whose connections are streams of requests."""
 
 import asyncio
 import logging
@@ -9,19 +9,20 @@ from scanbench.comm.door import Door
 
 log = logging.getLogger("scanbench")
 CONNECTIONS = 16
-_PIECE = 4096
+"""At once, of each server; the devices have about as many."""
+PIECE = 4096
 
+Serve = Callable[[asyncio.StreamReader, asyncio.StreamWriter, bool], Awaitable[None]]
+"""Serves one connection to its end; true: there are too many already."""
 Answers = Callable[[bytes], Iterable[Awaitable[bytes]]]
 """Takes what came; answers that are still to be made, one for each request that is whole."""
 
 
-class TcpServer:
-    """On one port. `begin` makes the answers of a connection; `broken` is what it raises at what is no request."""
+class Listener:
+    """One port. What `serve` raises ends its connection; what is no affair of the client's is logged under `name`."""
 
-    def __init__(
-        self, desk: Desk, protocol: str, begin: Callable[[str, Door], Answers], broken: type[Exception]
-    ) -> None:
-        self._desk, self._protocol, self._begin, self._broken = desk, protocol, begin, broken
+    def __init__(self, name: str, serve: Serve) -> None:
+        self._name, self._serve = name, serve
         self._listening: asyncio.Server | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self.port = 0
@@ -38,30 +39,51 @@ class TcpServer:
         if self._listening is not None:
             self._listening.close()
             self._listening = None
-        for task in list(self._tasks):
-            task.cancel()
-        await asyncio.gather(*self._tasks, return_exceptions=True)
+        await end_all(self._tasks)
 
     async def _connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         task = asyncio.current_task()
         assert task is not None
-        host, port = writer.get_extra_info("peername")[:2]
-        name = f"{self._protocol} {host}:{port}"
-        if len(self._tasks) >= CONNECTIONS or not self._desk.arrive(name):
-            writer.close()
-            return
+        full = len(self._tasks) >= CONNECTIONS
         self._tasks.add(task)
         try:
-            answers = self._begin(name, self._desk.make_door(name))
-            while data := await reader.read(_PIECE):
-                for each in answers(data):
-                    writer.write(await self._desk.on_the_way(await each))
-                await writer.drain()
-        except (self._broken, OSError, EOFError, asyncio.CancelledError):
+            await self._serve(reader, writer, full)
+        except (OSError, EOFError, asyncio.CancelledError):
             pass
         except Exception:
-            log.exception("%s: a request could not be answered", name)
+            log.exception("%s: a request could not be answered", self._name)
         finally:
             self._tasks.discard(task)
-            self._desk.leave(name)
             writer.close()
+
+
+async def end_all(tasks: set[asyncio.Task[None]]) -> None:
+    """Ends what serves clients."""
+    for task in list(tasks):
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
+
+
+def tcp_server(
+    desk: Desk, protocol: str, begin: Callable[[str, Door], Answers], broken: type[Exception]
+) -> Listener:  # fmt: skip
+    """A server that answers each request before the next one of its connection. `begin` makes the answers of a connection; `broken` is
+    what it raises at what is no request."""
+
+    async def serve(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, full: bool) -> None:
+        host, port = writer.get_extra_info("peername")[:2]
+        name = f"{protocol} {host}:{port}"
+        if full or not desk.arrive(name):
+            return
+        try:
+            answers = begin(name, desk.make_door(name))
+            while data := await reader.read(PIECE):
+                for each in answers(data):
+                    writer.write(await desk.on_the_way(await each))
+                await writer.drain()
+        except broken:
+            return
+        finally:
+            desk.leave(name)
+
+    return Listener(protocol, serve)

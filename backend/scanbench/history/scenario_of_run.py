@@ -1,27 +1,38 @@
 """The scenario of a recorded run up to a scan: what people did, and what the outputs are there."""
 
+from collections.abc import Sequence
+
 from scanbench.history.scenario import Scenario
 from scanbench.history.scenario_steps import from_run
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.symbols.rack import INPUT, OUTPUT, terminals
-from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.whole import worth_text
 
 _EXPECTED = 50
 """Outputs that are looked at."""
 
 
-def scenario_of(reader: RunReader, scan: int) -> Scenario:
-    """What people did up to a scan, and what the outputs are there. `Unreadable`."""
+def scenario_of(
+    reader: RunReader, scan: int, expect: Sequence[str] | None = None, project: str = "."
+) -> Scenario:  # fmt: skip
+    """What people did up to a scan. What these variables are there is expected again, else what the outputs are. `Unreadable`."""
     if reader.first:
         raise Unreadable(f"the run begins with scan {reader.first}, and a scenario with a cold start: begin a new run")
     if scan > reader.end:
         raise Unreadable(f"scan {scan} has not come yet: the run ends at scan {reader.end}")
     plc = reader.at(scan)
-    expect = [(each.path, worth_text(plc.program, plc.memory, each)) for each in _outputs(plc.program)[:_EXPECTED]]
-    return from_run([each for each in reader.entries if each.scan < scan], scan, plc.program.layout.model, expect)
+    try:
+        wanted = (
+            _outputs(plc.program)[:_EXPECTED] if expect is None else [resolve(plc.program, each) for each in expect]
+        )
+    except UnknownPath as error:
+        raise Unreadable(error.message, tuple(error.near)) from None
+    told = [(each.path, worth_text(plc.program, plc.memory, each)) for each in wanted]
+    entries = [each for each in reader.entries if each.scan < scan]
+    return from_run(entries, scan, plc.program.layout.model, told, project)
 
 
 def _outputs(program: Program) -> list[Symbol]:

@@ -62,7 +62,8 @@ def _steps(command: Command, model: Model) -> Iterator[str]:
 
 def _words(write: AreaWrite, model: Model) -> Iterator[str]:
     """What a protocol client wrote, word by word."""
-    area = next(each for each in model.areas if each.name == write.area)
+    area = model.area(write.area)
+    assert area is not None
     if write.bit is not None:
         yield f"write {model.format(area, write.byte, write.bit, 1)}={'TRUE' if write.data[0] else 'FALSE'}"
         return

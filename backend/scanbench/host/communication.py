@@ -72,7 +72,7 @@ def areas_are(question: ReadAreas, loaded: Loaded, memory: bytes | bytearray, jo
 
 
 def _place(layout: Layout, span: AreaSpan) -> int | None:
-    area = next((each for each in layout.model.areas if each.name == span.area), None)
+    area = layout.model.area(span.area)
     if area is None or min(span.byte, span.size) < 0 or span.byte + span.size > area.size:
         return None
     return layout.areas[area.name] + span.byte

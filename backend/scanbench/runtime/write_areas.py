@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from scanbench.plcmodel.areas import Area
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.target import everywhere
@@ -62,7 +61,7 @@ class WriteAreas(Command):
     @staticmethod
     def _place(view: View, write: AreaWrite) -> int | Refusal:
         """Where it lies in the image."""
-        area = next((each for each in view.model.areas if each.name == write.area), None)
+        area = view.model.area(write.area)
         if area is None or write.byte < 0 or write.byte + len(write.data) > area.size:
             return Refusal(f"{write.area}, byte {write.byte}: {view.model.name} has no such memory")
         word = area.protected(write.byte, len(write.data), "tool")
@@ -96,8 +95,8 @@ def said(view: View, writes: Sequence[AreaWrite]) -> str:
 
 
 def _said(view: View, write: AreaWrite) -> str:
-    areas: Sequence[Area] = view.model.areas
-    area = next(each for each in areas if each.name == write.area)
+    area = view.model.area(write.area)
+    assert area is not None
     if write.bit is not None:
         place = view.model.format(area, write.byte, write.bit, 1)
         return f"{place} := {'TRUE' if write.data[0] else 'FALSE'}"

@@ -33,7 +33,9 @@ _NODES = range(1, 255)
 class Server(Protocol):
     """What serves one protocol."""
 
-    port: int
+    @property
+    def port(self) -> int:
+        """0 while it is closed."""
 
     async def open(self, host: str, port: int) -> None:
         """Listens. `OSError`."""
@@ -136,12 +138,12 @@ class Communication:
     async def break_line(self, session: Session, kind: ServerKind, fault: LineFault, author: str) -> CommunicationSeen:
         """Lets something be wrong with the line to the clients of a server, or nothing any more. It ends with the server. `Refused`."""
         unit = self._units[session.id]
-        running = unit.servers.get(kind)
-        if running is None or not running.wanted.on:
-            raise Refused(f"{KINDS[kind].name} is not switched on: switch the server on first")
         if not 0 <= fault.late_ms <= _LATEST_MS:
             raise Refused(f"an answer can come up to {_LATEST_MS} ms late, not {fault.late_ms}")
         async with unit.turning:
+            running = unit.servers.get(kind)
+            if running is None or not running.wanted.on:
+                raise Refused(f"{KINDS[kind].name} is not switched on: switch the server on first")
             closed = running.fault.kind == "refused"
             running.fault = fault
             if fault.kind == "refused":
@@ -182,7 +184,7 @@ class Communication:
                 f"{wanted.host}:{wanted.port} cannot be listened on: {why}. Choose a different port or address"
             )
             return
-        running.desk, running.server, running.port = desk, server, server.port
+        running.desk, running.server, running.port, running.trouble = desk, server, server.port, ""
 
 
 def _told(kind: ServerKind, running: _Running) -> str:

@@ -48,7 +48,8 @@ class ErrorReaders:
         return tuple(ErrorReader(self._shown(*word), tuple(found)) for word, found in sorted(self._clients.items()))
 
     def _shown(self, area: str, word: int) -> str:
-        found = next(each for each in self._model.areas if each.name == area)
+        found = self._model.area(area)
+        assert found is not None
         return self._model.word_text(found, 2 * word)
 
 
@@ -67,13 +68,8 @@ class SessionDoor:
     """`comm.door.Door` of one client."""
 
     def __init__(self, session: Session, author: str, readers: ErrorReaders) -> None:
-        self.author = author
+        self.author, self.model = author, session.model
         self._session, self._readers = session, readers
-
-    @property
-    def model(self) -> Model:
-        """See `Door`."""
-        return self._session.model
 
     async def read(self, spans: Sequence[AreaSpan], also: Sequence[AreaSpan] = ()) -> Read:
         """See `Door`."""

@@ -11,6 +11,8 @@ from scanbench.testing.play import play
 from scanbench.testing.plc import Plc, PlcFailure
 from scanbench.testing.plugin import read_project
 
+__all__ = ["ENDING", "ScenarioFile"]
+
 
 class ScenarioFile(pytest.File):
     """A file with one scenario."""

@@ -43,11 +43,11 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     """A scenario file is a test."""
-    if not file_path.name.endswith(".scenario.yaml"):
+    if file_path.suffix != ".yaml":
         return None
-    from scanbench.testing.collected import ScenarioFile
+    from scanbench.testing.collected import ENDING, ScenarioFile
 
-    return ScenarioFile.from_parent(parent, path=file_path)
+    return ScenarioFile.from_parent(parent, path=file_path) if file_path.name.endswith(ENDING) else None
 
 
 @cache

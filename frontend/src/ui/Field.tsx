@@ -8,17 +8,32 @@ interface Props {
   refused?: string | null;
   mono?: boolean;
   placeholder?: string;
+  title?: string;
+  /** A number is typed. */
+  number?: boolean;
+  /** Additional classes of the input. */
+  look?: string;
 }
 
 /** A text field with its name above and, after a refusal, the reason below. */
-export function Field({ label, value, onChange, refused = null, mono = false, placeholder }: Props) {
+export function Field({
+  label,
+  value,
+  onChange,
+  refused = null,
+  mono = false,
+  number = false,
+  look = "",
+  ...rest
+}: Props) {
   return (
     <label className="field">
       <span>{label}</span>
       <input
-        className={`inp${mono ? " mono" : ""}${refused ? " bad" : ""}`}
+        className={`inp${mono ? " mono" : ""}${refused ? " bad" : ""}${look && ` ${look}`}`}
+        type={number ? "number" : "text"}
         value={value}
-        placeholder={placeholder}
+        {...rest}
         spellCheck={false}
         autoComplete="off"
         aria-invalid={refused !== null}

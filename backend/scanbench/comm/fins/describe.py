@@ -17,7 +17,6 @@ OUTCOMES = {
     End.TOO_SHORT: "the request is too short",
     End.NOT_AS_MANY: "not as many data as elements",
     End.NO_AREA: "the model has no such memory area",
-    End.ACCESS_SIZE: "wrong size of access",
     End.BEGINS_OUTSIDE: "the first address is outside of the area",
     End.ENDS_OUTSIDE: "the last address is outside of the area",
     End.ANSWER_TOO_LONG: "the answer would be too long",
@@ -30,7 +29,6 @@ OUTCOMES = {
     End.NOT_IN_RUN: "not possible in RUN mode",
     End.SERVICE_BUSY: "the PLC does not answer now",
     End.NOT_CLEARED: "the cause of the error is still there",
-    End.NO_RIGHT: "a different client has the access right",
 }
 
 

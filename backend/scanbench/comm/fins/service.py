@@ -11,16 +11,14 @@ from scanbench.comm.fins import tcp_frame as tcp
 from scanbench.comm.fins.commands import respond
 from scanbench.comm.fins.describe import described, outcome
 from scanbench.comm.fins.frame import Request, parse
+from scanbench.comm.tcp import PIECE, Listener, end_all
 
 log = logging.getLogger("scanbench")
-CONNECTIONS = 16
-"""TCP clients at once; the device has as many."""
 _FIRST_NODE, _NODES = 239, 16
 """Nodes that TCP clients get which ask for none."""
 _WAITING = 64
 """Datagrams of a client that wait for their turn; more are lost, as on a network."""
 _IDLE_S = 60.0
-_PIECE = 4096
 
 
 class Answering:
@@ -91,48 +89,21 @@ class Udp(asyncio.DatagramProtocol):
         """Nobody is served any more."""
         if self._transport is not None:
             self._transport.close()
-        await _end(self._tasks)
+        await end_all(self._tasks)
 
 
-class Tcp:
-    """FINS over TCP."""
+class Nodes:
+    """The nodes of TCP clients, and that of the PLC."""
 
-    def __init__(self, answering: Answering, node: int) -> None:
-        self._answering, self._node = answering, node
+    def __init__(self, node: int) -> None:
+        self.node = node
+        """Of the PLC itself."""
         self._taken: set[int] = set()
-        self._tasks: set[asyncio.Task[None]] = set()
-
-    async def connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        """One connection until its end."""
-        task = asyncio.current_task()
-        assert task is not None
-        self._tasks.add(task)
-        host = writer.get_extra_info("peername")[0]
-        connection = _Connection(self, host)
-        try:
-            await connection.serve(reader, writer)
-        except tcp.Broken as broken:
-            with suppress(OSError):
-                writer.write(tcp.message(tcp.Kind.ERROR, error=broken.error))
-                await writer.drain()
-        except (OSError, EOFError, asyncio.CancelledError):
-            pass
-        except Exception:
-            log.exception("FINS %s: a request could not be answered", host)
-        finally:
-            self._tasks.discard(task)
-            connection.end()
-            writer.close()
 
     def give(self, wanted: int) -> int:
-        """A node for a client: the one that it asks for, or a free one."""
-        if len(self._tasks) > CONNECTIONS:
-            raise tcp.Broken(tcp.Error.ALL_IN_USE)
-        if wanted and wanted not in self._taken and wanted != self._node:
-            self._taken.add(wanted)
-            return wanted
-        free = (each for each in range(_FIRST_NODE, _FIRST_NODE + _NODES) if each not in self._taken | {self._node})
-        node = next(free, 0)
+        """A node for a client: the one that it asks for, or a free one. `Broken`."""
+        free = (each for each in (wanted, *range(_FIRST_NODE, _FIRST_NODE + _NODES)) if each)
+        node = next((each for each in free if each not in self._taken and each != self.node), 0)
         if not node:
             raise tcp.Broken(tcp.Error.NO_NODE)
         self._taken.add(node)
@@ -142,46 +113,38 @@ class Tcp:
         """The client with this node is gone."""
         self._taken.discard(node)
 
-    @property
-    def node(self) -> int:
-        """Of the PLC itself."""
-        return self._node
-
-    @property
-    def answering(self) -> Answering:
-        """What answers its frames."""
-        return self._answering
-
-    async def close(self) -> None:
-        """Every connection ends."""
-        await _end(self._tasks)
-
 
 class _Connection:
-    """Of one client."""
+    """FINS over TCP, of one client."""
 
-    def __init__(self, server: Tcp, host: str) -> None:
-        self._server, self._host = server, host
+    def __init__(self, answering: Answering, nodes: Nodes, host: str) -> None:
+        self._answering, self._nodes, self._host = answering, nodes, host
         self._client_node = 0
         self._name = ""
         self._door: Door | None = None
 
-    async def serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        """Answers one message after the other."""
-        stream = tcp.Stream()
-        while data := await reader.read(_PIECE):
-            for message in stream.feed(data):
-                answer = await self._answer(message)
-                if answer:
-                    writer.write(answer)
-                    await writer.drain()
+    async def serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, full: bool) -> None:
+        """Answers one message after the other; at what is no FINS says what is wrong."""
+        try:
+            if full:
+                raise tcp.Broken(tcp.Error.ALL_IN_USE)
+            stream = tcp.Stream()
+            while data := await reader.read(PIECE):
+                for message in stream.feed(data):
+                    writer.write(await self._answer(message))
+                await writer.drain()
+        except tcp.Broken as broken:
+            writer.write(tcp.message(tcp.Kind.ERROR, error=broken.error))
+            await writer.drain()
+        finally:
+            self._end()
 
     async def _answer(self, message: tcp.Message) -> bytes:
         if message.kind == tcp.Kind.ASK_NODE:
             if not self._client_node:
-                self._client_node = self._server.give(tcp.asked_node(message.content) & 0xFF)
-                self._arrive()
-            return tcp.given_nodes(self._client_node, self._server.node)
+                self._client_node = self._nodes.give(tcp.asked_node(message.content) & 0xFF)
+                self._arrived()
+            return tcp.given_nodes(self._client_node, self._nodes.node)
         if message.kind == tcp.Kind.CONFIRM:
             return b""
         if message.kind != tcp.Kind.FRAME:
@@ -189,60 +152,53 @@ class _Connection:
         request = parse(message.content)
         if request is None:
             return b""
-        if self._door is None:
-            self._arrive()
-        assert self._door is not None
-        answered = await self._server.answering.answer(self._name, self._door, request, message.content)
+        answered = await self._answering.answer(self._name, self._arrived(), request, message.content)
         return tcp.message(tcp.Kind.FRAME, answered) if answered else b""
 
-    def _arrive(self) -> None:
-        self._name = f"FINS {self._host}, node {self._client_node}"
-        desk = self._server.answering.desk
-        if not desk.arrive(self._name):
-            raise tcp.Broken(tcp.Error.ALL_IN_USE)
-        self._door = desk.make_door(self._name)
+    def _arrived(self) -> Door:
+        """The door of the client, who is there from the handshake on, or from the first frame where there was none."""
+        if self._door is None:
+            name = f"FINS {self._host}, node {self._client_node}"
+            if not self._answering.desk.arrive(name):
+                raise tcp.Broken(tcp.Error.ALL_IN_USE)
+            self._name, self._door = name, self._answering.desk.make_door(name)
+        return self._door
 
-    def end(self) -> None:
-        """It is closed."""
+    def _end(self) -> None:
         if self._client_node:
-            self._server.take_back(self._client_node)
-        if self._name:
-            self._server.answering.desk.leave(self._name)
-
-
-async def _end(tasks: set[asyncio.Task[None]]) -> None:
-    for task in list(tasks):
-        task.cancel()
-    await asyncio.gather(*tasks, return_exceptions=True)
+            self._nodes.take_back(self._client_node)
+        if self._door is not None:
+            self._answering.desk.leave(self._name)
 
 
 class FinsServer:
     """Both on the same port number."""
 
     def __init__(self, desk: Desk, node: int, error_bits: bool) -> None:
-        answering = Answering(desk, error_bits)
-        self._udp, self._tcp = Udp(answering), Tcp(answering, node)
-        self._listening: asyncio.Server | None = None
-        self.port = 0
+        self._answering, self._nodes = Answering(desk, error_bits), Nodes(node)
+        self._udp, self._tcp = Udp(self._answering), Listener("FINS", self._connected)
+
+    @property
+    def port(self) -> int:
         """0 while it is closed."""
+        return self._tcp.port
 
     async def open(self, host: str, port: int) -> None:
         """Listens; with port 0 on one that is free. `OSError`."""
-        loop = asyncio.get_running_loop()
-        self._listening = await asyncio.start_server(self._tcp.connected, host, port)
-        chosen: int = self._listening.sockets[0].getsockname()[1]
+        await self._tcp.open(host, port)
         try:
-            await loop.create_datagram_endpoint(lambda: self._udp, local_addr=(host, chosen))
+            await asyncio.get_running_loop().create_datagram_endpoint(
+                lambda: self._udp, local_addr=(host, self._tcp.port)
+            )
         except OSError:
-            await self.close()
+            await self._tcp.close()
             raise
-        self.port = chosen
 
     async def close(self) -> None:
         """Nobody is served any more."""
-        self.port = 0
-        if self._listening is not None:
-            self._listening.close()
-            self._listening = None
         await self._tcp.close()
         await self._udp.close()
+
+    async def _connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, full: bool) -> None:
+        host = writer.get_extra_info("peername")[0]
+        await _Connection(self._answering, self._nodes, host).serve(reader, writer, full)

@@ -7,12 +7,12 @@
 16  content
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from struct import Struct
 
 from scanbench.comm.fins.frame import LARGEST
+from scanbench.comm.pieces import Pieces
 
 HEAD = Struct(">4sIII")
 _MAGIC = b"FINS"
@@ -57,27 +57,23 @@ class Message:
     content: bytes
 
 
-class Stream:
-    """Cuts what comes in a connection into messages."""
+class Stream(Pieces[Message]):
+    """The messages of a connection; `Broken`."""
 
-    def __init__(self) -> None:
-        self._bytes = bytearray()
+    def size(self, begun: bytearray) -> int:
+        """See `Pieces`."""
+        if len(begun) < HEAD.size:
+            return 0
+        magic, length, _, _ = HEAD.unpack_from(begun)
+        if magic != _MAGIC:
+            raise Broken(Error.NO_FINS)
+        if not _COUNTED <= length <= LARGEST + _COUNTED:
+            raise Broken(Error.TOO_LONG)
+        return HEAD.size - _COUNTED + int(length)
 
-    def feed(self, data: bytes) -> Iterator[Message]:
-        """The messages that are whole now; `Broken` at what can be none, so no more than one message is ever kept."""
-        self._bytes += data
-        while len(self._bytes) >= HEAD.size:
-            magic, length, kind, _ = HEAD.unpack_from(self._bytes)
-            if magic != _MAGIC:
-                raise Broken(Error.NO_FINS)
-            if not _COUNTED <= length <= LARGEST + _COUNTED:
-                raise Broken(Error.TOO_LONG)
-            end = HEAD.size - _COUNTED + length
-            if len(self._bytes) < end:
-                return
-            content = bytes(self._bytes[HEAD.size : end])
-            del self._bytes[:end]
-            yield Message(kind, content)
+    def made(self, frame: bytes) -> Message:
+        """See `Pieces`."""
+        return Message(HEAD.unpack_from(frame)[2], frame[HEAD.size :])
 
 
 def message(kind: Kind, content: bytes = b"", error: int = 0) -> bytes:

@@ -7,10 +7,11 @@
 7  u8   function, and its data
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from struct import Struct
+
+from scanbench.comm.pieces import Pieces
 
 _HEAD = Struct(">HHHB")
 _LEAST, _MOST = 2, 254
@@ -25,7 +26,6 @@ class Code(IntEnum):
     ADDRESS = 0x02
     VALUE = 0x03
     FAILURE = 0x04
-    BUSY = 0x06
     NO_TARGET = 0x0B
 
 
@@ -51,25 +51,22 @@ class Request:
     data: bytes
 
 
-class Stream:
-    """Cuts what comes in a connection into requests."""
+class Stream(Pieces[tuple[Request, bytes]]):
+    """The requests of a connection, each with its bytes; `Broken`."""
 
-    def __init__(self) -> None:
-        self._bytes = bytearray()
+    def size(self, begun: bytearray) -> int:
+        """See `Pieces`."""
+        if len(begun) < _HEAD.size:
+            return 0
+        _, protocol, length, _ = _HEAD.unpack_from(begun)
+        if protocol or not _LEAST <= length <= _MOST:
+            raise Broken
+        return _HEAD.size - 1 + int(length)
 
-    def feed(self, data: bytes) -> Iterator[tuple[Request, bytes]]:
-        """The requests that are whole now, each with its bytes; `Broken` at what can be none."""
-        self._bytes += data
-        while len(self._bytes) >= _HEAD.size:
-            transaction, protocol, length, unit = _HEAD.unpack_from(self._bytes)
-            if protocol or not _LEAST <= length <= _MOST:
-                raise Broken
-            end = _HEAD.size - 1 + length
-            if len(self._bytes) < end:
-                return
-            frame = bytes(self._bytes[:end])
-            del self._bytes[:end]
-            yield Request(transaction, unit, frame[_HEAD.size], frame[_HEAD.size + 1 :]), frame
+    def made(self, frame: bytes) -> tuple[Request, bytes]:
+        """See `Pieces`."""
+        transaction, _, _, unit = _HEAD.unpack_from(frame)
+        return Request(transaction, unit, frame[_HEAD.size], frame[_HEAD.size + 1 :]), frame
 
 
 def answer(request: Request, data: bytes) -> bytes:

@@ -253,7 +253,6 @@ OUTCOMES: Mapping[Code, str] = MappingProxyType({
     Code.ADDRESS: "an address means nothing, or cannot be written",
     Code.VALUE: "a count or a length is wrong",
     Code.FAILURE: "the PLC does not answer now",
-    Code.BUSY: "the PLC is busy",
     Code.NO_TARGET: "no such unit: it is 0, 1 or 255",
 })  # fmt: skip
 

@@ -77,7 +77,8 @@ def _wanted(model: Model) -> Sequence[Wanted]:
 
 
 def _mapped(model: Model, wanted: Wanted) -> Mapped:
-    area = next(each for each in model.areas if each.name == wanted.area)
+    area = model.area(wanted.area)
+    assert area is not None
     bits = wanted.group in ("coil", "discrete input")
     words = area.words - wanted.word
     count = min(16 * words if bits else words, wanted.most, _ADDRESSES - wanted.first)

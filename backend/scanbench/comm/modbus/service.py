@@ -7,10 +7,10 @@ from scanbench.comm.door import Door
 from scanbench.comm.modbus.frame import Broken, Request, Stream
 from scanbench.comm.modbus.functions import Target, described, outcome, respond
 from scanbench.comm.modbus.mapping import default
-from scanbench.comm.tcp import Answers, TcpServer
+from scanbench.comm.tcp import Answers, Listener, tcp_server
 
 
-def modbus_server(desk: Desk) -> TcpServer:
+def modbus_server(desk: Desk) -> Listener:
     """A server that is still closed."""
 
     def begin(name: str, door: Door) -> Answers:
@@ -27,4 +27,4 @@ def modbus_server(desk: Desk) -> TcpServer:
 
         return answers
 
-    return TcpServer(desk, "Modbus", begin, Broken)
+    return tcp_server(desk, "Modbus", begin, Broken)

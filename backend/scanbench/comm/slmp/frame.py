@@ -13,9 +13,10 @@ Numbers are little endian. In ASCII code each of them is so many hexadecimal dig
 the first byte.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
+
+from scanbench.comm.pieces import Pieces
 
 _REQUEST, _ANSWER = 0x5000, 0xD000
 _FIXED = 9
@@ -64,36 +65,6 @@ class Request:
     """What follows; in ASCII code its characters."""
 
 
-class Stream:
-    """Cuts what comes in a connection into requests."""
-
-    def __init__(self) -> None:
-        self._bytes = bytearray()
-
-    def feed(self, data: bytes) -> Iterator[tuple[Request, bytes]]:
-        """The requests that are whole now, each with its bytes; `Broken` at what can be none."""
-        self._bytes += data
-        while self._bytes:
-            digits = 2 if self._bytes[0] == _ASCII_FIRST else 1
-            head = _FIXED * digits
-            if len(self._bytes) < head:
-                return
-            at = Cursor(bytes(self._bytes[:head]), digits == 2)
-            subheader = at.number(2) if at.ascii else int.from_bytes(at.take(2), "big")
-            route = (at.number(1), at.number(1), at.number(2), at.number(1))
-            length = at.number(2)
-            if subheader != _REQUEST or not _LEAST * digits <= length <= _MOST * digits:
-                raise Broken
-            end = head + length
-            if len(self._bytes) < end:
-                return
-            frame = bytes(self._bytes[:end])
-            del self._bytes[:end]
-            at = Cursor(frame[head:], at.ascii)
-            at.number(2)
-            yield Request(at.ascii, route, at.number(2), at.number(2), at.rest()), frame
-
-
 class Cursor:
     """Reads numbers one after the other. `Broken` in a head; commands turn it into an end code."""
 
@@ -118,6 +89,10 @@ class Cursor:
         except ValueError:
             raise Broken from None
 
+    def subheader(self) -> int:
+        """The one number that has its high byte first, also in binary code."""
+        return self.number(2) if self.ascii else int.from_bytes(self.take(2), "big")
+
     def rest(self) -> bytes:
         """All that is left."""
         found = self._data[self._at :]
@@ -128,6 +103,40 @@ class Cursor:
     def left(self) -> int:
         """Bytes that were not read."""
         return len(self._data) - self._at
+
+
+class Stream(Pieces[tuple[Request, bytes]]):
+    """The requests of a connection, each with its bytes; `Broken`."""
+
+    def size(self, begun: bytearray) -> int:
+        """See `Pieces`."""
+        if not begun:
+            return 0
+        digits = _digits(begun)
+        head = _FIXED * digits
+        if len(begun) < head:
+            return 0
+        at = Cursor(bytes(begun[:head]), digits > 1)
+        subheader = at.subheader()
+        at.take(5 * digits)  # the route
+        length = at.number(2)
+        if subheader != _REQUEST or not _LEAST * digits <= length <= _MOST * digits:
+            raise Broken
+        return head + length
+
+    def made(self, frame: bytes) -> tuple[Request, bytes]:
+        """See `Pieces`."""
+        digits = _digits(frame)
+        at = Cursor(frame, digits > 1)
+        at.subheader()
+        route = (at.number(1), at.number(1), at.number(2), at.number(1))
+        at.take(4 * digits)  # length and timer
+        return Request(at.ascii, route, at.number(2), at.number(2), at.rest()), frame
+
+
+def _digits(begun: bytes | bytearray) -> int:
+    """Characters of a byte: two in ASCII code."""
+    return 2 if begun[0] == _ASCII_FIRST else 1
 
 
 def number(value: int, size: int, ascii: bool) -> bytes:

@@ -6,10 +6,10 @@ from scanbench.comm.desk import Desk
 from scanbench.comm.door import Door
 from scanbench.comm.slmp.commands import described, outcome, respond
 from scanbench.comm.slmp.frame import Broken, Request, Stream
-from scanbench.comm.tcp import Answers, TcpServer
+from scanbench.comm.tcp import Answers, Listener, tcp_server
 
 
-def slmp_server(desk: Desk) -> TcpServer:
+def slmp_server(desk: Desk) -> Listener:
     """A server that is still closed."""
 
     def begin(name: str, door: Door) -> Answers:
@@ -26,4 +26,4 @@ def slmp_server(desk: Desk) -> TcpServer:
 
         return answers
 
-    return TcpServer(desk, "SLMP", begin, Broken)
+    return tcp_server(desk, "SLMP", begin, Broken)

@@ -46,14 +46,27 @@ export const useStack = create<Stack>(() => ({ ...nothing, open: new Set(OPEN_AT
 const get = useStack.getState;
 const set = useStack.setState;
 
-/** Counts halts: an answer about an earlier halt is dropped. */
+/** Counts readings, of a halt or of one of its frames: what an earlier one was still reading is dropped. */
 let turn = 0;
+
+/** Whether the present reading is still the last one. */
+function present(): () => boolean {
+  const mine = turn;
+  return () => mine === turn;
+}
+
+/** A reading begins: the same of that. */
+function reading(): () => boolean {
+  turn += 1;
+  return present();
+}
+
 /** The values of the previously shown frame, to find changes. */
 let texts: ReadonlyMap<string, string> = new Map();
 let textsOf = "";
 
 function resetStack(): void {
-  turn += 1;
+  reading();
   texts = new Map();
   set(nothing);
 }
@@ -71,25 +84,18 @@ usePlc.subscribe(({ state: now }, { state: before }) => {
 });
 
 function resetWhileRunning(): void {
-  turn += 1;
+  reading();
   set(nothing);
   // What was refused of this halt means nothing any more.
   useDebug.setState({ refused: null });
 }
 
-/** Asks about the present halt: a refusal that comes after its end is told to nobody. */
-function askNow<T>(command: string, args: object): Promise<T | null> {
-  const mine = turn;
-  return ask<T>(command, args, () => mine === turn);
-}
-
 async function load(threadId: number): Promise<void> {
-  turn += 1;
-  const mine = turn;
+  const wanted = reading();
   // The PLC may have halted again before the page knew: what was refused of the halt before means nothing any more.
   useDebug.setState({ refused: null });
-  const body = await askNow<DebugProtocol.StackTraceResponse["body"]>("stackTrace", { threadId, levels: 200 });
-  if (mine !== turn || !body) return;
+  const body = await ask<DebugProtocol.StackTraceResponse["body"]>("stackTrace", { threadId, levels: 200 }, wanted);
+  if (!wanted() || !body) return;
   const frames = body.stackFrames as Frame[];
   set({ ...nothing, frames, frame: frames[0]?.id ?? null });
   await loadFrame();
@@ -107,16 +113,16 @@ export async function chooseFrame(id: number): Promise<void> {
 
 /** Fetches the scopes and their unfolded variables again. */
 async function loadFrame(): Promise<void> {
-  const mine = turn;
+  const wanted = reading();
   const { frame } = get();
   if (frame === null) return;
-  const body = await askNow<DebugProtocol.ScopesResponse["body"]>("scopes", { frameId: frame });
-  if (mine !== turn || get().frame !== frame || !body) return;
+  const body = await ask<DebugProtocol.ScopesResponse["body"]>("scopes", { frameId: frame }, wanted);
+  if (!wanted() || !body) return;
   const below = new Map<string, readonly Variable[]>();
   for (const scope of body.scopes) {
-    if (get().open.has(scope.name)) await fill(below, scope.name, scope.variablesReference);
+    if (get().open.has(scope.name)) await fill(below, scope.name, scope.variablesReference, wanted);
   }
-  if (mine !== turn || get().frame !== frame) return;
+  if (!wanted()) return;
   const name = frameNow()?.name ?? "";
   const now = textsIn(below);
   const changed = new Set(
@@ -128,21 +134,26 @@ async function loadFrame(): Promise<void> {
 
 const differs = (before: string | undefined, now: string) => before !== undefined && before !== now;
 
-async function fill(below: Map<string, readonly Variable[]>, key: string, reference: number): Promise<void> {
-  const variables = await fetchBelow(reference, 0);
+/** Reads variables and what is unfolded below them, as long as that is `wanted`: a later halt knows nothing of these references. */
+async function fill(
+  below: Map<string, readonly Variable[]>,
+  key: string,
+  reference: number,
+  wanted: () => boolean,
+): Promise<void> {
+  if (!wanted()) return;
+  const variables = await fetchBelow(reference, 0, wanted);
   below.set(key, variables);
   for (const variable of variables) {
     const inner = keyOf(key, variable);
-    if (variable.variablesReference > 0 && get().open.has(inner)) await fill(below, inner, variable.variablesReference);
+    if (variable.variablesReference > 0 && get().open.has(inner))
+      await fill(below, inner, variable.variablesReference, wanted);
   }
 }
 
-async function fetchBelow(reference: number, start: number): Promise<readonly Variable[]> {
-  const body = await askNow<DebugProtocol.VariablesResponse["body"]>("variables", {
-    variablesReference: reference,
-    start,
-    count: PAGE,
-  });
+async function fetchBelow(reference: number, start: number, wanted: () => boolean): Promise<readonly Variable[]> {
+  const args = { variablesReference: reference, start, count: PAGE };
+  const body = await ask<DebugProtocol.VariablesResponse["body"]>("variables", args, wanted);
   return (body?.variables as Variable[] | undefined) ?? [];
 }
 
@@ -164,17 +175,17 @@ export async function toggleVariable(key: string, reference: number): Promise<vo
     return;
   }
   set({ open: open.add(key) });
-  const mine = turn;
+  const wanted = present();
   const below = new Map(get().below);
-  await fill(below, key, reference);
-  if (mine === turn) set(({ below: now }) => ({ below: new Map([...now, ...below]) }));
+  await fill(below, key, reference, wanted);
+  if (wanted()) set(({ below: now }) => ({ below: new Map([...now, ...below]) }));
 }
 
 export async function moreBelow(key: string, reference: number): Promise<void> {
-  const mine = turn;
+  const wanted = present();
   const known = get().below.get(key) ?? [];
-  const more = await fetchBelow(reference, known.length);
-  if (mine === turn) set(({ below }) => ({ below: new Map(below).set(key, [...known, ...more]) }));
+  const more = await fetchBelow(reference, known.length, wanted);
+  if (wanted()) set(({ below }) => ({ below: new Map(below).set(key, [...known, ...more]) }));
 }
 
 /** Writes the value of a variable of the frame. True when it was accepted; else the reason is shown in its row. */

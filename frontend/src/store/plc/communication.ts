@@ -16,13 +16,15 @@ import { onInstanceChange } from "./reset";
 interface State {
   /** Null until the server has answered. */
   seen: Communication | null;
-  /** Why it could not be asked, or changed. */
+  /** Why it could not be asked. */
   trouble: string | null;
+  /** The last change, where it was refused. */
+  refused: { kind: ServerKind; message: string } | null;
   /** Null until somebody asked for it. */
   map: readonly ModbusRange[] | null;
 }
 
-const nothing: State = { seen: null, trouble: null, map: null };
+const nothing: State = { seen: null, trouble: null, refused: null, map: null };
 export const useCommunication = create<State>(() => nothing);
 const set = useCommunication.setState;
 
@@ -30,33 +32,46 @@ onInstanceChange(() => set(nothing));
 
 let turn = 0;
 
-export const loadCommunication = () => ask((instance) => rest.communication(instance));
-
-/** Changes settings, one change after the other: each begins with what the one before it made of them. */
-export function changeServer(kind: ServerKind, wanted: Partial<CommunicationServerSettings>): void {
-  changes = changes.then(async () => {
-    const settings = useCommunication.getState().seen?.servers.find((each) => each.kind === kind)?.settings;
-    if (settings) await ask((instance) => rest.setCommunication(instance, kind, { ...settings, ...wanted }));
-  });
-}
-
-let changes: Promise<void> = Promise.resolve();
-
-export const breakLine = (kind: ServerKind, fault: CommunicationFault) =>
-  ask((instance) => rest.breakLine(instance, kind, fault));
-
 /** Of two answers only that of the later question counts. */
-async function ask(question: (instance: number) => Promise<Communication>): Promise<void> {
+export async function loadCommunication(): Promise<void> {
   const { instance } = useBench.getState();
   if (instance === null) return;
   turn += 1;
   const mine = turn;
   try {
-    const seen = await question(instance.id);
+    const seen = await rest.communication(instance.id);
     if (mine === turn) set({ seen, trouble: null });
   } catch (error) {
     if (mine === turn) set({ trouble: messageOf(error) });
   }
+}
+
+let changes: Promise<void> = Promise.resolve();
+
+/** Changes settings; each change begins with what the one before it made of them. */
+export const changeServer = (kind: ServerKind, wanted: Partial<CommunicationServerSettings>) =>
+  inTurn(kind, (instance) => {
+    const settings = useCommunication.getState().seen?.servers.find((each) => each.kind === kind)?.settings;
+    if (!settings) throw new Error(kind); // nobody sees a server that could be changed
+    return rest.setCommunication(instance, kind, { ...settings, ...wanted });
+  });
+
+export const breakLine = (kind: ServerKind, fault: CommunicationFault) =>
+  inTurn(kind, (instance) => rest.breakLine(instance, kind, fault));
+
+/** One change after the other. A refusal stays until the next change. */
+function inTurn(kind: ServerKind, change: (instance: number) => Promise<Communication>): void {
+  const { instance } = useBench.getState();
+  if (instance === null) return;
+  changes = changes.then(async () => {
+    try {
+      const seen = await change(instance.id);
+      turn += 1; // what was asked before the change does not know of it
+      set({ seen, refused: null });
+    } catch (error) {
+      set({ refused: { kind, message: messageOf(error) } });
+    }
+  });
 }
 
 export async function loadMap(): Promise<void> {

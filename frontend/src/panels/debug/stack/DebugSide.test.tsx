@@ -1,5 +1,6 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
+import { useDebug } from "../../../store/debug/debug";
 import { box, button, choose, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { JO, MIKA } from "../../../testing/samples";
@@ -88,6 +89,35 @@ const halt = (server: FakeServer, more: Partial<HaltInfo> = {}) => {
 };
 const section = (title: string) => screen.getByRole("region", { name: title });
 const variable = (name: string) => textOf(screen.queryByTestId(`variable:${name}`));
+
+test("what was still being read when the PLC halted again is not asked of the later halt", async () => {
+  let now = 1;
+  const asked: number[] = [];
+  const { server } = await openDebug((server) => {
+    halted(server);
+    const scope = (name: string, variablesReference: number) => ({
+      name,
+      variablesReference,
+      namedVariables: 1,
+      expensive: false,
+    });
+    server.debug("scopes", () => ({ scopes: [scope("VAR_INPUT", 10 * now), scope("VAR", 10 * now + 1)] }));
+    server.debug("variables", ({ variablesReference }) => {
+      const reference = Number(variablesReference);
+      asked.push(reference);
+      if (Math.floor(reference / 10) !== now) throw new Error(`variables ${reference} are of an earlier halt`);
+      if (now === 1) {
+        now = 2;
+        halt(server, { number: 2 });
+      }
+      return { variables: [{ name: `v${reference}`, value: "1", type: "INT", variablesReference: 0 }] };
+    });
+  });
+  halt(server);
+  await waitFor(() => expect(variable("v21")).toBe("1"));
+  expect(asked).toEqual([10, 20, 21]);
+  expect(useDebug.getState().refused).toBeNull();
+});
 
 test("the frames are listed, the caller shows its own variables; a value that is refused says so in its row", async () => {
   const { server, user } = await openDebug(halted);

@@ -8,7 +8,7 @@ const LATE = [100, 1000, 5000] as const;
 
 /** What is wrong with the line to the clients: takes effect at once, and ends with the server. */
 export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault: CommunicationFault }) {
-  const now = fault.kind ?? "none";
+  const now = fault.kind;
   return (
     <span className="field">
       <span>{t("communication.fault")}</span>
@@ -21,14 +21,14 @@ export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault
             word: t(`communication.fault.${value}`),
             title: t(`communication.fault.${value}.about`),
           }))}
-          onChoose={(value) => void breakLine(kind, { ...fault, kind: value })}
+          onChoose={(value) => breakLine(kind, { ...fault, kind: value })}
         />
         {now === "late" && (
           <Segments
             label={t("communication.late")}
-            value={`${fault.late_ms ?? 1000}`}
+            value={`${fault.late_ms}`}
             options={LATE.map((each) => ({ value: `${each}`, word: `${each} ms` }))}
-            onChoose={(value) => void breakLine(kind, { kind: "late", late_ms: Number(value) })}
+            onChoose={(value) => breakLine(kind, { kind: "late", late_ms: Number(value) })}
           />
         )}
       </span>

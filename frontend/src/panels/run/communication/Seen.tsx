@@ -2,7 +2,6 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import type { CommunicationFrame, CommunicationServer } from "../../../wire/types";
 
-const SHOWN = 50;
 const timeOf = (at: string) => at.slice(11, 23);
 
 export function Clients({ clients, of }: { clients: CommunicationServer["clients"]; of: string }) {
@@ -58,12 +57,9 @@ export function Frames({ frames, of }: { frames: readonly CommunicationFrame[]; 
               </tr>
             </thead>
             <tbody>
-              {frames
-                .slice(-SHOWN)
-                .reverse()
-                .map((frame) => (
-                  <Frame key={frame.number} frame={frame} />
-                ))}
+              {frames.toReversed().map((frame) => (
+                <Frame key={frame.number} frame={frame} />
+              ))}
             </tbody>
           </table>
         </div>

@@ -1,7 +1,8 @@
-import { useEffect, useId, useState } from "react";
-import { changeServer } from "../../../store/plc/communication";
+import { useEffect, useState } from "react";
+import { changeServer, useCommunication } from "../../../store/plc/communication";
 import { t } from "../../../text";
 import { CopyButton } from "../../../ui/CopyButton";
+import { Field } from "../../../ui/Field";
 import { Icon } from "../../../ui/Icon";
 import { Segments } from "../../../ui/Segments";
 import { Switch } from "../../../ui/Switch";
@@ -13,10 +14,12 @@ import { Clients, Frames } from "./Seen";
 export function Server({ server }: { server: CommunicationServer }) {
   const { kind, settings, listening, trouble } = server;
   const title = t(`communication.kind.${kind}`);
+  const refused = useCommunication(({ refused }) => refused?.kind === kind && refused.message);
+  const said = refused || trouble;
   return (
     <section className="comserver" aria-label={title} data-server={kind}>
       <div className="row">
-        <Switch on={settings.on ?? false} onToggle={() => changeServer(kind, { on: !settings.on })}>
+        <Switch on={settings.on} onToggle={() => changeServer(kind, { on: !settings.on })}>
           <h2>{title}</h2>
         </Switch>
         <span className="grow" />
@@ -24,10 +27,10 @@ export function Server({ server }: { server: CommunicationServer }) {
           <span className="faint num">{t("communication.persecond", { count: Math.round(server.per_second) })}</span>
         )}
       </div>
-      {trouble !== "" && (
+      {said !== "" && (
         <p className="trouble st warning" role="alert">
           <Icon name="warning" small />
-          <span>{trouble}</span>
+          <span>{said}</span>
         </p>
       )}
       {listening && <Address server={server} />}
@@ -74,26 +77,38 @@ function Settings({ kind, settings }: SettingsProps) {
         changeServer(kind, wanted);
       }}
     >
-      <Text
+      <Field
         label={t("communication.host")}
         title={t("communication.host.about")}
-        value={draft.host ?? ""}
+        look="sm"
+        mono
+        value={draft.host}
         onChange={(host) => change({ host })}
       />
-      <Count
+      <Field
         label={t("communication.port")}
         title={t("communication.port.about")}
-        value={draft.port ?? 0}
-        onChange={(port) => change({ port })}
+        look="sm comcount"
+        mono
+        number
+        value={`${draft.port}`}
+        onChange={(port) => change({ port: Number(port) })}
       />
       {kind === "fins" && (
-        <Count label={t("communication.node")} value={draft.node ?? 1} onChange={(node) => change({ node })} />
+        <Field
+          label={t("communication.node")}
+          look="sm comcount"
+          mono
+          number
+          value={`${draft.node}`}
+          onChange={(node) => change({ node: Number(node) })}
+        />
       )}
       <span className="field">
         <span>{t("communication.access")}</span>
         <Segments
           label={t("communication.access")}
-          value={draft.access ?? "read"}
+          value={draft.access}
           options={[
             { value: "read", word: t("communication.access.read") },
             { value: "write", word: t("communication.access.write") },
@@ -102,7 +117,7 @@ function Settings({ kind, settings }: SettingsProps) {
         />
       </span>
       {kind === "fins" && (
-        <Switch on={draft.error_bits ?? true} onToggle={() => change({ error_bits: !(draft.error_bits ?? true) })}>
+        <Switch on={draft.error_bits} onToggle={() => change({ error_bits: !draft.error_bits })}>
           <span title={t("communication.errorbits.about")}>{t("communication.errorbits")}</span>
         </Switch>
       )}
@@ -110,54 +125,5 @@ function Settings({ kind, settings }: SettingsProps) {
         {t("communication.apply")}
       </button>
     </form>
-  );
-}
-
-interface TextProps {
-  label: string;
-  title?: string;
-  value: string;
-  onChange: (value: string) => void;
-}
-
-function Text({ label, title, value, onChange }: TextProps) {
-  const id = useId();
-  return (
-    <span className="field">
-      <label htmlFor={id}>{label}</label>
-      <input
-        id={id}
-        className="inp sm mono"
-        title={title}
-        value={value}
-        autoComplete="off"
-        spellCheck={false}
-        onChange={(event) => onChange(event.target.value)}
-      />
-    </span>
-  );
-}
-
-interface CountProps {
-  label: string;
-  title?: string;
-  value: number;
-  onChange: (value: number) => void;
-}
-
-function Count({ label, title, value, onChange }: CountProps) {
-  const id = useId();
-  return (
-    <span className="field">
-      <label htmlFor={id}>{label}</label>
-      <input
-        id={id}
-        className="inp sm mono comcount"
-        type="number"
-        title={title}
-        value={value}
-        onChange={(event) => onChange(event.target.valueAsNumber || 0)}
-      />
-    </span>
   );
 }
