@@ -110,7 +110,7 @@ test('by keyboard alone: tour, editor, operator panel, error simulator, debugger
     await expect(mika.debug.haltedLine('Main.st')).toBeVisible();
     await keyboard.press('F11');
     await expect(mika.debug.frames).toHaveCount(2);
-    await toRow(page, mika.debug.section('Call stack'), mika.debug.frames.nth(1), 'debug');
+    await toRow(page, mika.debug.section('Call stack').getByRole('tree'), mika.debug.frames.nth(1), 'debug');
     await keyboard.press('Enter');
     await keyboard.press('Shift+F11');
     await expect(mika.debug.frames).toHaveCount(1);

@@ -14,7 +14,11 @@ export function CallStack({ halt }: { halt: HaltInfo }) {
   const you = usePlc((plc) => plc.you?.name);
   const scan = usePlc((plc) => plc.state?.scan ?? 0);
   const meta = halt.past ? t("debug.scan", { scan: grouped(scan) }) : halt.task;
-  const rows = frames.map((each, index) => frameRow(each, index, halt.past, each.id === frame));
+  const rows = frames.map((each, index) => ({
+    ...frameRow(each, index, halt.past, each.id === frame),
+    // By its depth, not by its id: the ids are new whenever the stack is read again, and the focus has to stay.
+    key: String(frames.length - index),
+  }));
   const cause = haltCause(halt);
   return (
     <Section id="stack" title={t("debug.stack")} meta={meta}>
@@ -43,11 +47,10 @@ function ByOther({ halt }: { halt: HaltInfo }) {
   );
 }
 
-function frameRow(frame: Frame, index: number, past: boolean, selected: boolean): TreeRow {
+function frameRow(frame: Frame, index: number, past: boolean, selected: boolean): Omit<TreeRow, "key"> {
   const { pou = frame.name, instance = "" } = frame.scanbench ?? {};
   const own = instance.slice(instance.lastIndexOf(".") + 1);
   return {
-    key: String(frame.id),
     level: 0,
     icon: index === 0 ? "here" : undefined,
     tone: past ? "pastc" : "haltc",

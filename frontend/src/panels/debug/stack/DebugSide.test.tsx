@@ -1,6 +1,7 @@
 import { render, screen, waitFor, within } from "@testing-library/react";
 import { expect, test } from "vitest";
 import { useDebug } from "../../../store/debug/debug";
+import { useStack } from "../../../store/debug/stack";
 import { box, button, choose, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
 import { JO, MIKA } from "../../../testing/samples";
@@ -140,6 +141,23 @@ test("the frames are listed, the caller shows its own variables; a value that is
   await user.clear(entry());
   await user.type(entry(), "500{Enter}");
   await waitFor(() => expect(variable("count")).toBe("500"));
+});
+
+test("the row with the focus keeps it when the stack is read again, with new ids", async () => {
+  let ids = 0;
+  const { server } = await openDebug((server) => {
+    halted(server);
+    const frame = (name: string, line: number) => ({ id: ++ids, name, line, column: 1 });
+    server.debug("stackTrace", () => ({ stackFrames: [frame("Counter", 7), frame("Main", 20)] }));
+  });
+  const rows = () => within(screen.getByRole("tree", { name: t("debug.stack") })).getAllByRole("treeitem");
+  halt(server);
+  await waitFor(() => expect(rows()).toHaveLength(2));
+  rows()[1]?.focus();
+  halt(server);
+  await waitFor(() => expect(ids).toBe(4));
+  await waitFor(() => expect(useStack.getState().frame).toBe(3));
+  expect(document.activeElement).toBe(rows()[1]);
 });
 
 test("two people: who made it halt is said, the way there is one click; whose breakpoint it is, too", async () => {
