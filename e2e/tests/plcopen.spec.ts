@@ -47,3 +47,27 @@ test('a PLCopen file becomes a project that runs, drawn; what is not as it was i
     await expect(sheet.locator('.el.on')).toHaveCount(6);
   });
 });
+
+const L5X = readFileSync(new URL('../../backend/tests/syntax/l5x/line.L5X', import.meta.url), 'utf8');
+
+test('a file of Studio 5000 becomes a project that runs; which routines were left out is told', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const { page } = mika;
+  const dialog = page.getByRole('dialog', { name: 'New project' });
+  await mika.top.picker.click();
+  await page.getByRole('menuitem', { name: 'New project…' }).click();
+  await dialog
+    .getByLabel(/^Program files/)
+    .setInputFiles({ name: 'line.L5X', mimeType: 'application/xml', buffer: Buffer.from(L5X, 'utf8') });
+  await expect(dialog.getByRole('list', { name: 'What is not as it was' })).toContainText(
+    'MainProgram.Drawn: the routine Drawn is written in FBD; it is left out',
+  );
+  await dialog.getByRole('button', { name: 'Create' }).click();
+  await expect(mika.top.picker).toContainText('Line');
+  await mika.runs();
+  await mika.watch.add('MainProgram_1.Delay.DN');
+  await mika.watch.shows('MainProgram_1.Delay.DN', 'TRUE');
+});

@@ -37,6 +37,8 @@ class Allowance(Enum):
     VENDOR_TYPES = auto()
     FINAL_INTERFACES = auto()
     LABELS = auto()
+    ROUNDING = auto()
+    DINT_RESULTS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,6 +159,16 @@ RULES: dict[Allowance, Rule] = {
         "there are no jumps in Structured Text",
         "IF and loops",
     ),
+    Allowance.ROUNDING: Rule(
+        "a REAL or LREAL where an integer is wanted: the nearest one is taken, of two the even one",
+        "only what loses nothing is converted without a name",
+        "`d := REAL_TO_DINT(r)`",
+    ),
+    Allowance.DINT_RESULTS: Rule(
+        "SINT, INT, USINT and UINT are calculated with as DINT, and integers beside a REAL as REAL",
+        "a result has the type that its operands have in common",
+        "`INT_TO_DINT(i) + INT_TO_DINT(j)`",
+    ),
 }
 
 
@@ -171,7 +183,9 @@ class Dialect:
     """Names of libraries, in upper case, that mean nothing before a name: their texts are among the project's own."""
 
 
-_CODESYS = frozenset(Allowance)
+_LOGIX = frozenset({Allowance.ROUNDING, Allowance.DINT_RESULTS})
+"""What CODESYS does not have."""
+_CODESYS = frozenset(Allowance) - _LOGIX
 DIALECTS: dict[DialectName, Dialect] = {
     each.name: each
     for each in (
@@ -179,7 +193,11 @@ DIALECTS: dict[DialectName, Dialect] = {
         Dialect("codesys", "CODESYS", _CODESYS, frozenset({"STANDARD"})),
         Dialect("twincat", "TwinCAT", _CODESYS, frozenset({"TC2_STANDARD", "STANDARD"})),
         Dialect("siemens", "Siemens SCL", frozenset({Allowance.CHAINED_ASSIGNMENT})),
-        Dialect("rockwell", "Rockwell Logix", frozenset({Allowance.INTEGER_BITS})),
+        Dialect(
+            "rockwell",
+            "Rockwell Logix",
+            _LOGIX | {Allowance.INTEGER_BITS, Allowance.NARROWING, Allowance.REAL_CONVERSION},
+        ),
         Dialect("omron", "Omron Sysmac"),
     )
 }

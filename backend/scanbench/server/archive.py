@@ -16,15 +16,14 @@ from html import escape
 from pathlib import PurePosixPath
 from uuid import NAMESPACE_URL, uuid5
 
+from scanbench.server.foreign_archive import is_foreign, notes, read_foreign
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.operator_panels import is_panel_file
-from scanbench.server.plcopen_archive import notes, read_plcopen
 from scanbench.server.project_files import OWN_FILES
 from scanbench.server.twincat_project import ENDING, TwinCatProject, is_twincat_project, read_twincat_project
+from scanbench.syntax.imported import Project
 from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
-from scanbench.syntax.plcopen.document import is_plcopen
-from scanbench.syntax.plcopen.project import Project
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
 
@@ -55,7 +54,7 @@ class Archive:
     dialect: DialectName = STRICT
     """The one that its programs are probably written in, where no file of it says so; of what Scanbench packed the strict one."""
     notes: tuple[str, ...] = ()
-    """Of a PLCopen file what could not be kept as it was."""
+    """Of a PLCopen or L5X file what could not be kept as it was."""
     twincat: tuple[TwinCatProject, ...] = ()
     """What the project files of TwinCAT say that are in it; of what Scanbench packed none."""
 
@@ -108,9 +107,9 @@ def _windows(path: str) -> str:
 
 
 def unpack(data: bytes) -> Archive:
-    """What an archive, or a PLCopen file, has; `Refused` where it is none, too large, or without a program."""
-    if is_plcopen(data):
-        return _of_plcopen(read_plcopen(data))
+    """What an archive, or a PLCopen or L5X file, has; `Refused` where it is none, too large, or without a program."""
+    if is_foreign(data):
+        return _of_foreign(read_foreign(data))
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return _unpacked(archive)
@@ -126,7 +125,7 @@ def unpack(data: bytes) -> Archive:
         raise Refused(f"this is no zip file that can be read: {error}") from error
 
 
-def _of_plcopen(made: Project) -> Archive:
+def _of_foreign(made: Project) -> Archive:
     return Archive(made.name, "", (), made.files, {}, (), guess_dialect(made.files), notes=tuple(notes(made)))
 
 

@@ -13,8 +13,7 @@ BINARY = ("PK\x03\x04", "\xd0\xcf\x11\xe0", "\ufffd\ufffd\x11\ufffd")
 """How archives begin, and the compound files of older tools; also where their bytes were no text."""
 ROOTS = {
     "rslogix5000content": (
-        "This is a file of Rockwell's Studio 5000 (L5X), which is not read. Copy its Structured Text into a file .st, and "
-        "declare its tags in VAR_GLOBAL."
+        "This is a file of Rockwell's Studio 5000 (L5X). Import it: `scanbench import FILE DIR`, or New project in the page."
     ),
     "exportfile": "This is an export of CODESYS (.export), which is not read. Copy the declarations and statements into a file .st.",
     "document": "This is a file of the TIA Portal, which is not read. Copy the declarations and statements into a file .st.",

@@ -27,7 +27,7 @@ class ProjectArchive(Wire):
     model: str = Field(description="the same")
     files: list[str]
     left_out: list[str] = Field(description="no programs, or not compiled by their TwinCAT project")
-    notes: list[str] = Field(description="of a PLCopen file: what could not be kept as it was, by POU")
+    notes: list[str] = Field(description="of a PLCopen or L5X file: what could not be kept as it was, by POU")
 
 
 class ProjectDialect(Wire):

@@ -68,7 +68,8 @@ USES = [
     (Allowance.VENDOR_OPERATORS, "s := __POUNAME();", "'Main'"),
     (Allowance.VENDOR_OPERATORS, "i := XSIZEOF(d);", "SIZEOF(...)"),
     (Allowance.VENDOR_OPERATORS, "i := SIZEOF(POINTER TO INT);", "`8`"),
-    (Allowance.LABELS, "again: i := i + 1; IF i < j THEN JMP again; END_IF", "IF and loops"),
+    (Allowance.LABELS, "again: IF i < j THEN i := j; JMP again; END_IF", "IF and loops"),
+    (Allowance.ROUNDING, "d := r;", "REAL_TO_DINT(...)"),
     (Allowance.BLOCK_VARIABLES, "i := unit.level;", "VAR_OUTPUT"),
 ]
 """What the strict language refuses, and a dialect allows; and what the warning says to write."""
@@ -79,7 +80,6 @@ DIFFERENT = [
 """What the strict language warns of, as it means something different."""
 
 REFUSED = [
-    "i := r;",
     "ok := i;",
     "i := ok;",
     "i := SHR(i, 1);",  # zeros or the sign?
@@ -136,7 +136,7 @@ def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refuse
 
 APART = {
     Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES, Allowance.VENDOR_TYPES,
-    Allowance.FINAL_INTERFACES,
+    Allowance.FINAL_INTERFACES, Allowance.DINT_RESULTS,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

@@ -30,8 +30,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * What a zip file has of a project, of Scanbench, TwinCAT or plain files, or a PLCopen file; keeps nothing
-         * @description What a zip file has of a project, of Scanbench, TwinCAT or plain files, or a PLCopen file; keeps nothing. The body is the file.
+         * What a zip file has of a project, of Scanbench, TwinCAT or plain files, or a PLCopen or L5X file; keeps nothing
+         * @description What a zip file has of a project, of Scanbench, TwinCAT or plain files, or a PLCopen or L5X file; keeps nothing. The body is the file.
          */
         post: operations["create_archive"];
         delete?: never;
@@ -50,8 +50,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * A new project with the files of a zip file or a PLCopen file, which is the body
-         * @description A new project with the files of a zip file or a PLCopen file, which is the body. They are not built yet.
+         * A new project with the files of a zip file or a PLCopen or L5X file, which is the body
+         * @description A new project with the files of a zip file or a PLCopen or L5X file, which is the body. They are not built yet.
          */
         post: operations["create_archives_project"];
         delete?: never;
@@ -6287,7 +6287,7 @@ export interface components {
             name: string;
             /**
              * Notes
-             * @description of a PLCopen file: what could not be kept as it was, by POU
+             * @description of a PLCopen or L5X file: what could not be kept as it was, by POU
              */
             notes: string[];
         };

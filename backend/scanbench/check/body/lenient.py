@@ -11,7 +11,7 @@ from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
 from scanbench.program.shown import OPERATORS
-from scanbench.program.types import ELEMENTARY, REAL, Elementary, Enumeration, Kind, Subrange, Type, base_of
+from scanbench.program.types import DINT, ELEMENTARY, REAL, Elementary, Enumeration, Kind, Subrange, Type, base_of
 from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped
 
 INTEGRAL = (*WHOLE, Kind.BITS)
@@ -140,8 +140,27 @@ def inverted(body: Body, expr: Expr, span: Span) -> Expr | None:
     return fold.convert(type, fold.unary("not", bits, fold.convert(bits, expr)))
 
 
+def as_calculated(body: Body, left: Expr, right: Expr) -> tuple[Expr, Expr]:
+    """Operands of a calculation or comparison as the numbers that Logix calculates with: DINT for what is smaller, REAL beside a REAL."""
+    if not may(body, Allowance.DINT_RESULTS):
+        return left, right
+    real = any(each.type in (REAL, ANY_REAL) for each in (left, right))
+    return _calculated(left, real), _calculated(right, real)
+
+
+def _calculated(expr: Expr, real: bool) -> Expr:
+    type = expr.type
+    if is_untyped(expr) or not isinstance(type, Elementary) or type.kind not in WHOLE:
+        return expr
+    if real:
+        return fold.convert(REAL, expr)
+    return fold.convert(DINT, expr) if type.size < DINT.size else expr
+
+
 def negative(body: Body, type: Elementary, operand: Expr) -> Expr:
-    """`-x`, in 64 bits where the dialect has sums so."""
+    """`-x`, in as many bits as the dialect has for sums."""
+    operand, _ = as_calculated(body, operand, operand)
+    type = operand.type if isinstance(operand.type, Elementary) else type
     if type.kind is Kind.INT and type.size and may(body, Allowance.WIDE_RESULTS):
         return wide.cut(body, type, fold.unary("neg", wide.wide_of(type), wide.sixty_four(body, type, operand)))
     return fold.unary("neg", type, operand)
@@ -229,6 +248,8 @@ def _allowance(source: Elementary, target: Elementary) -> Allowance | None:
         return Allowance.NARROWING if Kind.BITS not in (source.kind, target.kind) else Allowance.BIT_CONVERSION
     if target.kind is Kind.REAL and source.kind in INTEGRAL:
         return Allowance.REAL_CONVERSION
+    if source.kind is Kind.REAL and target.kind in WHOLE:
+        return Allowance.ROUNDING
     return Allowance.REAL_CONVERSION if source.kind is Kind.REAL and target == REAL else None
 
 

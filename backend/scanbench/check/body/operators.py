@@ -5,7 +5,7 @@ from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.joining_hint import joining_hint
-from scanbench.check.body.lenient import LOGIC, counted, index, logical
+from scanbench.check.body.lenient import LOGIC, as_calculated, counted, index, logical
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
 from scanbench.check.body.references import compare_references, pointer_arithmetic
 from scanbench.check.body.subrange_checks import plain
@@ -54,6 +54,8 @@ def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Ty
     if op in LOGIC and (made := logical(body, op, left, right, span)) is not None:
         return made
     left, right, bits = counted(body, op, left, right, span)
+    if op not in LOGIC:
+        left, right = as_calculated(body, left, right)
     left, right, type = _same(body, op, left, right, span, wanted)
     if op in LOGIC:
         fits = type.kind in (Kind.BOOL, Kind.BITS) or type == ANY_INT
@@ -87,6 +89,7 @@ def _compare(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
             "T002", f"`{OPERATORS[op]}` cannot join {a} and {b}: they are different enumerations.", span
         )
     left, right, _ = counted(body, op, _number(left), _number(right), span)
+    left, right = as_calculated(body, left, right)
     left, right, type = _same(body, op, left, right, span)
     if wide.is_wide(body, left, right):
         left, right = wide.sixty_four(body, type, left), wide.sixty_four(body, type, right)

@@ -22,6 +22,7 @@ FOLDER = "libraries"
 SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "CAA": ("codesys",),
     "FILE": ("codesys",),
+    "Logix": ("rockwell",),
     "Standard64": ("codesys", "twincat"),
     "Tc2_MC2": ("twincat",),
     "Tc2_Math": ("twincat",),

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from scanbench.syntax.plcopen import notes
-from scanbench.syntax.plcopen.document import Element, attribute, child, children, kind
 from scanbench.syntax.plcopen.elements import Thing, things_in
+from scanbench.syntax.xml_tree import Element, attribute, child, children, kind
 
 INDENT = "    "
 BodyText = Callable[[Element], str]

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from scanbench.syntax.plcopen.document import Element, attribute, child, children, kind, text_of
+from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, text_of
 
 SECTIONS = {
     "inputVars": "VAR_INPUT", "outputVars": "VAR_OUTPUT", "inOutVars": "VAR_IN_OUT", "localVars": "VAR",

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from scanbench.syntax.plcopen.document import Element, attribute, child, children, kind, line_of, text_of
+from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, line_of, text_of
 
 SOURCES = ("leftPowerRail", "inVariable", "continuation")
 SINKS = ("coil", "outVariable", "jump", "return", "connector", "rightPowerRail")

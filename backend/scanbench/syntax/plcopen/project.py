@@ -1,9 +1,9 @@
 """A PLCopen file (TC6 1.01, 2.0, 2.01) -> the files of a project, and what became of each POU."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from itertools import count
 
+from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 from scanbench.syntax.plcopen import notes
 from scanbench.syntax.plcopen.chart import Chart, expression
@@ -15,47 +15,17 @@ from scanbench.syntax.plcopen.declarations import (
     type_text,
 )
 from scanbench.syntax.plcopen.diagram import Diagram
-from scanbench.syntax.plcopen.document import (
-    Element,
-    attribute,
-    child,
-    children,
-    kind,
-    line_of,
-    own_data,
-    parse,
-    text_of,
-)
+from scanbench.syntax.plcopen.document import own_data, parse
 from scanbench.syntax.plcopen.elements import Thing, networks_of, things_in
 from scanbench.syntax.plcopen.ladder import NoLadder, Rung
+from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, line_of, text_of
 
 WORDS = {"functionBlock": "FUNCTION_BLOCK", "function": "FUNCTION", "program": "PROGRAM"}
 LANGUAGES = ("ST", "IL", "LD", "FBD", "SFC")
 
 
-@dataclass(slots=True)
-class Read:
-    """What became of one POU."""
-
-    pou: str
-    line: int
-    language: str
-    notes: list[str] = field(default_factory=list)
-    """What is not as it was; empty: all of it is."""
-    refused: bool = False
-
-
-@dataclass(slots=True)
-class Project:
-    """The files that were made, by path, and what became of each POU."""
-
-    name: str
-    files: dict[str, str] = field(default_factory=dict)
-    pous: list[Read] = field(default_factory=list)
-
-
 def read_project(data: bytes) -> Project:
-    """Raises `BadPlcOpen` where the file cannot be read at all."""
+    """Raises `BadXml` where the file cannot be read at all."""
     root = parse(data)
     made = Project(attribute(child(root, "contentHeader"), "name") or "PLCopen")
     types = "".join(type_declaration(each) for each in children(child(root, "types", "dataTypes"), "dataType"))

@@ -13,13 +13,13 @@ from scanbench.syntax.lexer import tokenize
 from scanbench.syntax.networks import NetworkBody, Rung
 from scanbench.syntax.parse_file import is_program_file, parse_file
 from scanbench.syntax.parse_type import POU_ENDS
-from scanbench.syntax.plcopen.document import Element
 from scanbench.syntax.plcopen.write_chart import paragraph, write_chart
 from scanbench.syntax.plcopen.write_declarations import write_initial, write_sections, write_type
 from scanbench.syntax.plcopen.write_diagram import DiagramWriter
 from scanbench.syntax.plcopen.write_ladder import LadderWriter
 from scanbench.syntax.plcopen.write_objects import CannotWrite, Known, Objects, add, text
 from scanbench.syntax.source import Source, Stretch
+from scanbench.syntax.xml_tree import Element
 
 XHTML = "http://www.w3.org/1999/xhtml"
 NAMESPACE = "http://www.plcopen.org/xml/tc6_0201"

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from scanbench.syntax import chart, networks
-from scanbench.syntax.plcopen.document import Element
 from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Objects, add, text
+from scanbench.syntax.xml_tree import Element
 
 
 def write_chart(objects: Objects, written: chart.Chart) -> None:

@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 
 from scanbench.syntax import tree
-from scanbench.syntax.plcopen.document import Element
 from scanbench.syntax.plcopen.write_objects import CannotWrite, add, text
+from scanbench.syntax.xml_tree import Element
 
 SECTIONS = {
     "VAR_INPUT": "inputVars", "VAR_OUTPUT": "outputVars", "VAR_IN_OUT": "inOutVars", "VAR": "localVars",

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from lxml import etree
 
 from scanbench.syntax import tree
-from scanbench.syntax.plcopen.document import Element
 from scanbench.syntax.source import Stretch
+from scanbench.syntax.xml_tree import Element
 
 End = tuple[str, str]
 """An object, and its output; empty for the only one."""

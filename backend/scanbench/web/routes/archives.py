@@ -38,7 +38,7 @@ async def on_templates() -> list[ProjectTemplate]:
 
 @router.post("/archives")
 async def on_look(request: Request) -> ProjectArchive:
-    """What a zip file has of a project, of Scanbench, TwinCAT or plain files, or a PLCopen file; keeps nothing. The body is the file."""
+    """What a zip file has of a project, of Scanbench, TwinCAT or plain files, or a PLCopen or L5X file; keeps nothing. The body is the file."""
     found = await asyncio.to_thread(unpack, await _body(request))
     return ProjectArchive(
         name=found.name,
@@ -51,7 +51,7 @@ async def on_look(request: Request) -> ProjectArchive:
 
 @router.post("/archives/projects", status_code=201)
 async def on_unpack(bench: Bench, request: Request, name: str, model: str) -> wire.Project:
-    """A new project with the files of a zip file or a PLCopen file, which is the body. They are not built yet."""
+    """A new project with the files of a zip file or a PLCopen or L5X file, which is the body. They are not built yet."""
     if not 0 < len(name.strip()) <= 100:
         raise Refused("the name of the project must have 1 to 100 characters")
     archive = await asyncio.to_thread(unpack, await _body(request))

@@ -7,8 +7,9 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
-from scanbench.syntax.plcopen.document import BadPlcOpen, is_plcopen
+from scanbench.syntax.plcopen.document import is_plcopen
 from scanbench.syntax.plcopen.project import read_project
+from scanbench.syntax.xml_tree import BadXml
 from tests.caseformat import MODELS, find, first_difference, write
 
 LINE = (Path(__file__).parent / "line.xml").read_bytes()
@@ -96,12 +97,12 @@ def test_the_versions_are_known(version: bytes) -> None:
     ("data", "why"),
     [
         (LINE[:2000], "this is no XML: "),
-        (LINE.replace(b"<project ", b"<other ").replace(b"</project>", b"</other>"), "not with <other>"),
+        (LINE.replace(b"<project ", b"<other ").replace(b"</project>", b"</other>"), "begins with <other>"),
         (LINE.replace(b"<project ", b'<!DOCTYPE project [<!ENTITY a "b">]><project ', 1), "DOCTYPE"),
     ],
 )
 def test_what_is_none_is_refused(data: bytes, why: str) -> None:
-    with pytest.raises(BadPlcOpen, match=why):
+    with pytest.raises(BadXml, match=why):
         read_project(data)
 
 
@@ -112,6 +113,6 @@ def test_no_part_that_is_missing_breaks_it(cut: int) -> None:
     begin = LINE.find(b"<", cut)
     try:
         made = read_project(LINE[:begin] + LINE[end + 1 :])
-    except BadPlcOpen:
+    except BadXml:
         return
     check_sources(made.files, MODELS["GENERIC-IEC"])

@@ -247,7 +247,7 @@ export const plc = {
   "state.readonly": "scan {scan}, read-only",
   "state.switchedoff": "switched off",
   "newproject.archive":
-    "Program files (optional): a zip file of a project of Scanbench or TwinCAT or of plain files, or a PLCopen file (XML)",
+    "Program files (optional): a zip file of a project of Scanbench or TwinCAT or of plain files, or a file of PLCopen (XML) or Studio 5000 (L5X)",
   "newproject.archive.has": "{count} files",
   "newproject.archive.left": "{count} files; {left} other files are left out: {names}",
   "folderout.about":

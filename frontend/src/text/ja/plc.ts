@@ -246,7 +246,7 @@ export const plc: Record<keyof typeof english, string> = {
   "state.readonly": "スキャン {scan}、読み出し専用",
   "state.switchedoff": "電源オフ",
   "newproject.archive":
-    "プログラムファイル（任意）: Scanbench または TwinCAT のプロジェクト、ファイルの zip、または PLCopen ファイル (XML)",
+    "プログラムファイル（任意）: Scanbench または TwinCAT のプロジェクト、ファイルの zip、PLCopen ファイル (XML)、または Studio 5000 のファイル (L5X)",
   "newproject.archive.has": "ファイル {count} 件",
   "newproject.archive.left": "ファイル {count} 件。ほかの {left} 件は取り込みません: {names}",
   "folderout.about": "サーバーに保存済みのプロジェクトのファイルです。フォルダ内のほかのファイルは変更しません。",

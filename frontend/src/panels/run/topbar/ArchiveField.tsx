@@ -14,7 +14,7 @@ interface Props {
 /** Nothing; a file that is being looked at, or that has no project; a file and what it has. */
 export type Chosen = "none" | "not yet" | { file: File; found: ProjectArchive };
 
-/** Asks for a zip file or a PLCopen file with the files of a new project, and tells what it has. */
+/** Asks for a zip, PLCopen or L5X file with the files of a new project, and tells what it has. */
 export function ArchiveField({ dropped = null, onChoose }: Props) {
   const [found, setFound] = useState<ProjectArchive | null>(null);
   const [refused, setRefused] = useState<string | null>(null);
@@ -47,7 +47,7 @@ export function ArchiveField({ dropped = null, onChoose }: Props) {
       <span>{t("newproject.archive")}</span>
       <input
         type="file"
-        accept=".zip,.xml"
+        accept=".zip,.xml,.l5x"
         className="inp file"
         aria-invalid={refused !== null}
         onChange={({ target }) => {

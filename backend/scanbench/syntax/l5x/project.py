@@ -1,0 +1,196 @@
+"""An L5X file -> the files of a project, and what became of each routine."""
+
+import re
+from collections.abc import Iterable, Iterator
+
+from scanbench.syntax.imported import Project, Read
+from scanbench.syntax.l5x import notes
+from scanbench.syntax.l5x.declarations import data_type, section, sections, types_of_data
+from scanbench.syntax.l5x.names import ELEMENTARY, name_of
+from scanbench.syntax.l5x.statements import Known, Parameter, statements
+from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
+from scanbench.syntax.xml_tree import Element, attribute, child, children, line_of, parse_xml, text_of
+
+ROOT = "RSLogix5000Content"
+LANGUAGES = {"RLL": "LD", "FBD": "FBD", "SFC": "SFC", "ST": "ST"}
+_ONLY_CALL = re.compile(r"\s*JSR\(\s*(\w+)\s*(?:,\s*0\s*)?\)\s*;\s*$")
+_HEAD = re.compile(rb"<RSLogix5000Content\b")
+
+
+def is_l5x(data: bytes) -> bool:
+    """Whether the beginning of a file says that it is one of Studio 5000."""
+    return _HEAD.search(data[:4000]) is not None
+
+
+def read_project(data: bytes) -> Project:
+    """Raises `BadXml` where the file cannot be read at all."""
+    controller = child(parse_xml(data, ROOT), "Controller")
+    return _Reader(controller).read()
+
+
+class _Reader:
+    """One controller, or a part of one that was exported alone."""
+
+    def __init__(self, controller: Element | None) -> None:
+        self._controller = controller
+        self._made = Project(attribute(controller, "Name") or "Logix")
+        self._instructions = {
+            attribute(each, "Name").upper(): _required(each)
+            for each in self._all("AddOnInstructionDefinitions", "AddOnInstructionDefinition")
+        }
+        self._tags = [*self._all("Tags", "Tag"), *_module_tags(controller)]
+
+    def read(self) -> Project:
+        for each in self._all("AddOnInstructionDefinitions", "AddOnInstructionDefinition"):
+            self._file(attribute(each, "Name"), self._add_on(each))
+        for each in self._all("Programs", "Program"):
+            self._file(attribute(each, "Name"), self._program(each))
+        self._file("Types", self._types())
+        self._file("Tags", sections("VAR_GLOBAL", self._tags))
+        self._file("Configuration", self._configuration())
+        if self._made.files:
+            self._made.files[LANGUAGE_FILE] = language_text("rockwell")
+        return self._made
+
+    def _all(self, *path: str) -> Iterator[Element]:
+        yield from children(child(self._controller, *path[:-1]), path[-1])
+
+    def _file(self, name: str, text: str) -> None:
+        if text:
+            self._made.files[f"{name}.st"] = text
+
+    def _types(self) -> str:
+        known = {*self._instructions, *ELEMENTARY}
+        text = ""
+        for each in self._all("DataTypes", "DataType"):
+            known.add(attribute(each, "Name").upper())
+            text += data_type(each)
+        programs = [tag for each in self._all("Programs", "Program") for tag in children(child(each, "Tags"), "Tag")]
+        text += "".join(types_of_data([*self._tags, *programs], known))
+        return f"TYPE\n{text}END_TYPE\n" if text else ""
+
+    def _add_on(self, node: Element) -> str:
+        """An Add-On Instruction is a function block."""
+        name = attribute(node, "Name")
+        parameters = list(children(child(node, "Parameters"), "Parameter"))
+        of = {
+            usage: [each for each in parameters if attribute(each, "Usage") == usage]
+            for usage in ("Input", "Output", "InOut")
+        }
+        declared = (
+            section("VAR_INPUT", (each for each in of["Input"] if attribute(each, "TagType") != "Alias"))
+            + section("VAR_OUTPUT", (each for each in of["Output"] if attribute(each, "TagType") != "Alias"))
+            + section("VAR_IN_OUT", of["InOut"])
+            + section("VAR", children(child(node, "LocalTags"), "LocalTag"))
+        )
+        known = Known(_aliases(parameters), {}, self._instructions)
+        body = ""
+        for routine in children(child(node, "Routines"), "Routine"):
+            read = self._read(f"{name}.{attribute(routine, 'Name')}", routine)
+            if attribute(routine, "Name").upper() == "LOGIC":
+                body = _text(routine, known, read)
+            elif not read.refused:
+                read.notes.append(notes.unused(attribute(routine, "Name")))
+        return f"FUNCTION_BLOCK {name_of(name)}\n{declared}{body}END_FUNCTION_BLOCK\n"
+
+    def _program(self, node: Element) -> str:
+        """A program, whose routines are its actions."""
+        name, main = attribute(node, "Name"), attribute(node, "MainRoutineName").upper()
+        tags = list(children(child(node, "Tags"), "Tag"))
+        routines = list(children(child(node, "Routines"), "Routine"))
+        taken = {attribute(each, "Name").upper() for each in tags}
+        actions = {(found := attribute(each, "Name")).upper(): _action(found, taken) for each in routines}
+        known = Known(_aliases([*self._tags, *tags]), actions, self._instructions)
+        body, rest = "", ""
+        for routine in routines:
+            of = attribute(routine, "Name")
+            read = self._read(f"{name}.{of}", routine)
+            text = _text(routine, known, read)
+            if of.upper() == main:
+                body = text
+            elif not read.refused:
+                rest += f"ACTION {actions[of.upper()]}:\n{text}END_ACTION\n"
+        return f"PROGRAM {name_of(name)}\n{sections('VAR', tags)}{rest}{body}END_PROGRAM\n"
+
+    def _read(self, name: str, routine: Element) -> Read:
+        type = attribute(routine, "Type")
+        read = Read(name, line_of(routine), LANGUAGES.get(type, type))
+        self._made.pous.append(read)
+        if next(children(routine, "EncodedData"), None) is not None or attribute(routine, "EncryptionConfig"):
+            read.notes.append(notes.protected(attribute(routine, "Name")))
+            read.refused = True
+        elif type != "ST" and not _calls_only(routine):
+            read.notes.append(notes.other_language(attribute(routine, "Name"), read.language))
+            read.refused = True
+        return read
+
+    def _configuration(self) -> str:
+        tasks, programs = "", ""
+        have = {attribute(each, "Name") for each in self._all("Programs", "Program")}
+        for task in self._all("Tasks", "Task"):
+            named = name_of(attribute(task, "Name"))
+            rate = attribute(task, "Rate") if attribute(task, "Type") == "PERIODIC" else ""
+            interval = f"INTERVAL := T#{rate}ms, " if rate else ""
+            own = [attribute(each, "Name") for each in children(child(task, "ScheduledPrograms"), "ScheduledProgram")]
+            own = [each for each in own if each in have]
+            if own:
+                tasks += f"TASK {named}({interval}PRIORITY := {attribute(task, 'Priority', '10')});\n"
+            programs += "".join(f"PROGRAM {name_of(each)}_1 WITH {named} : {name_of(each)};\n" for each in own)
+        if not programs:
+            return ""
+        return f"CONFIGURATION Config\nRESOURCE Controller ON PLC\n{tasks}{programs}END_RESOURCE\nEND_CONFIGURATION\n"
+
+
+def _required(node: Element) -> list[Parameter]:
+    return [
+        Parameter(attribute(each, "Name"), attribute(each, "Usage"))
+        for each in children(child(node, "Parameters"), "Parameter")
+        if attribute(each, "Required") == "true" or attribute(each, "Usage") == "InOut"
+    ]
+
+
+def _module_tags(controller: Element | None) -> Iterator[Element]:
+    """The tags of inputs and outputs, which have the name of their module: `Local:1:I`."""
+    for module in children(child(controller, "Modules"), "Module"):
+        owner, slot = attribute(module, "ParentModule"), ""
+        for port in children(child(module, "Ports"), "Port"):
+            slot = slot or attribute(port, "Address")
+        for each in module.iter("InputTag", "OutputTag", "ConfigTag"):
+            letter = {"InputTag": "I", "OutputTag": "O", "ConfigTag": "C"}[str(each.tag)]
+            base = attribute(module, "Name") if attribute(module, "Name") and owner != "Local" else f"{owner}:{slot}"
+            each.set("Name", f"{base}:{letter}")
+            structure = next(each.iter("Structure"), None)
+            each.set("DataType", attribute(structure, "DataType"))
+            if structure is not None:
+                yield each
+
+
+def _aliases(tags: Iterable[Element]) -> dict[str, str]:
+    return {
+        attribute(each, "Name").upper(): attribute(each, "AliasFor")
+        for each in tags
+        if attribute(each, "TagType") == "Alias" and attribute(each, "AliasFor")
+    }
+
+
+def _action(routine: str, taken: set[str]) -> str:
+    """The name of its action; a tag may have the same name as a routine, a variable and an action may not."""
+    return f"{name_of(routine)}_routine" if routine.upper() in taken else name_of(routine)
+
+
+def _calls_only(routine: Element) -> bool:
+    """Whether a ladder does nothing but call routines, whatever its conditions are not."""
+    rungs = [text_of(child(each, "Text")) for each in children(child(routine, "RLLContent"), "Rung")]
+    return bool(rungs) and all(_ONLY_CALL.match(each) for each in rungs)
+
+
+def _text(routine: Element, known: Known, read: Read) -> str:
+    if read.refused:
+        return ""
+    if attribute(routine, "Type") == "ST":
+        lines = "\n".join(text_of(each) for each in children(child(routine, "STContent"), "Line"))
+        text = statements(lines, known, read.notes).strip("\n")
+    else:
+        rungs = (text_of(child(each, "Text")) for each in children(child(routine, "RLLContent"), "Rung"))
+        text = "\n".join(statements(each.strip(), known, read.notes) for each in rungs)
+    return f"{text}\n" if text.strip() else ""

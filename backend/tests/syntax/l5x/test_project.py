@@ -1,0 +1,135 @@
+"""A file of Studio 5000 as a project: what its Structured Text computes, and what cannot be read is told."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scanbench.check.build import check_sources
+from scanbench.check.libraries.catalogue import used_libraries
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.problems import Severity
+from scanbench.syntax.l5x.project import is_l5x, read_project
+from scanbench.syntax.l5x.statements import Known, Parameter, statements
+from scanbench.syntax.xml_tree import BadXml
+from tests.amounts import amount
+from tests.caseformat import MODELS, find, first_difference
+
+LINE = (Path(__file__).parent / "line.L5X").read_bytes()
+
+
+def test_all_of_a_project_is_kept() -> None:
+    made = read_project(LINE)
+    assert is_l5x(LINE)
+    assert made.name == "Line"
+    assert list(made.files) == [
+        "Scale.st", "MainProgram.st", "Types.st", "Tags.st", "Configuration.st", "language.json",
+    ]  # fmt: skip
+    assert [(each.pou, each.language, each.refused) for each in made.pous] == [
+        ("Scale.Logic", "ST", False), ("MainProgram.MainRoutine", "LD", False), ("MainProgram.Calc", "ST", False),
+        ("MainProgram.Strings", "ST", False), ("MainProgram.Drawn", "FBD", True),
+    ]  # fmt: skip
+    assert [each.notes for each in made.pous if each.notes] == [
+        ["`[:=]` is `:=` here: the variable keeps its value over a restart"],
+        ["the routine Drawn is written in FBD; it is left out"],
+    ]
+    tags = made.files["Tags.st"]
+    assert "    Motors : ARRAY[0..1] OF Motor := [(Speed := 7, Samples := [0.0, 2.5, 0.0, 1.0e+002])];\n" in tags
+    assert "VAR_GLOBAL CONSTANT\n    Mask : DINT := -16;\n" in tags
+    assert "    Local_1_I : AB_1769_IQ16_I_0;\n" in tags
+
+
+def test_it_runs_on_both_engines_with_the_values_of_logix() -> None:
+    files = read_project(LINE).files
+    files |= {each.path: each.text for each in used_libraries(files, "rockwell")}
+    checked = check_sources(files, MODELS["GENERIC-IEC"])
+    assert [each for each in checked.problems if each.severity is Severity.ERROR] == []
+    program = checked.program
+    assert program is not None
+    memories = [bytearray(program.initial_image) for _ in range(2)]
+    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
+    for _ in range(7):
+        for engine in engines:
+            engine.run(1)
+        assert not first_difference(program, *memories)
+
+    def value(name: str) -> str:
+        return find(program, name, memories[0])[2]
+
+    main = "MainProgram_1"
+    assert {name: value(f"{main}.{name}") for name in ("Half", "Reading", "Logged[1]", "Masked", "Calc")} == {
+        "Half": "4", "Reading": "10.5", "Logged[1]": "10", "Masked": "0", "Calc": "46666",
+    }  # fmt: skip
+    assert (value(f"{main}.Delay.DN"), value("Motors[1].Run"), value(f"{main}.Copy[0].Speed")) == ("TRUE", "TRUE", "7")
+    assert (value(f"{main}.Text.LEN"), value(f"{main}.Where")) == ("5", "4")
+
+
+@settings(max_examples=amount(2000, 200), deadline=None)
+@given(st.lists(st.sampled_from([*"ab1.:=[](),;'$/*\\\n#T", "Valve(", "JSR(", "(*", "*)"])).map("".join))
+def test_any_text_is_written(text: str) -> None:
+    told: list[str] = []
+    written = statements(text, KNOWN, told)
+    assert statements(text, KNOWN, told) == written
+
+
+KNOWN = Known(
+    aliases={"DOOR": "Local:1:I.Data.3", "GATE": "Door", "ROUND": "Round"},
+    routines={"FILL": "Fill"},
+    instructions={"VALVE": [Parameter("Open", "Input"), Parameter("Moved", "Output"), Parameter("Log", "InOut")]},
+)
+
+
+@pytest.mark.parametrize(
+    ("logix", "here"),
+    [
+        ("x := gate; // of the Door", "x := Local_1_I.Data.%X3; // of the Door"),
+        ("Round := 1;", "Round := 1;"),
+        ("a.Door := b.3;", "a.Door := b.%X3;"),
+        ("x := 5.3 + 16#FF_00 + y[2].7;", "x := 5.3 + 16#FF_00 + y[2].%X7;"),
+        ("IF(a)THEN JSR(Fill); END_IF;", "IF(a)THEN Fill(); END_IF;"),
+        (
+            "Valve(V[i, 2], (a AND b), Done, (* where *) Logs);",
+            "V[i, 2](Open := (a AND b), Moved => Done, Log := Logs);",
+        ),
+        ("TONR(t1); Other(1, 2);", "Logix.TONR(t1); Other(1, 2);"),
+        ("COP(a[0], b[0], 4);", "Logix.COP(ADR(a[0]), ADR(b[0]), 4 * SIZEOF(b[0]));"),
+        ("var := 'a$'b'; type.of := 1;", "var_ := Logix.TEXT('a$'b'); type_.of_ := 1;"),
+        ("#region one\nx := 1; /* b.3 */\n#endregion", "//#region one\nx := 1; /* b.3 */\n//#endregion"),
+        ("TONR(", "Logix.TONR("),
+        ("Valve(", "()"),
+        ("JSR(", "()"),
+        ("\\Other.Count := 1;", "Other.Count := 1;"),
+    ],
+)
+def test_statements_are_written_as_the_standard_has_them(logix: str, here: str) -> None:
+    told: list[str] = []
+    assert statements(logix, KNOWN, told) == here
+    assert told == []
+
+
+def test_what_a_statement_cannot_keep_is_told() -> None:
+    told: list[str] = []
+    assert statements("x [:=] 1; JSR(Fill, 1, a);", KNOWN, told) == "x := 1; Fill();"
+    assert told == [
+        "`[:=]` is `:=` here: the variable keeps its value over a restart",
+        "JSR of Fill passes parameters, which is not read",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        (LINE[:300], "this is no XML"),
+        (b"<RSLogix5000Content/>", ""),
+        (LINE.replace(b"<RSLogix5000Content ", b'<!DOCTYPE a [<!ENTITY b "c">]><RSLogix5000Content '), "has a DOCTYPE"),
+        (LINE.replace(b"RSLogix5000Content", b"Content"), "begins with <Content>, not with <RSLogix5000Content>"),
+    ],
+)
+def test_what_is_no_project_is_refused_with_a_reason(damage: bytes, message: str) -> None:
+    if message:
+        with pytest.raises(BadXml, match=message):
+            read_project(damage)
+    else:
+        assert read_project(damage).files == {}
