@@ -1,6 +1,6 @@
 """What a protocol knows of a PLC: one way to read, one to change. This is the room's contract."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Protocol
@@ -8,7 +8,10 @@ from typing import Protocol
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Command
+from scanbench.wire.host import Sources
 from scanbench.wire.memory import AreaSpan
+from scanbench.wire.opcua import PresentError
+from scanbench.wire.variables import VariablesAre
 
 
 class Away(Exception):
@@ -53,8 +56,37 @@ class Door(Protocol):
         """Bytes of areas that the model has, in these bounds; `Away`. `also`: more of the same scan, after those, that the protocol
         itself wants to know and the client did not ask for."""
 
+    def noted(self, spans: Sequence[AreaSpan]) -> None:
+        """The client reads these bytes, in some other way."""
+
     async def device(self) -> DeviceErrors:
         """What the device itself says of its errors; `Away`."""
 
     async def submit(self, command: Command) -> Done:
         """Enters a command, which has this door's author; `Away`."""
+
+
+class Plc(Protocol):
+    """One PLC, for a server that shows its program, whoever asks."""
+
+    @property
+    def name(self) -> str:
+        """As people call it."""
+
+    @property
+    def model(self) -> Model:
+        """What it is."""
+
+    @property
+    def sources(self) -> Sources:
+        """What the program is made of that it runs."""
+
+    @property
+    def errors(self) -> tuple[PresentError, ...] | None:
+        """Those that are present; None while it is not there, so that nobody can tell."""
+
+    def listen(self, changed: Callable[[], None]) -> Callable[[], None]:
+        """Has `changed` called whenever program or errors may have changed; what is given back ends that."""
+
+    async def variables(self, paths: tuple[str, ...]) -> VariablesAre:
+        """Variables of the program, all of one seam; `Away`."""

@@ -6,6 +6,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.history.rerun_plan import comes_by_itself
 from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.plcmodel.model import Model
+from scanbench.program.types import ELEMENTARY
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
@@ -13,6 +14,8 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from scanbench.runtime.write_areas import AreaWrite, WriteAreas
+from scanbench.runtime.write_variables import WriteVariables
+from scanbench.symbols.values import format_value
 
 
 def from_run(
@@ -58,6 +61,9 @@ def _steps(command: Command, model: Model) -> Iterator[str]:
         case WriteAreas(writes=writes):
             for write in writes:
                 yield from _words(write, model)
+        case WriteVariables(writes=several) if all(each.type in ELEMENTARY for each in several):
+            for each in several:
+                yield f"write {each.path}={format_value(ELEMENTARY[each.type], each.data)}"
 
 
 def _words(write: AreaWrite, model: Model) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from scanbench.debug.debugger import Debugger
 from scanbench.host.link import Link
 from scanbench.host.services import Services
+from scanbench.host.variables import Variables
 from scanbench.program.layout import Layout
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Plan, Refusal
@@ -12,8 +13,10 @@ from scanbench.runtime.holds import held
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.write_areas import WriteAreas
+from scanbench.runtime.write_variables import WriteVariables
 from scanbench.wire.host import Ack, Submit
 from scanbench.wire.memory import AreasAre, AreaSpan, ReadAreas
+from scanbench.wire.variables import ReadVariables
 
 UNCHANGED = "nothing changed"
 """What is answered to a write of what is there already: it is not kept in the run."""
@@ -24,6 +27,7 @@ class Communication:
 
     def __init__(self, timeline: Timeline, debugger: Debugger, services: Services, link: Link) -> None:
         self._timeline, self._debugger, self._services, self._link = timeline, debugger, services, link
+        self._variables = Variables()
 
     def serve(self, message: object) -> bool:
         """Serves what comes from protocol clients; whether it did."""
@@ -31,13 +35,15 @@ class Communication:
             case ReadAreas():
                 loaded, memory = self._timeline.live_image
                 self._link.post(areas_are(message, loaded, memory, self._timeline.live_journal))
-            case Submit(ref, WriteAreas() as command):
+            case ReadVariables():
+                self._link.post(self._variables.are(message, *self._timeline.live_image))
+            case Submit(ref, WriteAreas() | WriteVariables() as command):
                 self._write(ref, command)
             case _:
                 return False
         return True
 
-    def _write(self, ref: int, command: WriteAreas) -> None:
+    def _write(self, ref: int, command: WriteAreas | WriteVariables) -> None:
         """Enters it, unless all that it writes is there: a client may repeat itself for weeks."""
         scan = self._timeline.live_scan
         if not self._timeline.past:

@@ -22,9 +22,9 @@ import msgpack  # type: ignore[import-untyped]
 from scanbench.engines.lifeline import interrupts_held
 
 HOST, JOB, CHECK = "scanbench.host.host:serve", "scanbench.jobs.process:serve", "scanbench.jobs.process:serve_checks"
-LANGUAGE = "scanbench.web.lsp.process:serve"
-"""Entries of the processes: of one PLC; of jobs; of what checks programs; of a language server."""
-ENTRIES = (HOST, JOB, CHECK, LANGUAGE)
+LANGUAGE, OPC_UA = "scanbench.web.lsp.process:serve", "scanbench.comm.opcua.process:serve"
+"""Entries of the processes: of one PLC; of jobs; of what checks programs; of a language server; of an OPC UA server."""
+ENTRIES = (HOST, JOB, CHECK, LANGUAGE, OPC_UA)
 _PR_SET_CHILD_SUBREAPER = 36
 _LARGEST_REPLY = 4096
 _THRIFT = {

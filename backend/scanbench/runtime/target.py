@@ -162,6 +162,14 @@ def writable_target(view: View, path: str, verb: Right, through: str = "") -> Ta
         return symbol
     if not isinstance(symbol.type, Elementary | StringType):
         return Refusal(f"{symbol.path} is {symbol.type.name}, not a single value: {verb} one of its members instead")
+    place = writable_place(view, symbol, through)
+    if isinstance(place, Refusal):
+        return place
+    return may(view.header.mode, verb, symbol.path) or Target(symbol, *place, symbol.type, through)
+
+
+def writable_place(view: View, symbol: Symbol, through: str = "") -> Spot | Refusal:
+    """Byte and bit of a variable now, if the model and the program let tools write there, whatever the mode permits."""
     place = symbol.locate(view.memory)
     if place is None:
         return Refusal(not_called(view, symbol))
@@ -172,7 +180,7 @@ def writable_target(view: View, path: str, verb: Right, through: str = "") -> Ta
     reason = read_only_reason(view, symbol, offset, bit)
     if reason is not None:
         return Refusal(f"{through} -> {reason}" if through else reason)
-    return may(view.header.mode, verb, symbol.path) or Target(symbol, offset, bit, symbol.type, through)
+    return place
 
 
 def not_called(view: View, symbol: Symbol) -> str:
@@ -202,7 +210,7 @@ def read_only_reason(view: View, symbol: Symbol, offset: int, bit: int | None) -
     if symbol.slots:
         named = names_of(view.program).variable((offset, bit), symbol.type)
         symbol = symbol if named is None else named
-    if not symbol.writable:
+    if symbol.constant or symbol.tool != "write":
         return f"{symbol.path} is a constant: change it in the program and build"
     return None
 

@@ -54,7 +54,7 @@ class WriteAreas(Command):
             if isinstance(place, Refusal):
                 return place
             free = bytes(mask & ~forced.get(at, (0, 0))[0] for at, mask in enumerate(write.mask, place))
-            patches += (Patch(place + at, *one) for at, one in _stretches(view.memory, place, free, write.bits))
+            patches += changed(view.memory, place, free, write.bits)
         shared = tuple(each for patch in patches for each in everywhere(view, patch))
         return Plan(shared, said(view, self.writes))
 
@@ -71,20 +71,18 @@ class WriteAreas(Command):
         return view.program.layout.areas[area.name] + write.byte
 
 
-def _stretches(
-    memory: bytearray | bytes | memoryview, place: int, mask: bytes, data: bytes
-) -> Iterator[tuple[int, tuple[bytes, bytes]]]:
-    """The bytes in which something changes, in stretches: where each begins, counted from `place`, its mask and data."""
+def changed(memory: bytearray | bytes | memoryview, place: int, mask: bytes, data: bytes) -> Iterator[Patch]:
+    """Patches of the bytes from `place` on in which something changes, in stretches."""
     begin = None
     for at, (bits, value) in enumerate(zip(mask, data, strict=True)):
         changes = (memory[place + at] ^ value) & bits
         if changes and begin is None:
             begin = at
         if not changes and begin is not None:
-            yield begin, (mask[begin:at], data[begin:at])
+            yield Patch(place + begin, mask[begin:at], data[begin:at])
             begin = None
     if begin is not None:
-        yield begin, (mask[begin:], data[begin:])
+        yield Patch(place + begin, mask[begin:], data[begin:])
 
 
 def said(view: View, writes: Sequence[AreaWrite]) -> str:

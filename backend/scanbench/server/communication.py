@@ -3,17 +3,22 @@
 import asyncio
 import logging
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from ipaddress import ip_address
+from pathlib import Path
 from typing import Protocol
 
 from scanbench.comm.desk import NO_FAULT, Desk, LineFault
+from scanbench.comm.door import Plc
 from scanbench.comm.fins.service import FinsServer
 from scanbench.comm.modbus.mapping import Mapped, default
 from scanbench.comm.modbus.service import modbus_server
+from scanbench.comm.opcua.service import PORT as OPC_UA_PORT
+from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
 from scanbench.plcmodel.model import Model
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
+from scanbench.server.communication_plc import SessionPlc
 from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerSeen, ServerWanted
 from scanbench.session.session import Session
 from scanbench.store.store import Store
@@ -28,6 +33,7 @@ _FAULTS = {
     "none": "nothing is wrong", "silent": "no answer comes", "late": "answers come late", "cut": "cut", "refused": "nobody can connect",
 }  # fmt: skip
 _NODES = range(1, 255)
+_FIRST = ServerWanted()
 
 
 class Server(Protocol):
@@ -46,21 +52,31 @@ class Server(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A protocol: what it is called, the models that speak it, and how its server is made."""
+    """A protocol: what it is called, the models that speak it, how its server is made, and how it is set at first."""
 
     name: str
     spoken_by: Callable[[Model], bool]
-    make: Callable[[Desk, ServerWanted], Server]
+    make: Callable[[Desk, ServerWanted, Plc, Place], Server]
+    first: ServerWanted = _FIRST
+    slow: bool = False
+    """It takes seconds to open: at the start of Scanbench nobody waits for it."""
 
 
 KINDS: Mapping[ServerKind, Kind] = {
     "fins": Kind(
         "FINS",
         lambda model: model.vendor == "omron",
-        lambda desk, wanted: FinsServer(desk, wanted.node, wanted.error_bits),
+        lambda desk, wanted, _plc, _place: FinsServer(desk, wanted.node, wanted.error_bits),
     ),
-    "slmp": Kind("SLMP", lambda model: model.vendor == "mitsubishi", lambda desk, _wanted: slmp_server(desk)),
-    "modbus": Kind("Modbus TCP", lambda model: True, lambda desk, _wanted: modbus_server(desk)),
+    "slmp": Kind("SLMP", lambda model: model.vendor == "mitsubishi", lambda desk, *_: slmp_server(desk)),
+    "modbus": Kind("Modbus TCP", lambda model: True, lambda desk, *_: modbus_server(desk)),
+    "opcua": Kind(
+        "OPC UA",
+        lambda model: True,
+        lambda desk, wanted, plc, place: OpcUaServer(desk, plc, place, wanted.anonymous_writes),
+        ServerWanted(port=OPC_UA_PORT),
+        slow=True,
+    ),
 }
 
 
@@ -90,27 +106,44 @@ class _Unit:
 class Communication:
     """Of all PLCs of this server."""
 
-    def __init__(self, store: Store) -> None:
+    def __init__(self, store: Store, data: Path) -> None:
+        """`data` is the directory of the server."""
         self._store = store
+        self._place = Place(data / "cache", data / "opcua", "")
         self._units: dict[int, _Unit] = {}
+        self._opening: set[asyncio.Task[None]] = set()
+
+    def protect(self, token: str) -> None:
+        """What users of protocols that have users prove with that they may be here. Before anything is opened."""
+        self._place = replace(self._place, token=token)
 
     async def begin(self, session: Session) -> None:
         """A PLC is there: opens the servers that were on."""
         unit = self._units[session.id] = _Unit(session, ErrorReaders(session.model))
         kept = session.row.communication or {}
         for kind in self._kinds(session):
-            unit.servers[kind] = _Running(_read(kept.get(kind)))
-            await self._turn(unit, kind)
+            unit.servers[kind] = _Running(_read(kept.get(kind), KINDS[kind].first))
+            if KINDS[kind].slow and unit.servers[kind].wanted.on:
+                task = asyncio.get_running_loop().create_task(self._turn_later(unit, kind))
+                self._opening.add(task)
+                task.add_done_callback(self._opening.discard)
+            else:
+                await self._turn(unit, kind)
 
     async def end(self, id: int) -> None:
         """A PLC is gone: closes its servers."""
         unit = self._units.pop(id, None)
-        if unit is not None:
+        if unit is None:
+            return
+        async with unit.turning:
             for running in unit.servers.values():
                 await _close(running)
 
     async def close(self) -> None:
         """Closes all servers."""
+        for task in list(self._opening):
+            task.cancel()
+        await asyncio.gather(*self._opening, return_exceptions=True)
         for id in list(self._units):
             await self.end(id)
 
@@ -152,6 +185,8 @@ class Communication:
                 await self._turn(unit, kind)
             if running.desk is not None:
                 running.desk.fault = fault
+            if isinstance(running.server, OpcUaServer):
+                running.server.break_line(fault)
         session.log.add(
             author, f"line of {KINDS[kind].name}: {_FAULTS[fault.kind]}", "error" if fault.kind != "none" else "recover"
         )
@@ -164,6 +199,11 @@ class Communication:
     def _kinds(self, session: Session) -> list[ServerKind]:
         return [kind for kind, each in KINDS.items() if each.spoken_by(session.model)]
 
+    async def _turn_later(self, unit: _Unit, kind: ServerKind) -> None:
+        async with unit.turning:
+            if self._units.get(unit.session.id) is unit and unit.servers[kind].server is None:
+                await self._turn(unit, kind)
+
     async def _turn(self, unit: _Unit, kind: ServerKind) -> None:
         """Opens a server that is wanted on; where that cannot be, its trouble says why."""
         running = unit.servers[kind]
@@ -175,7 +215,8 @@ class Communication:
             lambda: _tell_clients(unit),
             wanted.access == "read",
         )
-        server = KINDS[kind].make(desk, wanted)
+        desk.fault = running.fault
+        server = KINDS[kind].make(desk, wanted, SessionPlc(unit.session), self._place)
         try:
             await server.open(wanted.host, running.port or wanted.port)
         except OSError as error:
@@ -192,7 +233,7 @@ def _told(kind: ServerKind, running: _Running) -> str:
     if running.trouble:
         return running.trouble
     name = KINDS[kind].name
-    return f"{name} server on: {_address(running)}" if running.server else f"{name} server off"
+    return f"{name} server on: {_address(kind, running)}" if running.server else f"{name} server off"
 
 
 def _tell_clients(unit: _Unit) -> None:
@@ -211,15 +252,15 @@ async def _close(running: _Running) -> None:
     running.desk = None
 
 
-def _read(kept: object) -> ServerWanted:
+def _read(kept: object, first: ServerWanted) -> ServerWanted:
     """What was kept; what cannot be understood is off."""
     if not isinstance(kept, dict):
-        return ServerWanted()
+        return first
     try:
         return make_kept(ServerWanted, kept)
     except BadValue as error:
         log.error("the settings of a server cannot be read: %s", error)
-        return ServerWanted()
+        return first
 
 
 def _refuse_wrong(wanted: ServerWanted) -> None:
@@ -233,11 +274,12 @@ def _refuse_wrong(wanted: ServerWanted) -> None:
         raise Refused(f"node {wanted.node} is outside of 1 to {_NODES[-1]}")
 
 
-def _address(running: _Running) -> str:
+def _address(kind: ServerKind, running: _Running) -> str:
     if running.server is None:
         return ""
     host = running.wanted.host
-    return f"[{host}]:{running.server.port}" if ":" in host else f"{host}:{running.server.port}"
+    scheme = "opc.tcp://" if kind == "opcua" else ""
+    return f"{scheme}[{host}]:{running.server.port}" if ":" in host else f"{scheme}{host}:{running.server.port}"
 
 
 def _seen(kind: ServerKind, running: _Running) -> ServerSeen:
@@ -245,5 +287,5 @@ def _seen(kind: ServerKind, running: _Running) -> ServerSeen:
     if desk is None:
         return ServerSeen(kind, running.wanted, False, "", running.trouble, running.fault, 0.0, (), ())
     return ServerSeen(
-        kind, running.wanted, True, _address(running), "", running.fault, desk.per_second, desk.clients, desk.frames
+        kind, running.wanted, True, _address(kind, running), "", running.fault, desk.per_second, desk.clients, desk.frames
     )  # fmt: skip

@@ -85,6 +85,10 @@ class SessionDoor:
             found.scan, found.mode, found.stopped, _1970 + timedelta(microseconds=found.clock_ns // 1000), found.data
         )
 
+    def noted(self, spans: Sequence[AreaSpan]) -> None:
+        """See `Door`."""
+        self._readers.note(self.author, spans)
+
     async def device(self) -> DeviceErrors:
         """See `Door`."""
         try:

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 from scanbench.comm.desk import ClientSeen, FrameSeen, LineFault
 from scanbench.public import Public
 
-ServerKind = Literal["fins", "slmp", "modbus"]
+ServerKind = Literal["fins", "slmp", "modbus", "opcua"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +25,8 @@ class ServerWanted(Public):
     """What clients may do."""
     node: int = 1
     """The node number of the PLC; of FINS only."""
+    anonymous_writes: bool = False
+    """Who gives no name may write, too, where clients may write; of OPC UA only."""
     error_bits: bool = True
     """Each end code says that the PLC has errors (0040, 0080), as at the device; of FINS only. Some clients take that for a failure."""
 
@@ -39,7 +41,7 @@ class ServerSeen(Public):
     settings: ServerWanted
     listening: bool
     address: str
-    """What to type into a client: `127.0.0.1:9600`; empty while it does not listen."""
+    """What to type into a client: `127.0.0.1:9600`, `opc.tcp://127.0.0.1:4840`; empty while it does not listen."""
     trouble: str
     """Why it does not listen although it is on."""
     fault: LineFault

@@ -43,6 +43,11 @@ class Errors:
         return self._past_rows or [self._history.with_sweep(row) for row in self._history.rows]
 
     @property
+    def live(self) -> list[ErrorRow]:
+        """The same of the PLC that runs, or waits while the past is shown."""
+        return self._history.rows
+
+    @property
     def version(self) -> int:
         """The version whose rows are written now."""
         return self._history.version

@@ -14,6 +14,7 @@ from scanbench.plcmodel.user_errors import model_for
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
+from scanbench.runtime.write_variables import WriteVariables
 from scanbench.session.debugging import Debugging
 from scanbench.session.device import Device
 from scanbench.session.errors import Errors
@@ -242,6 +243,9 @@ class Session:
                 forced = isinstance(command, Force)
                 for path in filter(None, (command.path, command.through)):
                     self.tell(events.ValueWritten(path, command.author, entry.scan, forced))
+            elif isinstance(command, WriteVariables):
+                for write in command.writes:
+                    self.tell(events.ValueWritten(write.path, command.author, entry.scan, False))
         if any(entry.step for entry in entries):
             self.tell(events.WrittenInside(entries[-1].scan))
         self.errors.on_entries(entries)

@@ -3,6 +3,7 @@
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Entry
 from scanbench.runtime.write_areas import WriteAreas
+from scanbench.runtime.write_variables import WriteVariables
 
 _EVERY_NS = 5_000_000_000
 _AUTHORS_KEPT = 256
@@ -19,7 +20,7 @@ class ToolWrites:
 
     def text(self, entry: Entry) -> str | None:
         """What the log says of an entry; None: nothing now."""
-        if not isinstance(entry.command, WriteAreas):
+        if not isinstance(entry.command, WriteAreas | WriteVariables):
             return entry.plan.message
         author, now = entry.command.author, monotonic_ns()
         if now - self._told.get(author, -_EVERY_NS) < _EVERY_NS:

@@ -45,7 +45,9 @@ def serve(
             with claimed(data_dir), closing(Store(database_url(data_dir), _name(data_dir))) as store:
                 port = sock.getsockname()[1]
                 gate = Gate(token or kept_token(data_dir), port, known_hosts([host]), kept_guests(data_dir), public)
-                _run(sock, host, Workbench(store, data_dir), gate, announce)
+                bench = Workbench(store, data_dir)
+                bench.communication.protect(gate.token)
+                _run(sock, host, bench, gate, announce)
         except (InUse, StoreError, NoModels) as error:
             raise CannotServe(str(error)) from error
 

@@ -64,13 +64,14 @@ from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.runtime.write_areas import AreaWrite, WriteAreas
+from scanbench.runtime.write_variables import VariableWrite, WriteVariables
 from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.typed import check
 from scanbench.verify.contract import Column, Compared, Input, Mismatch, Output, Place, Range, Row, VerifyCoverage
 from scanbench.wire import debugging as debug_protocol
-from scanbench.wire import events, memory, symbols
+from scanbench.wire import events, memory, opcua, symbols, variables
 from scanbench.wire import host as protocol
 from scanbench.wire import jobs as job_protocol
 from scanbench.wire import traces as trace_protocol
@@ -95,7 +96,7 @@ _CLASSES: dict[str, type] = {
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.InEffect, protocol.Start, protocol.StartFailed,
         protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
-        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, AreaWrite, WriteAreas, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
+        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, variables.ReadVariables, variables.VariablesAre, AreaWrite, WriteAreas, VariableWrite, WriteVariables, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, OutputRestart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,
@@ -122,6 +123,8 @@ _CLASSES: dict[str, type] = {
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
         verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,
+        opcua.OpcUaStart, opcua.OpcUaProgram, opcua.PresentError, opcua.OpcUaErrors, opcua.OpcUaFault, opcua.OpcUaReady, opcua.OpcUaFailed,
+        opcua.OpcUaClient, opcua.OpcUaAsked, opcua.OpcUaSubmit, opcua.OpcUaDone,
     )
 }  # fmt: skip
 _CLASSES["FaultStart"] = FaultStart  # `protocol.Start` has the same name

@@ -43,6 +43,9 @@ class LocalDoor:
         clock = _1970 + timedelta(microseconds=found.clock_ns // 1000)
         return Read(found.scan, found.mode, found.stopped, clock, found.data)
 
+    def noted(self, spans: Sequence[AreaSpan]) -> None:
+        pass
+
     async def device(self) -> DeviceErrors:
         return read_device(self.resource.view)
 

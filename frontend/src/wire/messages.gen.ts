@@ -3564,7 +3564,7 @@ export interface components {
         CommunicationServer: {
             /**
              * Address
-             * @description What to type into a client: `127.0.0.1:9600`; empty while it does not listen.
+             * @description What to type into a client: `127.0.0.1:9600`, `opc.tcp://127.0.0.1:4840`; empty while it does not listen.
              */
             address: string;
             /** Clients */
@@ -3580,7 +3580,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "fins" | "slmp" | "modbus";
+            kind: "fins" | "slmp" | "modbus" | "opcua";
             /** Listening */
             listening: boolean;
             /**
@@ -3607,6 +3607,12 @@ export interface components {
              * @enum {string}
              */
             access: "read" | "write";
+            /**
+             * Anonymous Writes
+             * @description Who gives no name may write, too, where clients may write; of OPC UA only.
+             * @default false
+             */
+            anonymous_writes: boolean;
             /**
              * Error Bits
              * @description Each end code says that the PLC has errors (0040, 0080), as at the device; of FINS only. Some clients take that for a failure.
@@ -9786,7 +9792,7 @@ export interface operations {
             header?: never;
             path: {
                 instance: number;
-                kind: "fins" | "slmp" | "modbus";
+                kind: "fins" | "slmp" | "modbus" | "opcua";
             };
             cookie?: never;
         };
@@ -9822,7 +9828,7 @@ export interface operations {
             header?: never;
             path: {
                 instance: number;
-                kind: "fins" | "slmp" | "modbus";
+                kind: "fins" | "slmp" | "modbus" | "opcua";
             };
             cookie?: never;
         };

@@ -46,6 +46,10 @@ class Flagged:
         self._bits = (any(data[:2]) and FATAL) | (any(data[2:]) and NONFATAL)
         return replace(read, data=read.data[:-1])
 
+    def noted(self, spans: Sequence[AreaSpan]) -> None:
+        """See `Door`."""
+        self._door.noted(spans)
+
     async def device(self) -> DeviceErrors:
         """See `Door`."""
         return await self._door.device()

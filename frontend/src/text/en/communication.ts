@@ -6,6 +6,9 @@ export const communication = {
   "communication.access.read": "read",
   "communication.access.write": "read and write",
   "communication.address": "Address for the client",
+  "communication.anonymous": "Clients without a name may write too",
+  "communication.anonymous.about":
+    "Else they only read. Any user name will do, with the token of this server: what comes after token= in the address that was printed at its start",
   "communication.apply": "Apply",
   "communication.client": "Client",
   "communication.clients": "Clients",
@@ -37,6 +40,7 @@ export const communication = {
     "127.0.0.1 is this machine alone. Clients that cannot change their port need an address of its own for each PLC, such as 127.0.0.11.",
   "communication.kind.fins": "FINS (UDP and TCP)",
   "communication.kind.modbus": "Modbus TCP",
+  "communication.kind.opcua": "OPC UA",
   "communication.kind.slmp": "SLMP (MC protocol, 3E)",
   "communication.map": "What the registers mean",
   "communication.map.csv": "Download as CSV",
@@ -65,5 +69,7 @@ export const communication = {
   "communication.time": "Time",
   "communication.title": "Communication",
   "communication.trouble": "The communication unit does not answer: {message}",
+  "communication.users":
+    "A client that writes gives any user name, with the token of this server. Security: none, or Basic256Sha256 (sign and encrypt).",
   "communication.word": "Word",
 };

@@ -8,6 +8,9 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.access.read": "読み出しのみ",
   "communication.access.write": "読み書き",
   "communication.address": "クライアントに入力するアドレス",
+  "communication.anonymous": "名前のないクライアントにも書き込みを許可",
+  "communication.anonymous.about":
+    "許可しないときは読み出しのみです。ユーザー名は自由で、このサーバのトークン（起動時に表示されるアドレスの token= に続く文字列）と組み合わせます",
   "communication.apply": "適用",
   "communication.client": "クライアント",
   "communication.clients": "クライアント",
@@ -39,6 +42,7 @@ export const communication: Record<keyof typeof english, string> = {
     "127.0.0.1 はこのパソコンからだけ接続できます。ポートを変えられないクライアントには、PLC ごとに別のアドレス（127.0.0.11 など）を使います。",
   "communication.kind.fins": "FINS（UDP と TCP）",
   "communication.kind.modbus": "Modbus TCP",
+  "communication.kind.opcua": "OPC UA",
   "communication.kind.slmp": "SLMP（MC プロトコル 3E）",
   "communication.map": "レジスタの割り付け",
   "communication.map.csv": "CSV で保存",
@@ -67,5 +71,7 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.time": "時刻",
   "communication.title": "通信",
   "communication.trouble": "通信ユニットが応答しません：{message}",
+  "communication.users":
+    "書き込むクライアントには、任意のユーザー名と、パスワードとしてこのサーバのトークンが必要です。セキュリティはなし、または Basic256Sha256（署名と暗号化）です。",
   "communication.word": "ワード",
 };

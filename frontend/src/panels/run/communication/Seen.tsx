@@ -70,7 +70,7 @@ export function Frames({ frames, of }: { frames: readonly CommunicationFrame[]; 
 
 function Frame({ frame: { at, client, text, outcome, request, answer } }: { frame: CommunicationFrame }) {
   return (
-    <tr title={`> ${request}\n< ${answer}`}>
+    <tr title={request === "" ? undefined : `> ${request}\n< ${answer}`}>
       <td className="mono">{timeOf(at)}</td>
       <td>{client}</td>
       <td className="comwide">{text}</td>

@@ -34,6 +34,9 @@ export function Server({ server }: { server: CommunicationServer }) {
         </p>
       )}
       {listening && <Address server={server} />}
+      {listening && kind === "opcua" && settings.access === "write" && (
+        <p className="faint">{t("communication.users")}</p>
+      )}
       <Settings kind={kind} settings={settings} />
       {settings.on && <Line kind={kind} fault={server.fault} />}
       {listening && (
@@ -116,6 +119,14 @@ function Settings({ kind, settings }: SettingsProps) {
           onChoose={(access) => change({ access })}
         />
       </span>
+      {kind === "opcua" && draft.access === "write" && (
+        <Switch
+          on={draft.anonymous_writes}
+          onToggle={() => change({ anonymous_writes: !draft.anonymous_writes })}
+        >
+          <span title={t("communication.anonymous.about")}>{t("communication.anonymous")}</span>
+        </Switch>
+      )}
       {kind === "fins" && (
         <Switch on={draft.error_bits} onToggle={() => change({ error_bits: !draft.error_bits })}>
           <span title={t("communication.errorbits.about")}>{t("communication.errorbits")}</span>

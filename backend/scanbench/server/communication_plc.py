@@ -1,0 +1,73 @@
+"""A PLC for a server that shows its program: the session of it."""
+
+from collections.abc import Callable
+
+from scanbench.comm.door import Away
+from scanbench.faults.history import ErrorRow
+from scanbench.plcmodel.model import Model
+from scanbench.session.errors import LIVING
+from scanbench.session.session import Session
+from scanbench.wire.events import ErrorsChanged, Event, StateChanged
+from scanbench.wire.host import Sources
+from scanbench.wire.opcua import PresentError
+from scanbench.wire.refused import Refused, Unavailable
+from scanbench.wire.variables import ReadVariables, VariablesAre
+
+
+class SessionPlc:
+    """`comm.door.Plc`."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+
+    @property
+    def name(self) -> str:
+        """See `Plc`."""
+        return self._session.name
+
+    @property
+    def model(self) -> Model:
+        """See `Plc`."""
+        return self._session.model
+
+    @property
+    def sources(self) -> Sources:
+        """See `Plc`."""
+        return self._session.instance.sources
+
+    @property
+    def errors(self) -> tuple[PresentError, ...] | None:
+        """See `Plc`."""
+        if self._session.state.state not in LIVING:
+            return None
+        return tuple(_present(row) for row in self._session.errors.live if row.status == "generated")
+
+    def listen(self, changed: Callable[[], None]) -> Callable[[], None]:
+        """See `Plc`."""
+        known: tuple[str, Sources] | None = None
+
+        def hear(event: Event) -> None:
+            nonlocal known
+            now = (self._session.state.state, self.sources)
+            if isinstance(event, ErrorsChanged) or (isinstance(event, StateChanged) and now != known):
+                known = now
+                changed()
+
+        self._session.listen(hear)
+        return lambda: self._session.ignore(hear)
+
+    async def variables(self, paths: tuple[str, ...]) -> VariablesAre:
+        """See `Plc`."""
+        try:
+            found = await self._session.instance.ask(lambda ref: ReadVariables(ref, paths), VariablesAre)
+        except (Unavailable, Refused) as error:
+            raise Away(str(error)) from error
+        if found.message:
+            raise Away(found.message)
+        return found
+
+
+def _present(row: ErrorRow) -> PresentError:
+    return PresentError(
+        row.key, row.name, row.severity == "fatal", row.code, row.details, row.generated_at, row.by or ""
+    )  # fmt: skip
