@@ -61,9 +61,9 @@ def _steps(command: Command, model: Model) -> Iterator[str]:
         case WriteAreas(writes=writes):
             for write in writes:
                 yield from _words(write, model)
-        case WriteVariables(writes=several) if all(each.type in ELEMENTARY for each in several):
-            for each in several:
-                yield f"write {each.path}={format_value(ELEMENTARY[each.type], each.data)}"
+        case WriteVariables(writes=several) if all(one.type in ELEMENTARY for one in several):
+            for one in several:
+                yield f"write {one.path}={format_value(ELEMENTARY[one.type], one.data)}"
 
 
 def _words(write: AreaWrite, model: Model) -> Iterator[str]:

@@ -116,6 +116,7 @@ def test_a_client_reads_every_type_and_writes_what_tools_may(server: Server) -> 
                 assert await at(client, path).read_value() == value
             for path, value, variant, status in REFUSED:
                 assert await write(client, path, value, variant) == status
+            assert await at(client, "Main.errors").read_value() == 0
             level = await at(client, "Main.errors").read_attribute(ua.AttributeIds.AccessLevel)
             assert level.Value is not None
             assert level.Value.Value == 1, "error memory can be read, and that is all"
