@@ -6,7 +6,7 @@ from typing import ClassVar
 from scanbench.program.types import BOOL, ArrayType, Elementary, Enumeration, Kind, StringType
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
-from scanbench.runtime.target import everywhere, find, shown, writable_place
+from scanbench.runtime.target import everywhere, find, writable_place
 from scanbench.runtime.write_areas import changed
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.values import format_value
@@ -95,7 +95,7 @@ def _normal(symbol: Symbol, data: bytes) -> bytes:
 
 
 def _said(symbol: Symbol, data: bytes) -> str:
-    """What was written, for people: `Main.level (D100) := 5`."""
+    """What was written, for people: `Main.level := 5`."""
     if isinstance(symbol.type, ArrayType):
-        return f"{shown('', symbol)} written, {symbol.type.count} elements"
-    return f"{shown('', symbol)} := {format_value(symbol.type, data)}"
+        return f"{symbol.path} written, {symbol.type.count} elements"
+    return f"{symbol.path} := {format_value(symbol.type, data)}"

@@ -120,10 +120,7 @@ function Settings({ kind, settings }: SettingsProps) {
         />
       </span>
       {kind === "opcua" && draft.access === "write" && (
-        <Switch
-          on={draft.anonymous_writes}
-          onToggle={() => change({ anonymous_writes: !draft.anonymous_writes })}
-        >
+        <Switch on={draft.anonymous_writes} onToggle={() => change({ anonymous_writes: !draft.anonymous_writes })}>
           <span title={t("communication.anonymous.about")}>{t("communication.anonymous")}</span>
         </Switch>
       )}
