@@ -15,6 +15,7 @@ from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
 from scanbench.host.run_files import sources_in
 from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.gaps import LostScans
 from scanbench.recording.reader import Unreadable
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import Replayed, replay_file
@@ -31,8 +32,8 @@ def replay(
     """Replay a run and compare it with every checkpoint in it.
 
     Exit 0 when every byte was the same; 2: wrong usage, or a file that cannot be replayed here; 3: it came out different;
-    4: the file is damaged, and what it still has was the same; 130: interrupted, the same so far. A last write that did
-    not come to its end, as after a kill, is no damage.
+    4: the file is damaged, and all that can still be read was the same; 130: interrupted, the same so far. A last write
+    that did not come to its end, as after a kill, is no damage.
     """
 
     def programs_of(kept: Mapping[int, KeptProgram]) -> LoadedPrograms:
@@ -51,7 +52,7 @@ def replay(
         typer.echo(f"scanbench: {path}: {difference}", err=True)
         raise typer.Exit(3) from None
     typer.echo(json.dumps(asdict(result)) if as_json else _text(result))
-    if result.lost:
+    if result.damaged:
         typer.echo(f"scanbench: {path}: {result.damage}", err=True)
         raise typer.Exit(DAMAGED)
 
@@ -75,9 +76,16 @@ def _text(result: Replayed) -> str:
     lines = [
         f"begun by {result.by}, {result.created}",
         f"scans {result.first_scan} to {result.scan}: {result.entries} commands, "
-        f"{result.checkpoints} checkpoints, {'what is left of it is' if result.lost else 'all'} the same",
+        f"{result.checkpoints} checkpoints, {'what is left of it is' if result.damaged else 'all'} the same",
         f"state {result.hash}",
     ]
-    if result.damage and not result.lost:
+    lines[1:1] = [f"lost  {_stretch(each)}" for each in result.gaps]
+    if result.damage and not result.damaged:
         lines.append(f"note: {result.damage}")
     return "\n".join(lines)
+
+
+def _stretch(gap: LostScans) -> str:
+    if gap.first == gap.until:
+        return f"commands before scan {gap.first}"
+    return f"scans {gap.first} to {gap.until - 1}"

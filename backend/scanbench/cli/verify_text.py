@@ -64,7 +64,8 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
 
 
 def _summary(head: ReportHead) -> str:
-    came = f"{count(head.differing, 'row')} differ" if head.differing else "no difference"
+    same = "no difference in what was compared" if head.skipped else "no difference"
+    came = f"{count(head.differing, 'row')} differ" if head.differing else same
     if not head.compared:
         came = "nothing was compared"
     skipped = f", {head.skipped:,} not compared ({_stretches(head)})" if head.skipped else ""

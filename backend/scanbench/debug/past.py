@@ -9,6 +9,7 @@ from scanbench.debug.listener import Listener, Position
 from scanbench.debug.reverse import Raised, search
 from scanbench.engines.engine import Reason
 from scanbench.engines.probe import MakeProbed
+from scanbench.recording.gaps import gap_before
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
 
@@ -97,15 +98,19 @@ class Past:
             return scan, count - 1
         if timeline.resource.header.halted_by_trap:
             scan += 1  # part of the scan that trapped was run, so that scan is searched too
-        first = max(timeline.recording.first_scan, scan - _EMPTY)
+        gap = gap_before(timeline.recording.gaps, scan)
+        begin = gap.until if gap is not None else timeline.recording.first_scan
+        first = max(begin, scan - _EMPTY)
         for each in range(scan - 1, first - 1, -1):
             found = timeline.statements(each)
             if isinstance(found, Refusal):
                 return found
             if found:
                 return each, found
-        if first > timeline.recording.first_scan:
+        if first > begin:
             return Refusal(f"no statement ran in the last {_EMPTY} scans: go back to an earlier scan")
+        if gap is not None:
+            return Refusal(f"this is the first statement that is kept after a part that is lost: {gap}")
         return Refusal(f"this is the first statement that is kept: the run begins with scan {first}")
 
     def reverse(self, author: str, path: str) -> Found | Refusal:

@@ -14,6 +14,7 @@ from scanbench.debug.probing import notes_of
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
 from scanbench.engines.probe import BadProbe, MakeProbed, ProbedEngine
+from scanbench.recording.gaps import gap_before
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.programs import Loaded
@@ -145,7 +146,8 @@ class Search:
                     if not names or error in names
                 ]
             for position, found in places:
-                if position < self._here and (best is None or position > best.position):
+                after = position[0] >= self._first
+                if after and position < self._here and (best is None or position > best.position):
                     best = Noted(position, found)
         return best
 
@@ -261,9 +263,13 @@ def search(
     wanted = _wanted(breakpoints, author, path)
     if not any(each.enabled for each in wanted):
         return Refusal("there is no breakpoint to go back to: set one, or name a variable whose last write is wanted")
-    noted = Search(timeline, breakpoints, wanted, here, prober, raised).run()
+    gap = gap_before(timeline.recording.gaps, here[0])
+    first = gap.until if gap is not None else 0
+    noted = Search(timeline, breakpoints, wanted, here, prober, raised, first).run()
     if isinstance(noted, Refusal):
         return noted
+    if noted is None and gap is not None:
+        return Refusal(f"that did not happen since scan {first}, and whether it did before is not known: {gap}")
     if noted is None:
         return Refusal(f"that did not happen since scan {timeline.recording.first_scan}, the first one that is kept")
     return timeline.goto(*position_before(timeline, noted)) or noted.found

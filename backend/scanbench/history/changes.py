@@ -10,6 +10,7 @@ from scanbench.faults.reaction.error_memory import code_bits, kept_bits, log_bit
 from scanbench.history.contract import MAX_CHANGES, BetweenEntry, Change, Changes
 from scanbench.program.program import Program
 from scanbench.program.types import Enumeration, StringType
+from scanbench.recording.gaps import gap_between
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
@@ -55,8 +56,14 @@ def find_changes(reader: RunReader, first: int, last: int, other: RunReader | No
     same_model(before.program, after.program)
     entries = [] if other is not None else list(_between(reader, first, last))
     note = ""
+    gap = gap_between(reader.recording.gaps, first, last) if other is None else None
+    if gap is not None:
+        note = f"not all that was entered in between is known: {gap}"
     if before.digest != after.digest:
-        note = "the program is different: variables are compared by their names, and those that only one of them has are left out"
+        note += (
+            "; " * bool(note)
+            + "the program is different: variables are compared by their names, and those that only one of them has are left out"
+        )
     if len(entries) > MAX_ENTRIES:
         left = len(entries) - MAX_ENTRIES
         note += "; " * bool(note) + f"{left:,} more entries in between are not listed"

@@ -47,8 +47,14 @@ def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = 
             f"the runs have no scan in common: {one.path.name} has scans {one.first} to {one.end}, "
             f"{other.path.name} {other.first} to {other.end}"
         )
+    gaps = [each for reader in (one, other) for each in reader.recording.gaps if first < each.until <= end]
+    last = max(gaps, key=lambda each: each.until, default=None)
+    first = max(first, last.until if last is not None else 0)
     try:
-        return _Comparison(one, other, first, end, on_progress).run()
+        found = _Comparison(one, other, first, end, on_progress).run()
+        if last is None:
+            return found
+        return replace(found, text=f"{found.text}. Nothing before scan {first} was compared: {last}")
     except (Diverged, *NOT_AS_RECORDED) as error:
         raise Unreadable(f"the runs cannot be compared: {error}") from error
 

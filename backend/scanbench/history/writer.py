@@ -14,6 +14,7 @@ from scanbench.history.plc_writes import last_change
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL
+from scanbench.recording.gaps import gap_before
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Swapped
 from scanbench.runtime.forces import read_table
@@ -68,14 +69,19 @@ def find_writer(reader: RunReader, path: str, scan: int, prober: MakeProbed | No
     )
     # of a scan that ended by a run-time error a part is over, and shown
     here: Position = (scan + resource.header.halted_by_trap, 0)
-    entered = _Commands(reader, symbol.path).last(len(resource.journal), version)
+    gap = gap_before(reader.recording.gaps, scan)
+    begun = reader.recording.checkpoints[0].entries if gap is None else gap.entries
+    entered = _Commands(reader, symbol.path).last(len(resource.journal), version, begun)
     if held and entered is not None:
         return _by_command(entered, symbol, value, held=True)
-    first = entered.scan if entered is not None else reader.first
+    kept = reader.first if gap is None else gap.until
+    first = entered.scan if entered is not None else kept
+    if held and gap is not None:
+        raise Unreadable(f"who forced {symbol.path} is not known: {gap}")
     noted = _statement(reader, symbol.path, here, prober, first)
     position = noted.position if noted is not None else (-1, 0)
     at_command = (entered.scan, entered.step - 1 if entered.step else -1) if entered is not None else (-1, -1)
-    changed = last_change(reader, symbol, scan, max(position[0], at_command[0], reader.first - 1))
+    changed = last_change(reader, symbol, scan, max(position[0], at_command[0], kept - 1))
     if changed is not None:
         return Writer(
             symbol.path, "plc", changed, 0, None, "PLC",
@@ -85,6 +91,8 @@ def find_writer(reader: RunReader, path: str, scan: int, prober: MakeProbed | No
         return _by_statement(reader, noted, symbol, value)
     if entered is not None:
         return _by_command(entered, symbol, value, held=False)
+    if gap is not None:
+        raise Unreadable(f"nobody wrote {symbol.path} since scan {kept}, and who wrote it before is not known: {gap}")
     text = f"nobody wrote it since scan {reader.first}, the first one that is kept"
     return Writer(symbol.path, "start", reader.first, 0, None, "", text, value, _shown(symbol, value))
 
@@ -113,11 +121,10 @@ class _Commands:
         self._programs = reader.timeline.programs
         self._places: dict[int, _Bytes | None] = {}
 
-    def last(self, end: int, version: int) -> Entry | None:
-        """The last of the first `end` entries that wrote it, seen from where program `version` runs."""
+    def last(self, end: int, version: int, begun: int) -> Entry | None:
+        """The last of the entries from `begun` to `end` that wrote it, seen from where program `version` runs."""
         reader = self._reader
         entries, versions = reader.entries, reader.versions()
-        begun = reader.timeline.recording.checkpoints[0].entries
         for index in range(end - 1, begun - 1, -1):
             entry, effect = entries[index], entries[index].plan.effect
             place = self._place(versions[index + 1])

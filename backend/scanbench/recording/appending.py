@@ -22,10 +22,10 @@ class Appender:
         self.worker = Worker("recording", self._sync)
         self._owed: list[Entry] = []
 
-    def append(self, kind: Kind, scan: int, payload: bytes) -> Block:
-        """Writes a block after what is owed; `OSError`, and `trouble` says why."""
+    def append(self, kind: Kind, scan: int, payload: bytes, base: int = 0) -> Block:
+        """Writes a block after what is owed, see `RunFile.append`; `OSError`, and `trouble` says why."""
         self.pay()
-        return self._append(kind, scan, payload)
+        return self._append(kind, scan, payload, base)
 
     def entry(self, entry: Entry, must: bool) -> None:
         """Writes an entry. `OSError` when that cannot be done, unless it `must` be taken: then it is owed."""
@@ -54,9 +54,9 @@ class Appender:
         except OSError as error:
             self._in_trouble(error)
 
-    def _append(self, kind: Kind, scan: int, payload: bytes) -> Block:
+    def _append(self, kind: Kind, scan: int, payload: bytes, base: int = 0) -> Block:
         try:
-            block = self.file.append(kind, scan, payload)
+            block = self.file.append(kind, scan, payload, base)
         except OSError as error:
             self._in_trouble(error)
             raise

@@ -2,9 +2,10 @@
 
 ABOUT      first: JSON of `About`
 PROGRAM    u32 version, digest (64 characters), the sources as they were given; before whatever needs the program
+           (both are there twice, the second time after the next state, so that no damaged block costs the whole run)
 ENTRY      an entry of the journal, as the codec packs it
 KEYFRAME   u32 program version, the state before `scan`; the entries before it in the file are in it
-DELTA      the same, xor the state of the last keyframe before it
+DELTA      the same, xor the state of the last keyframe before it, whose checksum is in the head of the block
 MARK       nothing: only its scan, the last that is known to have been reached; or how the PLC is driven from there on (its
            speed, whether it is paused, ...), as its keeper gave it
 
@@ -23,8 +24,11 @@ import numpy as np
 
 from scanbench.program.program import Program
 from scanbench.public import iso
+from scanbench.recording.block import NUMBERED
 from scanbench.recording.fingerprints import libm_fingerprint, model_fingerprint
-from scanbench.recording.format import Block, Damaged, Kind, RunFile, RunFileError
+from scanbench.recording.format import Block, Damage, Damaged, Kind, RunFile, RunFileError
+from scanbench.recording.gaps import Gap
+from scanbench.recording.in_order import in_order
 from scanbench.recording.thinning import Checkpoint
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
@@ -39,6 +43,10 @@ _HEADER = 64
 _ABOUT_MOST = _DRIVEN_MOST = 1 << 16
 _UNPACKED = 1 << 28
 """Bytes of all programs and entries together: they are in memory as long as the run is open."""
+
+
+class Misplaced(RunFileError):
+    """A file that is followed has to be opened again."""
 
 
 class Codec(Protocol):
@@ -105,6 +113,8 @@ class Contents:
     last_scan: int = 0
     driven: bytes = b""
     """How the PLC was driven last; empty where the file does not say."""
+    gaps: list[Gap] = field(default_factory=list)
+    """Where the file lost what was entered."""
 
 
 def keyframe(version: int, state: bytes) -> bytes:
@@ -151,7 +161,8 @@ def _check_last(file: RunFile, checkpoint: Checkpoint) -> None:
 
 
 def read_contents(file: RunFile, codec: Codec) -> "Reader":
-    """Reads it up to where it is damaged; `RunFileError` when that does not leave enough, or cannot be understood."""
+    """Reads it, and goes on after damage where that is possible; `RunFileError` when that does not leave enough, or cannot be
+    understood."""
     reader: Reader | None = None
     for block in file.scan_blocks():
         if reader is not None:
@@ -160,30 +171,69 @@ def read_contents(file: RunFile, codec: Codec) -> "Reader":
             reader = Reader(file, codec, _read_about(file, block))
         else:
             break
+    damage = file.damage
+    if damage is not None and damage.after and file.format >= NUMBERED:
+        reader = _read_on_after(file, codec, damage)
     if reader is None:
         raise Damaged(f"{file.path.name} is damaged at its beginning: nothing of the run can be recovered")
+    reader.finish()
     if not reader.found.programs or not reader.found.checkpoints:
         raise Damaged(f"{file.path.name} is damaged before its first checkpoint: nothing of the run can be recovered")
     _check_last(file, reader.found.checkpoints[-1])
     return reader
 
 
+def _read_on_after(file: RunFile, codec: Codec, damage: Damage) -> "Reader | None":
+    """All good blocks, before the damage and after it."""
+    blocks = in_order([*file.walk(damage.offset), *damage.after])
+    about = next((each for each in blocks if each.kind is Kind.ABOUT), None)
+    if about is None:
+        return None
+    reader = Reader(file, codec, _read_about(file, about), damaged=True)
+    for block in blocks:
+        reader.take(block)
+    file.go_on_with(blocks)
+    return reader
+
+
+@dataclass(frozen=True, slots=True)
+class _Loss:
+    """Entries are missing: what was known before them."""
+
+    scan: int
+    block: Block
+    """The last one before them."""
+    entries: int
+    driven: bytes
+
+
 class Reader:
     """Takes one block after the other."""
 
-    def __init__(self, file: RunFile, codec: Codec, about: About) -> None:
+    def __init__(self, file: RunFile, codec: Codec, about: About, damaged: bool = False) -> None:
         self.found = Contents(about)
         self._file, self._codec = file, codec
+        self._damaged = damaged
+        """Blocks may be missing."""
         self._entries = 0
+        self._next: int | None = None
+        """The number that the next block has if no entry is missing, once there is a state."""
+        self._loss: _Loss | None = None
+        self._last: Block | None = None
         self._base: Block | None = None
         self._version = self._scan = 0
         self._left = _UNPACKED
 
     def read_on(self) -> list[Entry]:
-        """Takes the blocks that were appended since; the entries among them."""
+        """Takes the blocks that were appended since; the entries among them. `Misplaced` where it has to be read again from
+        its beginning, as something is missing in the middle."""
         self.found.entries = []
         for block in self._file.scan_blocks():
             self.take(block)
+        damage = self._file.damage
+        more = damage is not None and any(each.kind in (Kind.KEYFRAME, Kind.DELTA) for each in damage.after)
+        if self._loss is not None or (more and self._file.format >= NUMBERED):
+            raise Misplaced(f"{self._file.path.name} was damaged while it was read: open it again")
         return self.found.entries
 
     def take(self, block: Block) -> None:
@@ -192,21 +242,24 @@ class Reader:
         match block.kind:
             case Kind.PROGRAM:
                 program = self._program(block)
-                found.programs[program.version] = program
+                found.programs.setdefault(program.version, program)
+                self._last = block
                 return
+            case Kind.ABOUT if self._file.format >= NUMBERED:
+                self._last = block
+                return
+        self._count(block)
+        match block.kind:
             case Kind.ENTRY:
-                found.entries.append(self._entry(block))
+                entry = self._entry(block)
+                found.entries.append(entry)
                 self._entries += 1
             case Kind.KEYFRAME:
-                head = self._file.beginning(block, _VERSION.size)
-                if len(head) < _VERSION.size:
-                    raise self._file.unreadable(block, "it is too short")
-                (self._version,) = _VERSION.unpack(head)
-                self._need(block, self._version)
-                self._base = block
-                self._checkpoint(block, block)
-            case Kind.DELTA if self._base is not None:
+                self._keyframe(block)
+            case Kind.DELTA if self._base is not None and block.base in (self._base.crc, 0):
                 self._checkpoint(block, self._base)
+            case Kind.DELTA if self._damaged:
+                pass  # its keyframe is gone
             case Kind.MARK:
                 if block.length:
                     found.driven = self._file.payload(block, _DRIVEN_MOST)
@@ -215,9 +268,64 @@ class Reader:
         if block.scan < self._scan:
             raise self._file.unreadable(block, f"it is of scan {block.scan}, after one of scan {self._scan}")
         self._scan = found.last_scan = block.scan
+        self._last = block
+
+    def finish(self) -> None:
+        """All blocks were taken. Where entries are missing, and no state comes after them, the run ends before them."""
+        found, loss = self.found, self._loss
+        if loss is not None:
+            del found.entries[loss.entries :]
+            self._entries = loss.entries
+            found.last_scan, found.driven = loss.scan, loss.driven
+            self._file.end_before_loss(loss.block)
+            self._loss = None
+        if not found.checkpoints or self._file.format < NUMBERED:
+            return
+        while found.gaps and found.gaps[0].first <= found.checkpoints[0].scan < found.gaps[0].until:
+            del found.checkpoints[0]  # nothing is known of any scan that follows it
+        first, begin = found.checkpoints[0], found.about.dropped_before
+        if first.scan > begin and self._damaged and not (found.gaps and found.gaps[0].first <= begin):
+            found.gaps.insert(0, Gap(begin, first.scan, first.entries, first.version))
+
+    def _count(self, block: Block) -> None:
+        """Whether an entry is missing before this block."""
+        if self._file.format < NUMBERED or self._next is None:
+            return
+        if block.entries < self._next:
+            raise self._file.unreadable(block, f"it is entry {block.entries}, after {self._next} of them")
+        if block.entries > self._next:
+            self._miss()
+        self._next = block.entries_after
+
+    def _miss(self) -> None:
+        """From here on the state is not known."""
+        if self._loss is None and self._last is not None:
+            self._loss = _Loss(self._scan, self._last, self._entries, self.found.driven)
+
+    def _keyframe(self, block: Block) -> None:
+        head = self._file.beginning(block, _VERSION.size)
+        if len(head) < _VERSION.size:
+            raise self._file.unreadable(block, "it is too short")
+        (version,) = _VERSION.unpack(head)
+        if self._damaged and version not in self.found.programs:
+            self._base = None
+            self._miss()
+            return
+        self._version = version
+        self._need(block, version)
+        self._base = block
+        self._checkpoint(block, block)
 
     def _checkpoint(self, block: Block, base: Block) -> None:
-        self.found.checkpoints.append(Checkpoint(block.scan, self._entries, self._version, block, base))
+        found, loss = self.found, self._loss
+        if loss is not None:
+            found.gaps.append(Gap(loss.scan, block.scan, self._entries, self._version))
+            self._loss = None
+            while found.checkpoints and found.checkpoints[-1].scan == block.scan:
+                del found.checkpoints[-1]  # nobody could tell it from the one after the gap
+        if self._next is None:
+            self._next = block.entries_after
+        found.checkpoints.append(Checkpoint(block.scan, self._entries, self._version, block, base))
 
     def _need(self, block: Block, version: object) -> None:
         if not isinstance(version, int) or version not in self.found.programs:
@@ -250,7 +358,10 @@ class Reader:
         if entry.scan != block.scan:
             raise self._file.unreadable(block, f"it is of scan {entry.scan}, and is kept at scan {block.scan}")
         if isinstance(entry.plan.effect, Swapped):
-            self._need(block, entry.plan.effect.version)
+            if self._damaged and entry.plan.effect.version not in self.found.programs:
+                self._miss()  # the program that follows is gone
+            else:
+                self._need(block, entry.plan.effect.version)
         return entry
 
 

@@ -1,7 +1,7 @@
 """The bytes of a run file: blocks with checksums, one after the other. What they mean is `blocks.py`'s.
 
     0   14 bytes  "scanbench run\\n"
-    14  u16       format version, 1
+    14  u16       format version, 2
     16  blocks
 
 A block, little endian:
@@ -12,8 +12,13 @@ A block, little endian:
     6   u16       0
     8   u32       bytes of the payload as stored
     12  u64       scan that the block belongs to
-    20  u32       CRC-32 of bytes 0 to 19 and the payload
-    24  payload
+    20  u64       entries that were made before it since the run began: whether one is missing is seen from that
+    28  u32       of a delta: the CRC-32 of the keyframe that it belongs to; else 0
+    32  u32       CRC-32 of bytes 0 to 31 and the payload
+    36  payload
+
+In format 1 the two fields before the CRC-32 were missing: the head had 24 bytes. A file of format 1 is read, and gone on with in
+format 1; it ends at its first bad block, as nobody can tell what is missing there.
 
 Blocks are only ever appended, but for one: a mark without a payload (the last known scan) at the very end is overwritten by
 what comes next. So a write that did not come to its end costs the block that was written, and nothing before it.
@@ -21,31 +26,43 @@ what comes next. So a write that did not come to its end costs the block that wa
 
 import os
 import zlib
-from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from enum import IntEnum
+from dataclasses import dataclass, replace
 from pathlib import Path
 from struct import Struct
 
 import zstandard
 
-FORMAT = 1
+from scanbench.recording.block import (
+    FORMAT,
+    PACKED,
+    SYNC,
+    Block,
+    Head,
+    Kind,
+    checksum_begun,
+    decode,
+    encode,
+    head_size,
+    pack_head,
+    read_head,
+)
+
+__all__ = ["FORMAT", "LARGEST", "Block", "Damage", "Damaged", "Kind", "RunFile", "RunFileError", "is_run_file"]
+
 _MAGIC = b"scanbench run\n"
 _HEAD = Struct("<14sH")
-_SYNC = b"\xf5RB\n"
-_BLOCK = Struct("<4sBBHIQI")
-_CRC = Struct("<I")
-_PACKED = 1
 _WORTH_PACKING = 200
 _CHUNK = 1 << 20
 LARGEST = 1 << 26
 """Bytes of a payload once unpacked, where nobody knows better: a file from elsewhere must not fill the memory."""
 _SEARCH = 1 << 28
-"""Bytes that are looked at for blocks after damage, ..."""
+"""Bytes that are looked at for blocks after damage, where there are none, ..."""
 _LOOK = 1 << 12
 """... where each place that might be one counts at least so much."""
+_MOST_AFTER = 1 << 20
+"""Blocks after damage that are taken at most."""
 
 
 class RunFileError(Exception):
@@ -56,54 +73,33 @@ class Damaged(RunFileError):
     """It is damaged where all begins, so that nothing can be recovered."""
 
 
-class Kind(IntEnum):
-    """What a block holds."""
-
-    ABOUT = 1
-    PROGRAM = 2
-    ENTRY = 3
-    KEYFRAME = 4
-    DELTA = 5
-    MARK = 6
-
-
-@dataclass(frozen=True, slots=True)
-class Block:
-    """Where a block lies in the file."""
-
-    kind: Kind
-    scan: int
-    offset: int
-    length: int
-    """Of the stored payload."""
-    packing: int
-
-    @property
-    def payload_offset(self) -> int:
-        """Where the payload begins."""
-        return self.offset + _BLOCK.size
-
-    @property
-    def end(self) -> int:
-        """Where the next block begins."""
-        return self.offset + _BLOCK.size + self.length
-
-    @property
-    def size(self) -> int:
-        """Bytes in the file."""
-        return _BLOCK.size + self.length
-
-
 @dataclass(frozen=True, slots=True)
 class Damage:
-    """Where the good blocks end. `last_scan` is the last scan that the rest still names, -1 when it names none."""
+    """Where the good blocks end."""
 
     offset: int
     torn: bool
     """The file ends inside this block: its writer was ended while writing it."""
-    last_scan: int
-    lost: tuple[tuple[Kind, int], ...] = ()
-    """Good blocks after the damage, which nobody can use: how many of each kind."""
+    after: tuple[Block, ...] = ()
+    """The good blocks after it, as far as they are found with reasonable trouble."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mended:
+    """The good blocks of a damaged file, in order."""
+
+    blocks: tuple[Block, ...]
+    end: int
+    """The byte after the last of them; from there on the file is good."""
+
+    def holes(self) -> list[int]:
+        """Where bytes begin that belong to no block."""
+        found, at = list[int](), _HEAD.size
+        for block in sorted(self.blocks, key=lambda each: each.offset):
+            if block.offset > at:
+                found.append(at)
+            at = block.end
+        return [*found, at] if self.end > at else found
 
 
 class RunFile:
@@ -112,50 +108,60 @@ class RunFile:
     One thread appends. Others may read before an `end` that they were told.
     """
 
-    def __init__(self, path: Path, fd: int, end: int) -> None:
-        self.path, self.fd = path, fd
-        self.end = end
+    def __init__(self, path: Path, fd: int, format: int = FORMAT) -> None:
+        self.path, self.fd, self.format = path, fd, format
+        self.end = _HEAD.size
         """After the last block that is no trailing mark."""
+        self._upto = self.end
+        """After the last block."""
+        self.entries = 0
+        """So many entries were made since the run began: the number that the next block gets."""
         self.damage: Damage | None = None
         """What `scan_blocks` came upon."""
+        self.mended: Mended | None = None
+        """Its blocks, where there is damage between them."""
         self._marked: int | None = None
         self._packer = zstandard.ZstdCompressor(level=1)
 
     @classmethod
-    def create(cls, path: Path) -> "RunFile":
+    def create(cls, path: Path, format: int = FORMAT) -> "RunFile":
         """A new file with no blocks; `FileExistsError` if there is one."""
         fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
         try:
-            _write(fd, _HEAD.pack(_MAGIC, FORMAT), 0)
+            _write(fd, _HEAD.pack(_MAGIC, format), 0)
         except OSError:
             os.close(fd)
             path.unlink()
             raise
-        return cls(path, fd, _HEAD.size)
+        return cls(path, fd, format)
 
     @classmethod
     def open(cls, path: Path, read_only: bool = False) -> "RunFile":
         """An existing file. Nothing is read but its first bytes: see `scan_blocks`."""
         fd = os.open(path, (os.O_RDONLY if read_only else os.O_RDWR) | os.O_CLOEXEC)
         try:
-            _check_head(path, os.pread(fd, _HEAD.size, 0))
+            format = _format_of(path, os.pread(fd, _HEAD.size, 0))
         except RunFileError:
             os.close(fd)
             raise
-        return cls(path, fd, _HEAD.size)
+        return cls(path, fd, format)
 
     def close(self) -> None:
         """Closes the file."""
         os.close(self.fd)
 
-    def append(self, kind: Kind, scan: int, payload: bytes) -> Block:
-        """Writes a block after all others. On `OSError` the file is as it was."""
+    def append(self, kind: Kind, scan: int, payload: bytes, base: int = 0) -> Block:
+        """Writes a block after all others; `base`: the checksum of the keyframe that a delta belongs to. On `OSError` the file is
+        as it was."""
         packing = 0
         if len(payload) >= _WORTH_PACKING:
-            payload, packing = self._packer.compress(payload), _PACKED
-        self._put(_encode(kind, packing, scan, payload))
-        block = Block(kind, scan, self.end, len(payload), packing)
-        self.end, self._marked = block.end, None
+            payload, packing = self._packer.compress(payload), PACKED
+        data, crc = encode(self.format, kind, packing, scan, self.entries, base, payload)
+        self._put(data)
+        block = Block(
+            kind, scan, self.end, len(payload), packing, head_size(self.format), self.entries, base, crc
+        )  # fmt: skip
+        self.end, self.entries, self._marked = block.end, block.entries_after, None
         return block
 
     def append_raw(self, data: bytes) -> None:
@@ -167,7 +173,7 @@ class RunFile:
     def mark(self, scan: int) -> None:
         """Writes the last known scan at the end, over the mark that may be there."""
         if scan != self._marked:
-            self._put(_encode(Kind.MARK, 0, scan, b""))
+            self._put(self._mark(scan))
             self._marked = scan
 
     def payload(self, block: Block, most: int = LARGEST) -> bytes:
@@ -175,17 +181,17 @@ class RunFile:
         data = os.pread(self.fd, block.length, block.payload_offset)
         size = len(data)
         try:
-            if block.packing == _PACKED:
+            if block.packing == PACKED:
                 size = zstandard.frame_content_size(data)
             if 0 <= size <= most:
-                return zstandard.ZstdDecompressor().decompress(data) if block.packing == _PACKED else data
+                return zstandard.ZstdDecompressor().decompress(data) if block.packing == PACKED else data
         except zstandard.ZstdError as error:
             raise self.unreadable(block, str(error)) from error
         raise self.unreadable(block, f"it says that it holds {size} bytes, and {most} is the most that can be")
 
     def beginning(self, block: Block, count: int) -> bytes:
         """The first bytes of what a block holds."""
-        if block.packing != _PACKED:
+        if block.packing != PACKED:
             return os.pread(self.fd, min(count, block.length), block.payload_offset)
         data = os.pread(self.fd, block.length, block.payload_offset)
         try:
@@ -207,8 +213,11 @@ class RunFile:
     def walk(self, end: int) -> Iterator[Block]:
         """The blocks from the first up to the byte `end`, which were good."""
         offset = _HEAD.size
+        if self.mended is not None:
+            yield from (each for each in self.mended.blocks if each.end <= end)
+            offset = max(offset, self.mended.end)
         while offset < end:
-            block = _decode(os.pread(self.fd, _BLOCK.size, offset), offset)
+            block = decode(self.format, os.pread(self.fd, head_size(self.format), offset), offset)
             if block is None:
                 raise RunFileError(f"{self.path.name} was damaged at byte {offset} while it was in use")
             yield block
@@ -228,9 +237,38 @@ class RunFile:
                 break
             yield good
             block, offset = good, good.end
-        self.end, self._marked = offset, None
-        if block is not None and block.kind is Kind.MARK and not block.length:
+        self.end_after(block, offset)
+
+    def end_after(self, block: Block | None, offset: int) -> None:
+        """What is appended next is written at `offset`, where this block ends; over it, should it be a mark."""
+        self.end, self._upto, self._marked = offset, offset, None
+        if block is None:
+            return
+        self.entries = block.entries_after
+        if block.kind is Kind.MARK and not block.length:
             self.end, self._marked = block.offset, block.scan
+
+    def go_on_with(self, blocks: Sequence[Block]) -> None:
+        """Takes these for its blocks, which are in order, not without damage between them; `damage` is then what is after all."""
+        size, last = os.fstat(self.fd).st_size, max(blocks, key=lambda each: each.offset)
+        self.damage = self._damage(last.end, size) if last.end < size else None
+        self.end_after(last, last.end)
+        self.entries = blocks[-1].entries_after
+        self._mend(blocks)
+
+    def end_before_loss(self, block: Block) -> None:
+        """Nothing after this block can be used: it is the last one, and `damage` is what comes after it."""
+        blocks = list(self.walk(self._upto))
+        at = next(index for index, each in enumerate(blocks) if each.offset == block.offset)
+        end = max(each.end for each in blocks[: at + 1])
+        self.damage = Damage(end, False, (*blocks[at + 1 :], *(self.damage.after if self.damage is not None else ())))
+        self.end_after(block, end)
+        if self.mended is not None:
+            self._mend(blocks[: at + 1])
+
+    def _mend(self, blocks: Sequence[Block]) -> None:
+        """These are its blocks up to `end`, where a mark may be overwritten."""
+        self.mended = Mended(tuple(each for each in blocks if each.end <= self.end), self.end)
 
     def cut(self, offset: int, aside: Path | None) -> None:
         """Ends the file at `offset`; what was after it is moved to `aside`."""
@@ -247,84 +285,87 @@ class RunFile:
             with suppress(OSError):
                 os.ftruncate(self.fd, self.end)
                 if self._marked is not None:
-                    _write(self.fd, _encode(Kind.MARK, 0, self._marked, b""), self.end)
+                    _write(self.fd, self._mark(self._marked), self.end)
             raise
+
+    def _mark(self, scan: int) -> bytes:
+        return encode(self.format, Kind.MARK, 0, scan, self.entries, 0, b"")[0]
 
     def _head(self, offset: int, size: int) -> bytes:
         """The head of a block, as far as it lies before `size`: another process may have appended since that was asked."""
-        return os.pread(self.fd, min(_BLOCK.size, size - offset), offset)
+        return os.pread(self.fd, min(head_size(self.format), size - offset), offset)
 
     def _good_block(self, offset: int, size: int) -> Block | None:
         head = self._head(offset, size)
-        block = _decode(head, offset)
+        block = decode(self.format, head, offset)
         if block is None or block.end > size:
             return None
-        return block if self._is_right(head, block.payload_offset, block.end) else None
+        return block if self._is_right(head, block.crc, block.payload_offset, block.end) else None
 
-    def _is_right(self, head: bytes, begin: int, end: int) -> bool:
-        """Whether the checksum in the head of a block is that of the block."""
-        crc = zlib.crc32(head[: -_CRC.size])
+    def _is_right(self, head: bytes, crc: int, begin: int, end: int) -> bool:
+        """Whether this is the checksum of the block with this head."""
+        found = checksum_begun(head)
         for at in range(begin, end, _CHUNK):
-            crc = zlib.crc32(os.pread(self.fd, min(_CHUNK, end - at), at), crc)
-        return bool(crc == _CRC.unpack_from(head, _BLOCK.size - _CRC.size)[0])
+            found = zlib.crc32(os.pread(self.fd, min(_CHUNK, end - at), at), found)
+        return found == crc
 
     def _refuse_newer(self, offset: int, size: int) -> None:
-        head = self._head(offset, size)
-        if len(head) < _BLOCK.size or _decode(head, offset) is not None:
+        data = self._head(offset, size)
+        head = read_head(self.format, data)
+        if head is None or head.known:
             return
-        sync, kind, packing, reserved, length, _, _ = _BLOCK.unpack(head)
-        begin = offset + _BLOCK.size
-        if sync == _SYNC and begin + length <= size and self._is_right(head, begin, begin + length):
+        begin = offset + len(data)
+        if (
+            head.sync == SYNC
+            and begin + head.length <= size
+            and self._is_right(data, head.crc, begin, begin + head.length)
+        ):
             raise RunFileError(
-                f"{self.path.name}: the block at byte {offset} is of kind {kind}, packed in way {packing}, with {reserved} in its reserved "
-                "field, and this scanbench does not know that together. Open it with the version of scanbench that wrote it"
+                f"{self.path.name}: the block at byte {offset} is of kind {head.kind}, packed in way {head.packing}, with "
+                f"{head.reserved} in its reserved field, and this scanbench does not know that together. Open it with the "
+                "version of scanbench that wrote it"
             )
 
     def _damage(self, offset: int, size: int) -> Damage:
-        last, lost = self._after(offset + 1, size)
-        head = self._head(offset, size)
-        block = _decode(head, offset)
-        short = len(head) < _BLOCK.size or (block is not None and block.end > size)
-        torn = short and last < 0 and not self._has_wrong_length(head, offset, size)
-        return Damage(offset, torn, last, tuple(sorted(lost.items())))
+        after = tuple(self._after(offset + 1, size))
+        head = read_head(self.format, self._head(offset, size))
+        short = head is None or (head.known and offset + head_size(self.format) + head.length > size)
+        torn = short and not after and not (head is not None and self._has_wrong_length(head, offset, size))
+        return Damage(offset, torn, after)
 
-    def _has_wrong_length(self, head: bytes, offset: int, size: int) -> bool:
+    def _has_wrong_length(self, head: Head, offset: int, size: int) -> bool:
         """Whether the block is whole but for its length: it ends where the file does."""
-        if len(head) < _BLOCK.size:
-            return False
-        sync, kind, packing, reserved, _, scan, crc = _BLOCK.unpack(head)
-        length = size - offset - _BLOCK.size
+        begin = offset + head_size(self.format)
+        length = size - begin
         if length > LARGEST:
             return False
-        right = _BLOCK.pack(sync, kind, packing, reserved, length, scan, crc)
-        found = zlib.crc32(os.pread(self.fd, length, offset + _BLOCK.size), zlib.crc32(right[: -_CRC.size]))
-        return bool(found == crc)
+        right = pack_head(self.format, replace(head, length=length))
+        return self._is_right(right, head.crc, begin, size)
 
-    def _after(self, offset: int, size: int) -> tuple[int, Counter[Kind]]:
-        """The last scan that a good block after the damage names, and how many there are of each kind, as far as that is
-        found with reasonable trouble."""
-        last, after, left, lost = -1, offset, _SEARCH, Counter[Kind]()
+    def _after(self, offset: int, size: int) -> Iterator[Block]:
+        """The good blocks after damage, as far as they are found with reasonable trouble."""
+        after, left, most = offset, _SEARCH, _MOST_AFTER
         for at in self._places(offset, size):
             if at < after:
                 continue
-            if left <= 0:
-                break
-            claimed = _decode(self._head(at, size), at)
-            left -= max(_LOOK, claimed.length if claimed is not None and claimed.end <= size else 0)
+            if left <= 0 or most <= 0:
+                return
             block = self._good_block(at, size)
-            if block is not None:
-                last, after = max(last, block.scan), block.end
-                lost[block.kind] += 1
-        return last, lost
+            if block is None:
+                claimed = decode(self.format, self._head(at, size), at)
+                left -= max(_LOOK, claimed.length if claimed is not None and claimed.end <= size else 0)
+                continue
+            after, most = block.end, most - 1
+            yield block
 
     def _places(self, offset: int, size: int) -> Iterator[int]:
         """Where blocks may begin."""
         for begin in range(offset, size, _CHUNK):
-            chunk = os.pread(self.fd, min(_CHUNK + len(_SYNC) - 1, size - begin), begin)
-            at = chunk.find(_SYNC)
+            chunk = os.pread(self.fd, min(_CHUNK + len(SYNC) - 1, size - begin), begin)
+            at = chunk.find(SYNC)
             while at >= 0:
                 yield begin + at
-                at = chunk.find(_SYNC, at + 1)
+                at = chunk.find(SYNC, at + 1)
 
 
 def is_run_file(path: Path) -> bool:
@@ -333,30 +374,17 @@ def is_run_file(path: Path) -> bool:
         return file.read(len(_MAGIC)) == _MAGIC
 
 
-def _check_head(path: Path, head: bytes) -> None:
+def _format_of(path: Path, head: bytes) -> int:
+    """The format of a file that begins so."""
     if len(head) < _HEAD.size or head[: len(_MAGIC)] != _MAGIC:
         raise RunFileError(f"{path.name} is not a run file: its first bytes are not those of one")
-    _, version = _HEAD.unpack(head)
-    if version != FORMAT:
+    format: int = _HEAD.unpack(head)[1]
+    if not 1 <= format <= FORMAT:
         raise RunFileError(
-            f"{path.name} is a run file of format {version}; this scanbench reads format {FORMAT}: "
+            f"{path.name} is a run file of format {format}; this scanbench reads formats 1 to {FORMAT}: "
             "open it with the version of scanbench that wrote it"
         )
-
-
-def _encode(kind: Kind, packing: int, scan: int, payload: bytes) -> bytes:
-    head = _BLOCK.pack(_SYNC, kind, packing, 0, len(payload), scan, 0)[: -_CRC.size]
-    return head + _CRC.pack(zlib.crc32(payload, zlib.crc32(head))) + payload
-
-
-def _decode(head: bytes, offset: int) -> Block | None:
-    """The block that begins with these bytes, or None where none can begin."""
-    if len(head) < _BLOCK.size:
-        return None
-    sync, kind, packing, reserved, length, scan, _ = _BLOCK.unpack(head)
-    if sync != _SYNC or reserved or packing > _PACKED or not Kind.ABOUT <= kind <= Kind.MARK:
-        return None
-    return Block(Kind(kind), scan, offset, length, packing)
+    return format
 
 
 def _write(fd: int, data: bytes, offset: int) -> None:

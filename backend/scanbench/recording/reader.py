@@ -14,6 +14,7 @@ from typing import Self
 from scanbench.program.layout import Layout
 from scanbench.recording.blocks import Codec, KeptProgram
 from scanbench.recording.format import RunFileError
+from scanbench.recording.gaps import gap_of
 from scanbench.recording.programs import KeptPrograms, ProgramsOf
 from scanbench.recording.recording import Recording, Replaced
 from scanbench.recording.replay import NOT_AS_RECORDED, Diverged, open_at, replay
@@ -175,11 +176,13 @@ class RunReader:
         """The program that runs before each entry, and after the last one."""
         first = self.recording.checkpoints[0]
         version, found = first.version, []
+        again = {each.entries: each.version for each in self.recording.gaps}
         for index, entry in enumerate(self.entries):
+            version = again.get(index, version)
             found.append(version)
             if index >= first.entries and isinstance(entry.plan.effect, Swapped):
                 version = entry.plan.effect.version
-        return [*found, version]
+        return [*found, again.get(len(self.entries), version)]
 
     def version(self, scan: int) -> int:
         """The program that runs in a scan."""
@@ -211,7 +214,11 @@ class RunReader:
         """The last checkpoint from which one gets to a scan with so many entries entered; else with none of those that were
         entered in it. `Unreadable`."""
         checkpoints = self.recording.checkpoints
-        most = max(self.front(scan), checkpoints[0].entries) if entries is None else entries
+        gap = gap_of(self.recording.gaps, scan)
+        if gap is not None:
+            raise Unreadable(f"scan {scan} cannot be read: {gap}")
+        again = max((each.entries for each in self.recording.gaps if each.until == scan), default=0)
+        most = max(self.front(scan), checkpoints[0].entries, again) if entries is None else entries
         for index in range(bisect_right(checkpoints, scan, key=_SCAN) - 1, -1, -1):
             if checkpoints[index].entries <= most:
                 return checkpoints[index]

@@ -18,11 +18,13 @@ from typing import ClassVar, Self
 from scanbench.program.program import Program
 from scanbench.public import Public, iso
 from scanbench.recording.appending import Appender
+from scanbench.recording.block import NUMBERED
 from scanbench.recording.blocks import (
     About,
     Codec,
     Contents,
     KeptProgram,
+    Misplaced,
     Reader,
     delta,
     keyframe,
@@ -32,6 +34,7 @@ from scanbench.recording.blocks import (
 from scanbench.recording.fingerprints import program_digest
 from scanbench.recording.flaws import flaws
 from scanbench.recording.format import Block, Kind, RunFile, RunFileError
+from scanbench.recording.gaps import LostScans, gap_between
 from scanbench.recording.smaller import (
     Bounds,
     Ending,
@@ -70,6 +73,8 @@ class RecordingInfo(Public):
     """What was found damaged when the file was opened, and what was recovered."""
     recording: str
     """Why nothing is recorded now (disk full, say)."""
+    lost: tuple[LostScans, ...] = ()
+    """Scans in the middle that the damaged file lost."""
 
 
 @dataclass(slots=True)
@@ -106,7 +111,7 @@ class Recording:
     """A run file in use; the `Recorder` of a resource. All in the thread that runs the scans."""
 
     def __init__(
-        self, file: RunFile, codec: Codec, found: Contents, limit: int, damage: str = "", lost: bool = False
+        self, file: RunFile, codec: Codec, found: Contents, limit: int, damage: str = "", ends_early: bool = False
     ) -> None:
         self._codec = codec
         self.about = found.about
@@ -115,8 +120,16 @@ class Recording:
         """In order of their scans."""
         self.driven = found.driven
         """How the PLC is driven, as `drive` was told last."""
-        self.damage, self.lost = damage, lost
-        """What was found damaged; whether more than the last write was."""
+        self.gaps = found.gaps
+        """Where it lost what was entered, in order."""
+        self.damage, self.ends_early = damage, ends_early
+        """What was found damaged; whether that is its end, and more than the last write."""
+        self.lost = ends_early or bool(found.gaps)
+        """Whether scans or commands are lost that it held."""
+        self.damaged = self.lost or file.mended is not None
+        """Whether there is damage, other than a last write that did not come to its end."""
+        self._repeat: list[tuple[Kind, bytes]] = []
+        """Written once more after the next state, so that no damaged block costs the whole run."""
         self._programs, self._read = found.programs, found.entries
         self._writer = Appender(file, codec, len(found.entries), found.last_scan)
         self._key: _Key | None = None
@@ -138,6 +151,7 @@ class Recording:
         recording = cls(file, codec, Contents(About.of(program, by)), limit)
         try:
             file.append(Kind.ABOUT, 0, recording.about.packed())
+            recording._repeat.append((Kind.ABOUT, recording.about.packed()))
             recording.program(version, sources, program_digest(program))
             state = bytes(fresh_image(program, Mode.MONITOR)[: program.layout.state_size])
             recording._keep(0, version, state)
@@ -160,11 +174,15 @@ class Recording:
             reader = read_contents(file, codec)
             found, damage = reader.found, file.damage
             text = flaws(file, found, read_only)
+            if not read_only and damage is not None:
+                file.damage = None
         except BaseException:
             file.close()
             raise
         recording = cls(file, codec, found, limit, text, damage is not None and not damage.torn)
         recording._reader = reader if read_only else None
+        if file.mended is not None:
+            recording._repeat = _needed(recording.about, recording.programs)
         return recording
 
     def __enter__(self) -> Self:
@@ -200,7 +218,7 @@ class Recording:
         """What people are shown."""
         return RecordingInfo(
             self.first_scan, self._writer.file.end, self.bounds.limit, self.about.thinned_before, self.about.dropped_before,
-            self.damage, self.trouble,
+            self.damage, self.trouble, tuple(each.public for each in self.gaps),
         )  # fmt: skip
 
     @property
@@ -217,6 +235,11 @@ class Recording:
     def first_scan(self) -> int:
         """The earliest scan that can be gone back to."""
         return self.checkpoints[0].scan
+
+    def why_lost(self, now: int, scan: int) -> str:
+        """See `Recorder`."""
+        gap = gap_between(self.gaps, now, scan)
+        return str(gap) if gap is not None else ""
 
     @property
     def grown(self) -> int:
@@ -238,8 +261,10 @@ class Recording:
     def program(self, version: int, sources: bytes, digest: str) -> None:
         """Keeps a program, before anything refers to it."""
         program = KeptProgram(version, sources, digest)
-        self._writer.append(Kind.PROGRAM, 0, program.packed())
+        packed = program.packed()
+        self._writer.append(Kind.PROGRAM, 0, packed)
         self._programs[version] = program
+        self._repeat.append((Kind.PROGRAM, packed))
 
     def entry(self, entry: Entry, must: bool = False) -> None:
         """Keeps an entry; see `Recorder`."""
@@ -269,9 +294,13 @@ class Recording:
             block = self._writer.append(Kind.KEYFRAME, scan, keyframe(version, state))
             self._key = key = _Key(block, version, state)
         else:
-            block = self._writer.append(Kind.DELTA, scan, delta(state, key.state))
+            block = self._writer.append(Kind.DELTA, scan, delta(state, key.state), key.block.crc)
             key.deltas = DELTAS if block.length > key.block.length // 2 else key.deltas + 1
         self.checkpoints.append(Checkpoint(scan, self._writer.entries, version, block, key.block))
+        if self._writer.file.format >= NUMBERED:
+            for kind, payload in self._repeat:
+                self._writer.append(kind, 0, payload)
+        self._repeat.clear()
 
     # ---- reading --------------------------------------------------------------------------------------------------
 
@@ -294,11 +323,16 @@ class Recording:
             raise Replaced(f"{file.path.name} was made smaller, or put in place again: open it again")
         if here.st_size < file.end:
             raise RunFileError(f"{file.path.name} was cut off at byte {here.st_size} while it was read")
-        entries = reader.read_on()
+        try:
+            entries = reader.read_on()
+        except Misplaced as error:
+            raise Replaced(str(error)) from error
         self._writer.entries += len(entries)
         self._writer.last_scan = reader.found.last_scan
         self.damage = flaws(file, reader.found, read_only=True)
-        self.lost = file.damage is not None and not file.damage.torn
+        self.ends_early = file.damage is not None and not file.damage.torn
+        self.lost = self.ends_early or bool(self.gaps)
+        self.damaged = self.lost or file.mended is not None
         return entries
 
     def before(self, scan: int) -> Checkpoint | None:
@@ -330,7 +364,8 @@ class Recording:
         self._writer.worker.give(write)
 
     def _seen(self) -> Seen:
-        return Seen(self._writer.file, self._writer.file.end, self.about, tuple(self.checkpoints), self._writer.entries)
+        file, gaps = self._writer.file, tuple(self.gaps)
+        return Seen(file, file.end, self.about, tuple(self.checkpoints), self._writer.entries, gaps)
 
     # ---- bounds ---------------------------------------------------------------------------------------------------
 
@@ -370,6 +405,7 @@ class Recording:
         gone = made.cut - len(made.roots)
         try:
             made.rewritten.follow(old.end)
+            new.entries = old.entries
             checkpoints = [
                 replace(each, block=block, base=base, entries=each.entries - gone)
                 for each in self.checkpoints
@@ -385,9 +421,18 @@ class Recording:
             return None
         new.path = old.path
         self.checkpoints[:] = checkpoints
+        first = checkpoints[0]
+        left = [replace(each, entries=each.entries - gone) for each in self.gaps if each.entries >= made.cut]
+        self.gaps[:] = [each for each in left if each.until > first.scan or each.entries > first.entries]
         self._key = replace(key, block=moved) if key is not None and moved is not None else None
         self._writer.entries -= gone
         self._writer.file, self.about = new, made.about
+        self._repeat = _needed(self.about, self.programs)
         self._writer.worker.give(old.close)
         self._writer.worker.sync_soon()
         return Trim(made.roots, made.cut) if made.cut else None
+
+
+def _needed(about: About, programs: Mapping[int, KeptProgram]) -> list[tuple[Kind, bytes]]:
+    """What all the rest of a file needs."""
+    return [(Kind.ABOUT, about.packed()), *((Kind.PROGRAM, each.packed()) for each in programs.values())]

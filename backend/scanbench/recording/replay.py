@@ -6,6 +6,7 @@ from struct import error as struct_error
 from scanbench.engines.engine import Reason
 from scanbench.recording.fingerprints import model_fingerprint
 from scanbench.recording.format import RunFileError
+from scanbench.recording.gaps import Lost
 from scanbench.recording.programs import KeptPrograms
 from scanbench.recording.recording import Recording
 from scanbench.recording.thinning import Checkpoint
@@ -74,6 +75,9 @@ def replay(resource: Resource, entries: Iterable[Entry], until: int) -> None:
 def run_to(resource: Resource, scan: int) -> None:
     """Runs up to this scan, in which nothing is entered on the way; time alone passes while the program is stopped."""
     now = resource.header.scan
+    lost = resource.recorder.why_lost(now, scan) if resource.recorder is not None else ""
+    if lost:
+        raise Lost(lost)
     if scan < now:
         raise Diverged(f"the journal goes on at scan {scan}, the image is at {now}")
     if not resource.runnable and not resource.header.halted_by_trap:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scanbench.recording.blocks import Codec
+from scanbench.recording.gaps import Gap, LostScans, gap_of
 from scanbench.recording.programs import ProgramsOf
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.recording import Recording
@@ -28,7 +29,11 @@ class Replayed:
     """So many agreed."""
     damage: str
     lost: bool
-    """The file is damaged, and not only in its last write: what came after that is missing."""
+    """The file is damaged, and not only in its last write: scans or commands are missing."""
+    gaps: tuple[LostScans, ...]
+    """Scans in the middle that are missing."""
+    damaged: bool
+    """There is damage, also where nothing is missing."""
     by: str
     """Who began the run, ..."""
     created: str
@@ -36,8 +41,9 @@ class Replayed:
 
     @property
     def scans(self) -> int:
-        """Scans that were run."""
-        return self.scan - self.first_scan
+        """Scans that the file has, and that came out as recorded."""
+        lost = sum(max(0, min(each.until, self.scan) - each.first) for each in self.gaps if each.first < self.scan)
+        return self.scan - self.first_scan - lost
 
 
 def replay_file(
@@ -55,6 +61,9 @@ def replay_file(
         if until is not None:
             if not first <= until <= end:
                 raise Unreadable(f"{path.name} holds scans {first} to {end}: scan {until} is none of them")
+            gap = gap_of(reader.recording.gaps, until)
+            if gap is not None:
+                raise Unreadable(f"{path.name} cannot be replayed up to scan {until}: {gap}")
             end = until
         try:
             with reader.reading():
@@ -65,8 +74,8 @@ def replay_file(
         recording = reader.recording
         about = recording.about
         return Replayed(
-            first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage, recording.lost, about.by,
-            about.created,
+            first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage, recording.lost,
+            recording.info.lost, recording.damaged, about.by, about.created,
         )  # fmt: skip
 
 
@@ -75,9 +84,15 @@ def _compared(reader: RunReader, end: int, on_agreed: Callable[[int], None]) -> 
     recording, entries, agreed = reader.recording, reader.entries, 0
     resource = reader.open_checkpoint(recording.checkpoints[0])
     last = recording.checkpoints[0].scan
+    again = {each.at: each for each in recording.gaps}
     for checkpoint in recording.checkpoints:
         if checkpoint.scan > end:
             break
+        gap = again.pop(checkpoint.at, None)
+        if gap is not None and checkpoint is not recording.checkpoints[0]:
+            _up_to(reader, resource, gap)
+            resource, last = reader.open_checkpoint(checkpoint), checkpoint.scan
+            continue
         resource.proved = last if last >= recording.about.thinned_before else checkpoint.scan
         last = checkpoint.scan
         replay(resource, entries[len(resource.journal) : checkpoint.entries], checkpoint.scan)
@@ -89,6 +104,14 @@ def _compared(reader: RunReader, end: int, on_agreed: Callable[[int], None]) -> 
     left = [entry for entry in entries[len(resource.journal) :] if entry.scan <= end]
     replay(resource, left[: front(left, end)], end)
     return resource, agreed
+
+
+def _up_to(reader: RunReader, resource: Resource, gap: Gap) -> None:
+    """Runs as far as is known before a gap."""
+    resource.proved = gap.first
+    left = [each for each in reader.entries[len(resource.journal) : gap.entries] if each.scan < gap.first]
+    if gap.last > resource.header.scan:
+        replay(resource, left[: front(left, gap.last)], gap.last)
 
 
 def _recorded(recording: Recording, resource: Resource, checkpoint: Checkpoint) -> bytes:

@@ -4,10 +4,12 @@ import errno
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 from scanbench.recording.blocks import About, Codec, keyframe
 from scanbench.recording.format import Block, Kind, RunFile, RunFileError
+from scanbench.recording.gaps import Gap
 from scanbench.recording.journal_roots import journal_roots
 from scanbench.recording.rewriting import Rewritten, rewrite
 from scanbench.recording.thinning import Checkpoint, plan_thinning
@@ -46,6 +48,7 @@ class Seen:
     about: About
     checkpoints: Sequence[Checkpoint]
     entries: int
+    gaps: Sequence[Gap] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,13 +65,16 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     """Makes a smaller file; None when it cannot be written."""
     file = seen.file
     excess_entries = seen.entries - ENTRY_LIMIT * 3 // 4 if seen.entries > ENTRY_LIMIT else 0
-    plan = plan_thinning(seen.checkpoints, seen.end - limit * 3 // 4, excess_entries)
+    ends = {each.at for each in seen.gaps}
+    edges = [each for pair in pairwise(seen.checkpoints) if pair[1].at in ends for each in pair]
+    needed = frozenset(each.block.offset for each in edges)
+    plan = plan_thinning(seen.checkpoints, seen.end - limit * 3 // 4, excess_entries, needed)
     cut, kept = plan.cut, tuple[int, ...]()
 
     def keep(block: Block, before: int) -> bool:
         if block.offset in plan.dropped:
             return False
-        if block.kind is Kind.PROGRAM or cut is None or block.offset >= cut.block.offset:
+        if cut is None or block.offset >= cut.block.offset:
             return True
         return block.kind is Kind.ENTRY and before in kept
 
@@ -118,11 +124,12 @@ def write_copy(seen: Seen, path: Path, ending: Ending) -> None:
             return before < ending.entries
         if block.kind is Kind.MARK:  # how the original is driven
             return False
-        return block.kind is Kind.PROGRAM or (block.scan <= ending.scan and before <= ending.entries)
+        return block.scan <= ending.scan and before <= ending.entries
 
     made = rewrite(seen.file, seen.end, part_of(path), seen.about.packed(), keep)
     try:
         made.file.append(Kind.KEYFRAME, ending.scan, keyframe(ending.version, ending.state))
+        made.repeat()
         os.fsync(made.file.fd)
         os.replace(made.file.path, path)
     except (OSError, MemoryError):

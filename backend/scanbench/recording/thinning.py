@@ -23,6 +23,11 @@ class Checkpoint:
     """The keyframe that a delta refers to; of a keyframe, itself."""
 
     @property
+    def at(self) -> tuple[int, int]:
+        """Where in the run."""
+        return self.scan, self.entries
+
+    @property
     def whole(self) -> bool:
         """Whether it is a keyframe."""
         return self.block.offset == self.base.offset
@@ -38,16 +43,18 @@ class Thinning:
     cut: Checkpoint | None
 
 
-def plan_thinning(checkpoints: Sequence[Checkpoint], excess: int, excess_entries: int) -> Thinning:
+def plan_thinning(
+    checkpoints: Sequence[Checkpoint], excess: int, excess_entries: int, needed: Set[int] = frozenset()
+) -> Thinning:  # fmt: skip
     """Frees `excess` bytes: every other checkpoint of the older half, again and again; then the oldest part.
 
-    `excess_entries` of the entries must go as well, which only dropping can do.
+    Checkpoints at the offsets `needed` stay: those on both sides of what was lost. `excess_entries` of the entries must go as well, which only dropping can do.
     """
     left = list(checkpoints)
     dropped: set[int] = set()
     freed, thinned_before = 0, 0
     while freed < excess and len(left) > FLOOR:
-        gone = _thin_once(left, len(left) - FLOOR)
+        gone = _thin_once(left, len(left) - FLOOR, needed)
         if not gone:
             break
         for each in gone:
@@ -63,14 +70,14 @@ def plan_thinning(checkpoints: Sequence[Checkpoint], excess: int, excess_entries
     return Thinning(frozenset(dropped), thinned_before, cut)
 
 
-def _thin_once(left: Sequence[Checkpoint], most: int) -> list[Checkpoint]:
+def _thin_once(left: Sequence[Checkpoint], most: int, wanted: Set[int]) -> list[Checkpoint]:
     """Every other one of the older half. The first stays, and so does a keyframe that something refers to."""
     older = left[: max(0, min(len(left) // 2, len(left) - FRESH))]
-    needed = {each.base.offset for each in left if not each.whole} | {left[-1].base.offset}
+    needed = {each.base.offset for each in left if not each.whole} | {left[-1].base.offset} | wanted
     gone: list[Checkpoint] = []
     previous_stays = True
     for each in older[1:]:
-        stays = not previous_stays or (each.whole and each.base.offset in needed) or len(gone) == most
+        stays = not previous_stays or each.block.offset in needed or len(gone) == most
         if not stays:
             gone.append(each)
         previous_stays = stays

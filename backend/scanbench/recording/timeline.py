@@ -18,6 +18,7 @@ from scanbench.recording.blocks import Codec
 from scanbench.recording.checkpoints import Checkpoints
 from scanbench.recording.fingerprints import program_digest
 from scanbench.recording.format import RunFileError
+from scanbench.recording.gaps import gap_between, gap_of
 from scanbench.recording.moment import Moment, seam
 from scanbench.recording.past import run_on
 from scanbench.recording.programs import KeptPrograms, ProgramsOf
@@ -74,7 +75,7 @@ class Timeline:
             programs = KeptPrograms(recording, programs_of(recording.programs))
             checkpoint, entries = recording.checkpoints[-1], recording.take_entries()
             resource = open_at(recording, programs, checkpoint, entries, detect, agenda)
-            end = recording.last_scan if recording.lost else max(until, recording.last_scan)
+            end = recording.last_scan if recording.ends_early else max(until, recording.last_scan)
             resource.proved = max(resource.proved, until)
             replay(resource, entries[checkpoint.entries :], end)
             resource.proved = 1 << 64  # from here on it is what really runs
@@ -272,11 +273,22 @@ class Timeline:
         """Runs what is shown of the past on, with the resource's hook, to the seam before scan `until`, at most to that
         before the PLC's next scan. With `until` after that and the PLC in the middle of it, the hook has to halt there.
 
-        HALTED: the hook halted it; INTERRUPTED: it stopped before `until`, perhaps because a different program follows here.
+        HALTED: the hook halted it; INTERRUPTED: it stopped before `until`, perhaps because a different program follows here, or
+        because scans are lost here, and what is shown now is the state after them.
         """
         if self._live is None or not self._whole:
             raise RuntimeError("there is no past to go on in: go to a scan of it first")
-        return run_on(self.resource, self._live, until)
+        gap = gap_between(self.recording.gaps, self.resource.header.scan, until)
+        if gap is None:
+            return run_on(self.resource, self._live, until)
+        stop = run_on(self.resource, self._live, gap.first)
+        if stop.reason is not Reason.DONE:
+            return stop
+        checkpoint = next(each for each in self.recording.checkpoints if each.at == gap.at)
+        loaded = self._kept.get(checkpoint.version)
+        state = state_of(self.recording, checkpoint, loaded)
+        self.resource.restore(loaded, state, self._live.journal.prefix(checkpoint.entries))
+        return Stop(Reason.INTERRUPTED)
 
     def rewind(self) -> None:
         """Puts the live PLC back to the beginning of the scan in which it is halted or has just trapped.
@@ -318,10 +330,13 @@ class Timeline:
             return Refusal(
                 f"scan {scan} is not kept any more: the run can be gone back to scan {self.recording.first_scan}"
             )
+        gap = gap_of(self.recording.gaps, scan)
+        if gap is not None:
+            return Refusal(f"scan {scan} cannot be shown: {gap}")
         end = seam(journal, scan, begin)
         try:
             resource.leave()  # what was shown keeps its own journal
-            on = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end
+            on = checkpoint.scan <= resource.header.scan <= scan and checkpoint.entries <= len(resource.journal) <= end
             if not (was_past and self._whole and on):
                 loaded = self._kept.get(checkpoint.version)
                 state = state_of(self.recording, checkpoint, loaded)

@@ -14,3 +14,6 @@ class Recorder(Protocol):
         `must`: what the PLC did itself (a trap, an error it found) has happened in any case. This never raises: what
         cannot be written now is written later, before anything else.
         """
+
+    def why_lost(self, now: int, scan: int) -> str:
+        """Why a replay cannot go from one scan to another: what was entered there is lost. Empty where it can."""

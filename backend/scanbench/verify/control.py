@@ -29,7 +29,7 @@ class Control:
         """Before what was entered in a scan."""
         reader, resource = self._reader, self.side.resource
         checkpoint, end = reader.before(scan), reader.front(scan)
-        here = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end
+        here = checkpoint.scan <= resource.header.scan <= scan and checkpoint.entries <= len(resource.journal) <= end
         if not (here and resource.recorder is reader.recording and resource.listening.inside is None):
             self.side = Side(reader.open_checkpoint(checkpoint))
         reader.replay(self.side.resource, scan, end)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
+from scanbench.recording.gaps import gap_of
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.names import Names
@@ -86,9 +87,15 @@ class RunSubject:
         if not self.first <= scan < self.end:
             raise Unreadable(f"scans {self.first} to {self.end - 1} can be verified: {scan} is none of them")
 
+        gaps = self._reader.recording.gaps
+        gap = gap_of(gaps, scan)
+        if gap is not None:
+            return (Row("none", scan, note=str(gap), compared=False),)
+
         def run() -> tuple[Row, ...]:
             both = self._sides()
-            if not (both.ran_last == scan - 1 and both.control.scan == scan):
+            again = any(each.until == scan for each in gaps)
+            if again or not (both.ran_last == scan - 1 and both.control.scan == scan):
                 both.goto(scan)
             return both.run(scan, self._view)
 

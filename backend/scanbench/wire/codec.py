@@ -51,6 +51,7 @@ from scanbench.faults.shapes import Start as FaultStart
 from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence, RerunChange, Writer
 from scanbench.problems import Problem, Span
 from scanbench.program.sites import CheckSite
+from scanbench.recording.gaps import LostScans
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Freed, Held, Numbered, Patch, Plan, Restarted, Swapped
@@ -90,7 +91,7 @@ _CLASSES: dict[str, type] = {
     for cls in (
         Active, ClearErrorLog, ClearErrors, ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
         Violation, Violations, Write,
-        Lost, RecordingInfo, Restart, Restarted, SetClock, Swapped,
+        Lost, LostScans, RecordingInfo, Restart, Restarted, SetClock, Swapped,
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive, protocol.Driven,
         protocol.Entered, protocol.Found, protocol.Frame, protocol.PlcState, protocol.Lookup, protocol.Preview,
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,

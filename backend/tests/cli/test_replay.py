@@ -8,15 +8,23 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from scanbench.cli.commands import app
+from scanbench.cli.inputs import find_model_named
+from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.faults.inject import ACTIVE
 from scanbench.host.run_files import sources_of
+from scanbench.jobs.starting import checked_program
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.recording import checkpoints
 from scanbench.recording import format as runfile
 from scanbench.recording.recording import Recording
+from scanbench.recording.timeline import Timeline
+from scanbench.runtime.command import Entry
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.journal import Journal
-from scanbench.wire.codec import ENTRIES
+from scanbench.runtime.programs import Loaded, LoadedPrograms
+from scanbench.runtime.write import Write
+from scanbench.wire.codec import ENTRIES, pack_body
+from scanbench.wire.host import Sources
 
 SOURCE = """
 PROGRAM Main
@@ -162,14 +170,60 @@ def test_a_damaged_run_says_what_is_lost(program: str, tmp_path: Path) -> None:
         result = call(*command)
         assert result.exit_code == 4, result.output
         assert f"is damaged at byte {hit.offset}" in result.output
-        assert "2993 scans after it, up to 3000, are lost, and with them 1 command" in result.output
-    file.write_bytes(whole[:20] + b"?" + whole[21:])
+        assert "Scans 7 to 2999 are lost" in result.output
+    file.write_bytes(whole[:20] + b"?" + whole[21:])  # what it is about: there is a second one
+    replayed = call("replay", str(file))
+    assert replayed.exit_code == 4, replayed.output
+    assert "what is left of it is the same" in replayed.output
+    assert "No scan is lost: all that was entered is there" in replayed.output
+    file.write_bytes(whole[:20] + bytes(len(whole) - 20))
     for command in (
         ("replay", str(file)),
         ("verify", str(file)),
         ("diff", str(file), str(file.with_name("b.scanrun"))),
     ):
         assert call(*command).exit_code == 4, command
+
+
+def test_a_gap_is_shown_and_nothing_is_said_of_it(program: str, tmp_path: Path) -> None:
+    """Scans of which commands are lost are passed over: what comes after them is compared again."""
+    file, other = tmp_path / "a.scanrun", tmp_path / "b.scanrun"
+    timeline_with_states(program, file)
+    whole = file.read_bytes()
+    other.write_bytes(whole)
+    opened = runfile.RunFile.open(file, read_only=True)
+    hit = [each for each in opened.scan_blocks() if each.kind is runfile.Kind.ENTRY][1]
+    opened.close()
+    at = hit.offset + 40
+    file.write_bytes(whole[:at] + bytes([whole[at] ^ 4]) + whole[at + 1 :])
+    replayed = call("replay", str(file))
+    assert replayed.exit_code == 4, replayed.output
+    assert "lost  scans 10 to 19" in replayed.output
+    assert "the same" in replayed.output
+    assert "all the same" not in replayed.output
+    verified = call("verify", str(file))
+    assert verified.exit_code == 4, verified.output
+    assert (
+        "scans 0 to 59, 50 compared, 10 not compared (10 to 19): no difference in what was compared" in verified.output
+    )
+    differ = call("diff", str(file), str(other))
+    assert differ.exit_code == 4, differ.output
+    assert "The same in all 40 scans that both have, 20 to 59" in differ.output
+    assert "Nothing before scan 20 was compared" in differ.output
+
+
+def timeline_with_states(program: str, file: Path) -> None:
+    """A run of 60 scans, with a command every tenth scan from 5 on, and a state every tenth from 0 on."""
+    sources = Sources("CJ1M-CPU63", {"main.st": Path(program).read_text("utf-8")}, 10_000_000, 1)
+    loaded = Loaded.make(checked_program(sources, find_model_named("CJ1M-CPU63")), ReferenceEngine, 1)
+    timeline = Timeline.begin(file, LoadedPrograms(loaded), 1, pack_body(sources), ENTRIES, "Ada")
+    for scan in range(60):
+        if scan % 10 == 0:
+            timeline.recording.checkpoint(scan, 1, timeline.resource.state)
+        if scan % 10 == 5:
+            assert isinstance(timeline.submit(Write("Ada", "Main.n", str(scan))), Entry)
+        timeline.run(1)
+    timeline.close()
 
 
 def test_a_length_that_is_wrong_is_no_torn_end(program: str, tmp_path: Path) -> None:
@@ -244,7 +298,8 @@ def test_of_a_run_that_fails_no_file_is_left(
         assert failed.exit_code == 2
         assert "No space left" in failed.output
         assert not record.exists()
-    monkeypatch.setattr(runfile, "_write", full(blocks[3].end - 1))
+    begun = [each for each in blocks if each.kind is runfile.Kind.PROGRAM][1]
+    monkeypatch.setattr(runfile, "_write", full(begun.end + 1))
     failed = call(*arguments)
     assert failed.exit_code == 2
     assert "could not be recorded whole" in failed.output

@@ -1,4 +1,5 @@
-"""Run files that were damaged anywhere: nothing crashes, and a file that lost scans is never said to be whole."""
+"""Run files that were damaged anywhere: nothing crashes, a damaged block costs no more than its own scans, and a file that lost
+scans is never said to be whole."""
 
 import random
 from collections import Counter
@@ -7,13 +8,16 @@ from pathlib import Path
 import pytest
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.recording.format import RunFileError
-from scanbench.recording.reader import Unreadable
+from scanbench.recording import checkpoints
+from scanbench.recording.format import Kind, RunFileError
+from scanbench.recording.reader import RunReader, Unreadable, no_programs
 from scanbench.recording.replay_file import Replayed, replay_file
+from scanbench.runtime.command import Entry, Refusal
+from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
 from tests.amounts import amount
-from tests.recording.recorded import spare
-from tests.recording.variants import records, write
+from tests.recording.damage import SCANS, Accident, Left, Whole, accident, left_of, whole
+from tests.recording.recorded import advance, of_file, resumed, spare, tidy
 
 
 def replayed(path: Path) -> Replayed:
@@ -21,51 +25,169 @@ def replayed(path: Path) -> Replayed:
     return replay_file(path, lambda kept: programs, ENTRIES)
 
 
-def damaged(data: bytes, seed: int) -> tuple[str, bytes]:
-    """The same file with one accident: bits, stretches that are gone, zero, of something else, or there twice; an end that is
-    missing; blocks of 512 bytes that a disk mixed up."""
-    chance = random.Random(seed)
-    at, size = chance.randrange(len(data)), chance.choice((1, 4, 60, 512))
-    kind = chance.choice(("bit", "gone", "zero", "noise", "twice", "end", "mixed"))
-    before, stretch, after = data[:at], data[at : at + size], data[at + size :]
-    if kind == "bit":
-        return kind, before + bytes((data[at] ^ 1 << chance.randrange(8),)) + data[at + 1 :]
-    if kind == "gone":
-        return kind, before + after
-    if kind == "zero":
-        return kind, before + bytes(len(stretch)) + after
-    if kind == "noise":
-        return kind, before + chance.randbytes(len(stretch)) + after
-    if kind == "twice":
-        return kind, before + stretch + stretch + after
-    if kind == "end":
-        return kind, before
-    one, other = (512 * chance.randrange(max(1, len(data) // 512)) for _ in range(2))
-    made = bytearray(data)
-    made[one : one + 512], made[other : other + 512] = data[other : other + 512], data[one : one + 512]
-    return kind, bytes(made)
-
-
-def test_a_file_that_lost_scans_is_never_said_to_be_whole(tmp_path: Path) -> None:
-    path = write(tmp_path / "run", records(tmp_path))
-    data, whole = path.read_bytes(), replayed(path)
-    assert (whole.lost, whole.damage) == (False, "")
-    outcomes = Counter[str]()
-    for seed in range(amount(2000, 120)):
-        kind, changed = damaged(data, seed)
-        path.write_bytes(changed)
+def test_a_damaged_block_costs_its_own_scans_only(tmp_path: Path) -> None:
+    path, outcomes = tmp_path / "run", Counter[str]()
+    path.write_bytes(whole().data)
+    right = replayed(path)
+    assert (right.lost, right.damage, right.scans) == (False, "", SCANS)
+    for seed in range(amount(2000, 100)):
+        done = accident(whole().data, seed)
+        path.write_bytes(done.data)
         try:
-            found = replayed(path)
-        except (RunFileError, Unreadable):
-            outcomes["refused"] += 1
-            continue
-        except BaseException as error:
-            pytest.fail(f"seed {seed}, {kind}: {error!r}")
-        if changed == data or (found.scan, found.hash, found.entries) == (whole.scan, whole.hash, whole.entries):
-            outcomes["whole"] += 1
-            continue
-        outcomes["less"] += 1
-        torn_off = kind == "end"  # as after a kill: what was written last is not there, and that is no damage
-        assert found.scan <= whole.scan, f"seed {seed}, {kind}"
-        assert found.lost or found.damage or torn_off, f"seed {seed}, {kind}: {found}"
-    assert min(outcomes[each] for each in ("refused", "less")) > 5, outcomes
+            outcomes[_looked_at(path, whole(), done, right, random.Random(seed))] += 1
+        except AssertionError as error:
+            raise AssertionError(f"seed {seed}, {done.kind} at {done.hit}: {error}") from error
+        except Exception as error:
+            pytest.fail(f"seed {seed}, {done.kind} at {done.hit}: {error!r}")
+    assert min(outcomes[each] for each in ("refused", "whole", "gap", "short")) > amount(40, 1), outcomes
+
+
+def _looked_at(path: Path, file: Whole, done: Accident, right: Replayed, chance: random.Random) -> str:
+    """How it ended."""
+    left = left_of(file, done)
+    try:
+        found = replayed(path)
+    except (RunFileError, Unreadable):
+        assert left is None, "there is enough of it left"
+        return "refused"
+    same = (found.scan, found.hash, found.scans) == (right.scan, right.hash, right.scans)
+    if not same and done.kind != "end":
+        assert found.lost or found.damage, f"{found} is said to be whole"
+    if not same:
+        assert found.scans < right.scans
+    if found.lost:
+        assert found.damage
+    if left is not None:
+        _readable(path, file, left, chance)
+    return "whole" if same else "gap" if found.gaps else "short"
+
+
+def _readable(path: Path, file: Whole, left: Left, chance: random.Random) -> None:
+    """All that has to be there can be gone to, and is as it was."""
+    programs = spare(ReferenceEngine)
+    with RunReader(path, lambda kept: programs, ENTRIES) as reader:
+        reader.follow()
+        assert len(reader.entries) <= len(file.journal)
+        assert set(reader.entries) <= set(file.journal)
+        edges = {scan for each in reader.recording.gaps for scan in (each.first - 1, each.until)}
+        chosen = {*chance.sample(sorted(left.scans), min(len(left.scans), amount(40, 6))), *(edges & left.scans)}
+        for scan in sorted(chosen):
+            reader.goto(scan)
+            assert reader.timeline.resource.state == file.states[scan], f"scan {scan} is different"
+        for each in reader.recording.gaps:
+            assert not left.scans & set(range(each.first, each.until)), f"{each} is more than was hit"
+
+
+# ---- one block --------------------------------------------------------------------------------------------------------
+
+
+def spoilt(path: Path, kind: Kind, number: int) -> Path:
+    """The file with one damaged block."""
+    block = [each for each in whole().blocks if each.kind is kind][number]
+    data = bytearray(whole().data)
+    data[block.payload_offset] ^= 4
+    path.write_bytes(data)
+    return path
+
+
+def test_a_run_with_a_gap_is_gone_on_with(tmp_path: Path) -> None:
+    path = spoilt(tmp_path / "run", Kind.ENTRY, 7)  # entered before scan 45; the block before is of scan 40
+    timeline = resumed(path)
+    assert timeline.live_scan == SCANS
+    assert timeline.resource.state == whole().states[SCANS]
+    (gap,) = timeline.recording.info.lost
+    assert (gap.first, gap.until) == (40, 50)
+    for scan in (0, 39, 50, 51, SCANS - 1):
+        assert timeline.goto(scan) is None
+        assert timeline.resource.state == whole().states[scan]
+    for scan in (40, 45, 49):
+        refusal = timeline.goto(scan)
+        assert isinstance(refusal, Refusal)
+        assert "Scans 40 to 49 are lost; it can be read again from scan 50 on" in refusal.message
+    assert timeline.goto(38) is None
+    while timeline.go_on(55).reason is not timeline.go_on(55).reason.DONE:
+        pass
+    assert timeline.resource.header.scan == 55
+    assert timeline.resource.state == whole().states[55]
+    timeline.return_live()
+    advance(timeline, 3)
+    assert isinstance(timeline.submit(Write("Ada", "Main.n", "5")), Entry)
+    state = timeline.resource.state
+    copied: list[Refusal | None] = []
+    timeline.copy(tmp_path / "copy", None, "Bob", copied.append)
+    timeline.recording.wait()
+    assert copied == [None]
+    timeline.close()
+    assert replay_file(tmp_path / "copy", of_file, ENTRIES).scans == SCANS + 3 - 10
+    again = resumed(path)
+    assert again.resource.state == state
+    assert [(each.first, each.until) for each in again.recording.info.lost] == [(40, 50)]
+    again.close()
+
+
+def test_a_copy_knows_what_its_original_lost(tmp_path: Path) -> None:
+    path = spoilt(tmp_path / "run", Kind.ENTRY, 7)
+    with RunReader(path, of_file, ENTRIES) as reader:
+        reader.follow()
+        reader.copy(tmp_path / "copy", reader.front(120), 120, "Bob")
+    replayed = replay_file(tmp_path / "copy", of_file, ENTRIES)
+    assert (replayed.lost, replayed.scan, replayed.scans) == (True, 120, 110)
+    assert "copy is a copy of a damaged file. Scans 40 to 49 are lost" in replayed.damage
+
+
+def test_what_is_lost_is_known_when_the_file_gets_smaller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
+    path = spoilt(tmp_path / "run", Kind.ENTRY, 7)
+    timeline = resumed(path, limit=60_000)
+    chance = random.Random(3)
+    while not timeline.recording.info.thinned_before:  # not yet so small that its beginning goes
+        assert isinstance(
+            timeline.submit(Write("Ada", f"D{chance.randrange(3000)}", f"{chance.randrange(9999)}")), Entry
+        )
+        timeline.run(1)
+        tidy(timeline)
+    for closed in (False, True):
+        if closed:
+            timeline.close()
+            timeline = resumed(path, limit=60_000)
+        assert [(each.first, each.until) for each in timeline.recording.info.lost] == [(40, 50)]
+        for scan in (0, 39, 50, 79, SCANS - 1):
+            assert timeline.goto(scan) is None
+            assert timeline.resource.state == whole().states[scan]
+        timeline.return_live()
+    timeline.close()
+
+
+@pytest.mark.parametrize("kind", [Kind.ABOUT, Kind.PROGRAM, Kind.KEYFRAME, Kind.DELTA])
+def test_of_other_blocks_nothing_is_lost(kind: Kind, tmp_path: Path) -> None:
+    """There is a second one, or it is calculated again."""
+    number = 1 if kind is Kind.KEYFRAME else 0
+    found = replayed(spoilt(tmp_path / "run", kind, number))
+    assert (found.lost, found.damaged, found.scans) == (False, True, SCANS)
+    assert "No scan is lost" in found.damage
+    timeline = resumed(tmp_path / "run")
+    for scan in (1, 35, 99, SCANS):
+        assert timeline.goto(scan) is None
+        assert timeline.resource.state == whole().states[scan]
+    timeline.close()
+
+
+def test_of_the_first_state_its_own_scans_are_lost(tmp_path: Path) -> None:
+    found = replayed(spoilt(tmp_path / "run", Kind.KEYFRAME, 0))
+    assert found.lost
+    assert found.first_scan > 0
+    assert f"Scans 0 to {found.first_scan - 1} are lost" in found.damage
+
+
+def test_a_file_of_format_1_ends_where_it_is_damaged(tmp_path: Path) -> None:
+    """Nobody can tell whether entries are missing."""
+    golden = Path(__file__).parent / "golden" / "format-1.run"
+    data = bytearray(golden.read_bytes())
+    data[len(data) // 2] ^= 1
+    path = tmp_path / "run"
+    path.write_bytes(data)
+    with RunReader(path, no_programs, ENTRIES) as reader:
+        reader.follow()
+        assert reader.recording.lost
+        assert "are lost, and with them" in reader.recording.damage
+        assert not reader.recording.gaps

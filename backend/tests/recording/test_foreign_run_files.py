@@ -61,7 +61,6 @@ CASES: dict[str, tuple[Blocks, str]] = {
     "about with a list": ([(Kind.ABOUT, 0, about(model=[1]))], "model must be a text"),
     "no program": ([FIRST[0], STATE], "needs program version 1, which is not before it"),
     "no checkpoint": (FIRST, "before its first checkpoint"),
-    "a second about": ([*FIRST, FIRST[0]], "nothing of this kind can be here"),
     "a short program": ([FIRST[0], (Kind.PROGRAM, 0, b"\1\0\0\0abc"), STATE], "it is too short"),
     "a state of no program": ([*FIRST, (Kind.KEYFRAME, 0, keyframe(2, b"abc"))], "needs program version 2"),
     "a change to no program": ([*FIRST, STATE, (Kind.ENTRY, 0, CHANGE)], "needs program version 7"),
@@ -90,7 +89,7 @@ def write(path: Path, blocks: Blocks) -> Path:
 
 def raw(kind: Kind, packing: int, payload: bytes, scan: int = 0) -> bytes:
     """A block with a right checksum, whatever is in it."""
-    head = struct.pack("<4sBBHIQ", b"\xf5RB\n", kind, packing, 0, len(payload), scan)
+    head = struct.pack("<4sBBHIQQI", b"\xf5RB\n", kind, packing, 0, len(payload), scan, 0, 0)
     return head + struct.pack("<I", zlib.crc32(payload, zlib.crc32(head))) + payload
 
 
@@ -146,7 +145,7 @@ def test_a_block_of_a_newer_version_is_no_damage(kind: int, packing: int, reserv
     """What is damaged is cut off when the run goes on."""
     path = write(tmp_path / "run", [*FIRST, STATE])
     with path.open("ab") as file:
-        head = struct.pack("<4sBBHIQ", b"\xf5RB\n", kind, packing, reserved, 3, 0)
+        head = struct.pack("<4sBBHIQQI", b"\xf5RB\n", kind, packing, reserved, 3, 0, 0, 0)
         file.write(head + struct.pack("<I", zlib.crc32(b"abc", zlib.crc32(head))) + b"abc")
     before = path.read_bytes()
     for read_only in (True, False):
@@ -213,7 +212,9 @@ def test_the_search_for_blocks_after_damage_has_an_end(tmp_path: Path, monkeypat
     monkeypatch.setattr("scanbench.recording.format._SEARCH", 1 << 24)
     path = write(tmp_path / "run", [*FIRST, STATE])
     size = 1 << 20
-    heads = (struct.pack("<4sBBHIQI", b"\xf5RB\n", 3, 0, 0, size - at - 24, 7, 0) for at in range(0, size - 24, 24))
+    heads = (
+        struct.pack("<4sBBHIQQII", b"\xf5RB\n", 3, 0, 0, size - at - 36, 7, 0, 0, 0) for at in range(0, size - 36, 36)
+    )
     with path.open("ab") as file:
         file.write(b"x" + b"".join(heads))
     checked = 0
@@ -237,4 +238,5 @@ def test_blocks_far_after_damage_are_found(tmp_path: Path) -> None:
         with path.open("ab") as file:
             file.write(bytes(gap) + raw(Kind.MARK, 0, b"", 99))
         with Recording.open(path, ENTRIES, read_only=True) as recording:
-            assert "99 scans after it, up to 99, are lost" in recording.damage
+            assert recording.last_scan == 99
+            assert "No scan is lost: all that was entered is there" in recording.damage

@@ -65,7 +65,7 @@ def test_a_file_that_cannot_be_made_smaller_is_left_alone_for_a_while(
     tried = []
     create, replace = runfile.RunFile.create, os.replace
 
-    def full(path: Path) -> runfile.RunFile:
+    def full(path: Path, format: int) -> runfile.RunFile:
         tried.append(path)
         raise OSError(28, "No space left on device")
 

@@ -72,6 +72,9 @@ class Kept:
         self.entries.append((entry, must))
         self.states.append(self.resource.state)
 
+    def why_lost(self, now: int, scan: int) -> str:
+        return ""
+
 
 def recorded() -> tuple[Resource, Kept]:
     kept = Kept()

@@ -86,6 +86,7 @@ export const RUN: Timeline = {
     thinned_before: 0,
     recording: "",
     damage: "",
+    lost: [],
   },
 };
 

@@ -1433,7 +1433,7 @@ export interface paths {
         /**
          * A new PLC, with a project of the same name, that goes on with an exported run; the body is the file
          * @description A new PLC, with a project of the same name, that goes on with an exported run; the body is the file. Of a damaged file
-         *     what comes before the damage is taken, and `damage` says what is lost.
+         *     all that can be read is taken, and `damage` says what is lost.
          */
         post: operations["import_instance"];
         delete?: never;
@@ -5472,6 +5472,19 @@ export interface components {
             total: number;
         };
         /**
+         * LostScans
+         * @description Scans that a damaged run file lost; none where only commands between two scans are lost.
+         */
+        LostScans: {
+            /** First */
+            first: number;
+            /**
+             * Until
+             * @description The first scan after them that can be gone to again.
+             */
+            until: number;
+        };
+        /**
          * LostVariable
          * @description A variable whose value does not go over.
          */
@@ -7690,6 +7703,11 @@ export interface components {
             first_scan: number;
             /** Limit Bytes */
             limit_bytes: number;
+            /**
+             * Lost
+             * @description Scans in the middle that the damaged file lost.
+             */
+            lost: components["schemas"]["LostScans"][];
             /**
              * Recording
              * @description Why nothing is recorded now (disk full, say).

@@ -96,7 +96,7 @@ async def on_export(bench: Bench, request: Request, instance: Id, scan: Scan | N
 @router.post("/instances/import", status_code=201)
 async def on_import(bench: Bench, request: Request, name: str) -> wire.ImportedInstance:
     """A new PLC, with a project of the same name, that goes on with an exported run; the body is the file. Of a damaged file
-    what comes before the damage is taken, and `damage` says what is lost."""
+    all that can be read is taken, and `damage` says what is lost."""
     if not 0 < len(name.strip()) <= 100:
         raise Refused("the name of the new PLC must have 1 to 100 characters")
     path, size = bench.fresh_path(), 0

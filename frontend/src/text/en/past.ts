@@ -27,6 +27,8 @@ export const past = {
   "timeline.none": "No scan is recorded yet.",
   "timeline.position": "Scan {scan} of {live}, {time}",
   "timeline.return": "Shift+Esc returns",
+  "timeline.lost": "Scans {first} to {last} are lost: the run file is damaged. Nobody can go there.",
+  "timeline.lost.short": "{first} to {last}: lost",
   "timeline.thinned": "Checkpoints before scan {scan} were thinned: going there takes longer.",
   "timeline.thinned.short": "before {scan}: slower",
   "timeline.zoom.in": "Zoom in",

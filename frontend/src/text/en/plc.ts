@@ -103,7 +103,7 @@ export const plc = {
   "trap.goon": "Recover and go on",
   "trap.goon.hint": "Recovers the present errors and sets mode MONITOR: variables and program stay as they are",
   "trap.scan": " in scan {scan}.",
-  "damage.about": "Everything before the damaged part was recovered.",
+  "damage.about": "All that could still be read was recovered.",
   "damage.read": "Dismiss",
   "damage.title": "The run file was damaged:",
   "instances.branch": "Branch…",

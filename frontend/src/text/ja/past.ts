@@ -29,6 +29,8 @@ export const past: Record<keyof typeof english, string> = {
   "timeline.none": "まだ記録がありません。",
   "timeline.position": "スキャン {scan} / {live}、{time}",
   "timeline.return": "Shift+Esc で戻る",
+  "timeline.lost": "スキャン {first}～{last} は失われました。実行ファイルが破損しています。移動できません。",
+  "timeline.lost.short": "{first}～{last}: 喪失",
   "timeline.thinned": "スキャン {scan} より前はチェックポイントが間引かれています。移動に時間がかかります。",
   "timeline.thinned.short": "{scan} より前: 遅い",
   "timeline.zoom.in": "拡大",

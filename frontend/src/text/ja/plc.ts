@@ -105,7 +105,7 @@ export const plc: Record<keyof typeof english, string> = {
   "trap.goon": "解除して続行",
   "trap.goon.hint": "発生中の異常を解除し、モード MONITOR にします。変数とプログラムはそのままです",
   "trap.scan": "、スキャン {scan}。",
-  "damage.about": "破損箇所より前はすべて復旧しました。",
+  "damage.about": "読み取れる部分はすべて復旧しました。",
   "damage.read": "閉じる",
   "damage.title": "実行ファイルが破損していました:",
   "instances.branch": "分岐…",

@@ -74,14 +74,17 @@ export function Facts({ run, interval }: { run: RunOnAxis | null; interval: numb
 }
 
 function RunFile({ info }: { info: TimelineInfo }) {
-  const { dropped_before: dropped, thinned_before: thinned } = info;
+  const { dropped_before: dropped, thinned_before: thinned, lost: gaps = [] } = info;
   const said = t("timeline.bound", { bytes: bytes(info.bytes), limit: bytes(info.limit_bytes) });
+  const [gap] = gaps.map(({ first, until }) => ({ first: grouped(first), last: grouped(Math.max(first, until - 1)) }));
   const lost = [
+    gap ? t("timeline.lost", gap) : "",
     dropped > 0 ? t("timeline.dropped", { scan: grouped(dropped) }) : "",
     thinned > 0 ? t("timeline.thinned", { scan: grouped(thinned) }) : "",
   ].filter(Boolean);
-  const short =
-    dropped > 0
+  const short = gap
+    ? t("timeline.lost.short", gap)
+    : dropped > 0
       ? t("timeline.dropped.short", { scan: grouped(dropped) })
       : thinned > 0
         ? t("timeline.thinned.short", { scan: grouped(thinned) })

@@ -98,3 +98,11 @@ test("a run with a target shows what it waits for, and can be stopped before", a
   await user.click(button(t("run.stop")));
   await waitFor(() => expect(server.sentOf("run")).toMatchObject([{ action: "pause" }]));
 });
+
+test("scans that a damaged run file lost are marked on the axis, and named beside the size of the file", async () => {
+  const { server } = await openTimeline();
+  const name = t("timeline.lost", { first: 400, last: 499 });
+  server.say({ ...RUN, info: { ...(RUN.info as NonNullable<typeof RUN.info>), lost: [{ first: 400, until: 500 }] } });
+  expect(await screen.findByTitle(name)).toHaveProperty("className", "lost");
+  expect(screen.getByText(t("timeline.lost.short", { first: 400, last: 499 }))).toBeTruthy();
+});

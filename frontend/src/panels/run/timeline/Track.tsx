@@ -199,6 +199,24 @@ function Differing({ run }: { run: RunOnAxis }) {
   });
 }
 
+/** Scans that a damaged run file lost. */
+function Lost({ run }: { run: RunOnAxis }) {
+  const lost = useTimeline((timeline) => timeline.info?.lost);
+  return lost?.map(({ first, until }) => {
+    const span = spanOn({ from: first, to: until }, run.axis);
+    return (
+      span && (
+        <i
+          key={first}
+          className="lost"
+          title={t("timeline.lost", { first: grouped(first), last: grouped(Math.max(first, until - 1)) })}
+          style={{ left: `${span.left * 100}%`, width: `max(3px, ${span.width * 100}%)` }}
+        />
+      )
+    );
+  });
+}
+
 /** The ribbon: the states of the PLC, which part of the run is slower to reach, and that the part before it is gone. */
 function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
   const { info, marks } = useTimeline();
@@ -213,6 +231,7 @@ function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
       ))}
       {info && info.thinned_before > run.axis.from && <i className="thinned" style={{ width: `${thinned * 100}%` }} />}
       {dropped && <i className="dropped" />}
+      <Lost run={run} />
       <Differing run={run} />
     </div>
   );

@@ -1,0 +1,137 @@
+"""One block of a run file: how its head is packed and read, in each format that there was. `format.py` has the layout."""
+
+import zlib
+from dataclasses import dataclass
+from enum import IntEnum
+from struct import Struct
+
+FORMAT = 2
+NUMBERED = 2
+"""Since this format a block says how many entries were before it, and a delta to which keyframe it belongs."""
+SYNC = b"\xf5RB\n"
+PACKED = 1
+_HEADS = {1: Struct("<4sBBHIQI"), 2: Struct("<4sBBHIQQII")}
+_CRC = Struct("<I")
+
+
+class Kind(IntEnum):
+    """What a block holds."""
+
+    ABOUT = 1
+    PROGRAM = 2
+    ENTRY = 3
+    KEYFRAME = 4
+    DELTA = 5
+    MARK = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Where a block lies in the file."""
+
+    kind: Kind
+    scan: int
+    offset: int
+    length: int
+    """Of the stored payload."""
+    packing: int
+    head: int
+    """Bytes before the payload."""
+    entries: int
+    """So many entries were made before it since the run began, those among them that are not in the file any more; 0 in format 1."""
+    base: int
+    """Of a delta: `crc` of the keyframe that it belongs to; else, and in format 1, 0."""
+    crc: int
+
+    @property
+    def payload_offset(self) -> int:
+        """Where the payload begins."""
+        return self.offset + self.head
+
+    @property
+    def end(self) -> int:
+        """Where the next block begins."""
+        return self.offset + self.head + self.length
+
+    @property
+    def size(self) -> int:
+        """Bytes in the file."""
+        return self.head + self.length
+
+    @property
+    def entries_after(self) -> int:
+        """So many entries were made when it was there."""
+        return self.entries + (self.kind is Kind.ENTRY)
+
+
+@dataclass(frozen=True, slots=True)
+class Head:
+    """The fields of a head, whatever is in them."""
+
+    sync: bytes
+    kind: int
+    packing: int
+    reserved: int
+    length: int
+    scan: int
+    entries: int
+    base: int
+    crc: int
+
+    @property
+    def known(self) -> bool:
+        """Whether a block of a kind that this version knows can begin with it."""
+        known = Kind.ABOUT <= self.kind <= Kind.MARK and self.packing <= PACKED and not self.reserved
+        return self.sync == SYNC and known
+
+
+def head_size(format: int) -> int:
+    """Bytes of a head."""
+    return _HEADS[format].size
+
+
+def read_head(format: int, data: bytes) -> Head | None:
+    """The fields of a head; None where there are too few bytes."""
+    if len(data) < head_size(format):
+        return None
+    sync, kind, packing, reserved, length, scan, *more, crc = _HEADS[format].unpack(data)
+    entries, base = more or (0, 0)
+    return Head(sync, kind, packing, reserved, length, scan, entries, base, crc)
+
+
+def pack_head(format: int, head: Head) -> bytes:
+    """The bytes of these fields."""
+    more = (head.entries, head.base) if format >= NUMBERED else ()
+    return _HEADS[format].pack(
+        head.sync, head.kind, head.packing, head.reserved, head.length, head.scan, *more, head.crc
+    )  # fmt: skip
+
+
+def decode(format: int, data: bytes, offset: int) -> Block | None:
+    """The block that begins with these bytes, or None where none can begin. Its checksum is not looked at."""
+    head = read_head(format, data)
+    if head is None or not head.known:
+        return None
+    return Block(
+        Kind(head.kind), head.scan, offset, head.length, head.packing, head_size(format), head.entries, head.base, head.crc
+    )  # fmt: skip
+
+
+def checksum(head: bytes, payload: bytes) -> int:
+    """Of a block, with all bytes of its head."""
+    return zlib.crc32(payload, checksum_begun(head))
+
+
+def checksum_begun(head: bytes) -> int:
+    """The same, before the payload was added."""
+    return zlib.crc32(head[: -_CRC.size])
+
+
+def encode(
+    format: int, kind: Kind, packing: int, scan: int, entries: int, base: int, payload: bytes
+) -> tuple[bytes, int]:
+    """The bytes of a block, and its checksum."""
+    head = Head(SYNC, kind, packing, 0, len(payload), scan, entries, base, 0)
+    packed = pack_head(format, head)
+    crc = checksum(packed, payload)
+    return packed[: -_CRC.size] + _CRC.pack(crc) + payload, crc
