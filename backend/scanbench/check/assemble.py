@@ -89,12 +89,13 @@ def assemble(
     instances = list(placing.instances.values())
     wiring = Wiring(report, declarations, pous, variables, instances, resources)
     tasks, interval = _tasks(planned, placing, wiring, interval_ns)
-    layout.state_size = _place_violations(report, layout, align(placing.at))
+    layout.frames = _place_violations(report, layout, align(placing.at))
     if around.life is not None:
         around.life.write([*instances, *plant])
     run = {each.pou for each in (*life, *(each for task in tasks for each in task.programs))}
     needed, tasked = _reachable(order, pous, {*around.common, *around.plant, *run}), _reachable(order, pous, run)
-    layout.size = _place_frames(needed, layout.state_size)
+    layout.state_size = _place_frames([each for each in needed if each.addressed], layout.frames)
+    layout.size = _place_frames([each for each in needed if not each.addressed], layout.state_size)
     running = [*common, *life, *instances, *plant]
     if any(member.copied for pou in needed for member in pou.instance.members.values()):
         layout.copies = copies_of([(variables, 0), *((each.pou.instance, each.offset) for each in running)])

@@ -12,8 +12,9 @@ from dataclasses import dataclass, field, replace
 
 from scanbench.check.assemble import Around, assemble, place_areas, place_globals
 from scanbench.check.body.bodies import body_of
-from scanbench.check.body.coercion import as_type, constant
+from scanbench.check.body.coercion import constant
 from scanbench.check.body.context import Body, Effects
+from scanbench.check.body.direct import as_argument
 from scanbench.check.body.generic import is_generic
 from scanbench.check.body.notes import Looks
 from scanbench.check.body.pou_body import pou_body
@@ -247,7 +248,7 @@ class Checker:
         """What a reference starts with."""
         scope = Scope(owner.name, self.globals, constants=(owner,), space=self.declarations.names.space)
         body = body_of(self.report, self.declarations, self.pous, scope, None)
-        return as_type(body, node, type, "The start value")
+        return as_argument(body, node, type, "The start value")
 
     def _constant(self, node: tree.Expression, type: Type | None) -> Const:
         """A constant expression among the declarations."""

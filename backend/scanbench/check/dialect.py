@@ -39,6 +39,9 @@ class Allowance(Enum):
     LABELS = auto()
     ROUNDING = auto()
     DINT_RESULTS = auto()
+    LOCAL_ADDRESSES = auto()
+    DIRECT_REFERENCES = auto()
+    POINTER_NUMBERS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +171,21 @@ RULES: dict[Allowance, Rule] = {
         "SINT, INT, USINT and UINT are calculated with as DINT, and integers beside a REAL as REAL",
         "a result has the type that its operands have in common",
         "`INT_TO_DINT(i) + INT_TO_DINT(j)`",
+    ),
+    Allowance.LOCAL_ADDRESSES: Rule(
+        "ADR and REF of variables of a FUNCTION or METHOD, and of VAR_TEMP: after the call they refer to what it left there",
+        "a reference may not outlive what it refers to",
+        "a VAR of the block, or a VAR_IN_OUT",
+    ),
+    Allowance.DIRECT_REFERENCES: Rule(
+        "a variable as the argument or start value of what has the type REFERENCE TO",
+        "a reference is made by name",
+        "`unit(r := REF(level))`",
+    ),
+    Allowance.POINTER_NUMBERS: Rule(
+        "a pointer where LWORD, ULINT or LINT is wanted, and the other way round",
+        "an address is no number",
+        "POINTER TO",
     ),
 }
 

@@ -57,6 +57,9 @@ def _is_allowed(report: Report, circle: set[Pou], dispatchers: set[Pou], pous: P
         _refuse(report, rest, f"the variables of its calls take {kept} bytes, of which at most {MOST_KEPT} are kept")
         return True
     for pou in rest:
+        if pou.addressed:
+            _refuse(report, rest, f"`{pou.name}` makes a reference to a variable of its own call")
+            return True
         for call in _calls(pou.body):
             if call.pou in circle and any(
                 _is_own(call, name, given) for name, given in zip(call.pou.parameters, call.args, strict=True)

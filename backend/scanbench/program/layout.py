@@ -3,11 +3,13 @@
     0     reserved, so that offset 0 refers to nothing
     8     header (the constants of `Layout`)
     4096  areas of the model, globals, program instances, then `violations`, each aligned to 8
-    ...   `state_size`: here the compared, hashed and recorded state ends; frames of temporaries follow
+    ...   `frames`: frames of temporaries follow, first those whose variables a reference may refer to (`Pou.addressed`)
+    ...   `state_size`: here the compared, hashed and recorded state ends; the other frames follow
     size
 
 Every POU needs exactly one frame, and its place is known, as recursion is refused or its frame is kept meanwhile (`Pou.recursive`):
-temporaries have offsets like everything else, and an in-out can refer to one (a REF_TO cannot: it may outlive the call).
+temporaries have offsets like everything else, and an in-out can refer to one. A reference reaches to `state_size`, so it can refer to a variable of an addressed frame only: it
+may outlive the call, and then refers to what the last call left there.
 """
 
 from dataclasses import dataclass, field
@@ -81,6 +83,7 @@ class Layout:
     """Members with absolute offsets."""
     symbols: Record | None = None
     """Variables that the model gives to every program; located, all of them."""
+    frames: int = 0
     state_size: int = 0
     size: int = 0
     violations: int = 0

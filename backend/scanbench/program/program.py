@@ -394,6 +394,8 @@ class Pou:
     recursive: bool = False
     """It may be called while it runs. Then its caller keeps all that is in its frame before it stores the arguments, and puts
     it back when outputs and result are read."""
+    addressed: bool = False
+    """A reference is made to a variable of its frame, which is part of the state then."""
     first_trap: int = 0
     """Trap sites in the body count from here (`Program.traps[first_trap + number - 1]`), whatever other POUs have."""
     first_check: int = 0

@@ -174,7 +174,7 @@ def writable_place(view: View, symbol: Symbol, through: str = "") -> Spot | Refu
     if place is None:
         return Refusal(not_called(view, symbol))
     offset, bit = place
-    if offset >= view.program.layout.state_size:
+    if offset >= view.program.layout.frames:
         found = names_of(view.statements).temporary(offset)
         return Refusal(_gone(symbol.path, *(found or (None, ""))))
     reason = read_only_reason(view, symbol, offset, bit)

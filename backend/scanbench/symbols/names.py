@@ -52,7 +52,7 @@ class Names:
 
     def at(self, offset: int, size: int = 1, bits: int = WHOLE) -> tuple[Leaf, ...]:
         """What these bytes are, by paths and addresses; nothing for what the compiler keeps there. `bits`: of one byte."""
-        if offset >= self.program.layout.state_size:
+        if offset >= self.program.layout.frames:
             pou = self.descent.frame(offset)
             found = self._of_frame(pou, offset, size, bits) if pou is not None else ()
             return tuple(each._replace(passing=True) for each in found)
@@ -302,7 +302,7 @@ class NamesInside:
                 if bits in (WHOLE, 1 << place[1]):
                     return (Leaf(member.name, BOOL, offset, None if bits == WHOLE else place[1]),)
         found = names.at(offset, size, bits)
-        return found if offset >= names.program.layout.state_size else tuple(map(self._seen, found))
+        return found if offset >= names.program.layout.frames else tuple(map(self._seen, found))
 
     def _seen(self, leaf: Leaf) -> Leaf:
         """A variable from outside, as it is named here: the POU may have one of this name, too."""

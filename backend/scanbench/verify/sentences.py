@@ -69,7 +69,7 @@ class Teller:
 
     def _subject(self, leaf: Leaf) -> str:
         """Its whole path."""
-        if leaf.offset < self.names.program.layout.state_size:
+        if leaf.offset < self.names.program.layout.frames:
             found = self.names.at(leaf.offset, leaf.type.size, leaf.bits)
             if found:
                 return found[0].name

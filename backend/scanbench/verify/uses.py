@@ -214,7 +214,7 @@ class Recorder:
         self._begin(Pass(pou, instance, count, inside, frames), depth)
 
     def _begin(self, made: Pass, depth: int) -> Pass:
-        made.called = self._names.program.layout.state_size
+        made.called = self._names.program.layout.frames
         self._open, self._depth = made, depth
         self.passes.append(made)
         if self.on_begin is not None:

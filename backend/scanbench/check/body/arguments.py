@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from scanbench.check.body import fold, targets
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.direct import as_argument
 from scanbench.check.body.elements import array_bounds
 from scanbench.check.body.places import VARIABLES
 from scanbench.check.body.receivers import is_variable
@@ -221,7 +222,7 @@ def output_value(body: Body, value: Expr, target: Type, argument: tree.Argument)
 
 def _input(body: Body, member: Member, value: tree.Expression | None, span: Span) -> Expr:
     if value is not None:
-        return as_type(body, value, member.type, f"`{member.name}`")
+        return as_argument(body, value, member.type, f"`{member.name}`")
     data = member.initial or initial_of(member.type)
     default = decode(member.type, data)
     if default is not None:

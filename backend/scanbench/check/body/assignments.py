@@ -8,10 +8,10 @@ from scanbench.check.body.allowed import allowed
 from scanbench.check.body.arguments import together
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body, Found
-from scanbench.check.body.forms import refer
 from scanbench.check.body.interfaces import attempt
 from scanbench.check.body.methods import assign_property
 from scanbench.check.body.places import VARIABLES, raw_place
+from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import keeping, noting
 from scanbench.check.body.targets import declared_target, note_written
 from scanbench.check.context import Rejected

@@ -4,8 +4,9 @@ from contextlib import nullcontext
 from dataclasses import replace
 
 from scanbench.check.body.arguments import by_formal, in_out, open_bound, output_value, together
-from scanbench.check.body.coercion import as_type, coerce
+from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.direct import as_argument
 from scanbench.check.body.dispatch import Dispatcher
 from scanbench.check.body.enabling import condition_of, enabling, given_enable, store_eno
 from scanbench.check.body.notes import note_of
@@ -118,7 +119,7 @@ def _block_statements(body: Body, node: tree.Call, instance: Place, callee: Pou,
         own = own_place(record, formal)
         if formal.section is Section.INPUT:
             inputs += _noted_input(
-                body, own, as_type(body, argument.value, formal.type, f"`{formal.name}`"), formal, argument.span
+                body, own, as_argument(body, argument.value, formal.type, f"`{formal.name}`"), formal, argument.span
             )
             continue
         target, member = declared_target(body, argument.value)

@@ -6,13 +6,12 @@ from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.elements import array_bounds
 from scanbench.check.body.places import VARIABLES, raw_place
-from scanbench.check.body.references import reference_type
+from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import as_written
-from scanbench.check.body.targets import note_written, writable
 from scanbench.check.body.vendor_forms import POINTER_TO, WHY, vendor_form
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
-from scanbench.program.program import Base, Const, Expr, Load, RefOf, Violates
+from scanbench.program.program import Const, Expr, Load, Violates
 from scanbench.program.shown import shown
 from scanbench.program.sites import CheckSite
 from scanbench.program.types import BOOL, DINT, LINT, NULL, SLOT_BYTES, UDINT, ArrayType, OpenArray, Reference, Subrange
@@ -68,27 +67,6 @@ def _reference_to(body: Body, node: tree.Call, name: str) -> Expr:
     if len(values) != 1 or len(node.arguments) != 1:
         raise body.report.reject("T004", f"`{name}` takes one variable.", node.span)
     return refer(body, values[0], name == "ADR")
-
-
-def refer(body: Body, node: tree.Expression, pointer: bool = False) -> RefOf:
-    """A reference to the variable; not to one that is gone after the call."""
-    if not isinstance(node, VARIABLES):
-        raise body.report.reject("T013", "Only a variable can be referred to.", node.span)
-    place, member = body.place(node)
-    if member is not None and member.constant:
-        raise body.report.reject("T013", f"`{member.name}` is a CONSTANT and cannot be referred to.", node.span)
-    if place.base is Base.FRAME and place.slot is None and place.reference is None:
-        raise body.report.reject(
-            "T013",
-            f"`{shown(node)}` is temporary, gone when this call ends; declare it in VAR of a block.",
-            node.span,
-        )
-    if isinstance(place.type, OpenArray):
-        raise body.report.reject("T013", "An ARRAY[*] cannot be referred to; refer to an element.", node.span)
-    note_written(body, node, may_read=True)
-    how = " What is referred to could be written: pass its value, or pass it to a VAR_IN_OUT CONSTANT."
-    writable(body, place, node.span, how)
-    return RefOf(place, reference_type(place.type, pointer))
 
 
 def _size_of(body: Body, node: tree.Call, name: str) -> Expr:

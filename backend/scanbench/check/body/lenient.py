@@ -11,7 +11,19 @@ from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
 from scanbench.program.shown import OPERATORS
-from scanbench.program.types import DINT, ELEMENTARY, REAL, Elementary, Enumeration, Kind, Subrange, Type, base_of
+from scanbench.program.types import (
+    DINT,
+    ELEMENTARY,
+    REAL,
+    ULINT,
+    Elementary,
+    Enumeration,
+    Kind,
+    Reference,
+    Subrange,
+    Type,
+    base_of,
+)
 from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped
 
 INTEGRAL = (*WHOLE, Kind.BITS)
@@ -225,6 +237,9 @@ def joined(body: Body, one: Type | None, other: Type | None) -> Elementary | Non
 def coerced(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr | None:
     """The value as one of `type`, where only the dialect converts it; None where that does not either."""
     source = expr.type
+    address = _address(body, expr, type, span, what)
+    if address is not None:
+        return address
     if not isinstance(type, Elementary) or not isinstance(source, Elementary) or isinstance(type, Subrange):
         return None
     if isinstance(type, Enumeration):
@@ -238,6 +253,23 @@ def coerced(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr |
     if type.kind is Kind.REAL and base_of(source).kind is Kind.BITS:
         return fold.convert(type, _as_number(body, expr))
     return wide.converted(body, type, fold.convert(base_of(source), expr) if source is not base_of(source) else expr)
+
+
+def _address(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr | None:
+    """A pointer as a number of its size, or such a number as a pointer, where the dialect has that."""
+    source = expr.type
+    pointers = [each for each in (source, type) if isinstance(each, Reference) and each.pointer]
+    numbers = [
+        each
+        for each in (source, type)
+        if isinstance(each, Elementary) and each.kind in INTEGRAL and each.size == ULINT.size
+    ]
+    if len(pointers) != 1 or len(numbers) != 1 or is_untyped(expr):
+        return None
+    if not allowed(body, Allowance.POINTER_NUMBERS, span, f"{what} is {type}, and this is {source}", f"{pointers[0]}"):
+        return None
+    assert isinstance(type, Elementary)  # as references are, too
+    return fold.convert(type, fold.convert(ULINT, expr))
 
 
 def _allowance(source: Elementary, target: Elementary) -> Allowance | None:

@@ -10,6 +10,7 @@ from scanbench.check.declare.creations import FB_INIT
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image
 from scanbench.check.dialect import Allowance
+from scanbench.program.shown import shown
 from scanbench.program.types import (
     ELEMENTARY,
     SLOT_BYTES,
@@ -130,7 +131,11 @@ def _start(declared: Declarations, owner: Record, member: Member, variable: tree
         member.initial = default_of(declared, variable.type, member.type) if member.copied else b""
         if variable.initial is not None:
             declared.report.error("D004", "An in-out has no initial value; it is bound at each call.", member.span)
-    elif isinstance(member.type, Reference) and isinstance(variable.initial, tree.Call):
+    elif (
+        isinstance(member.type, Reference)
+        and variable.initial is not None
+        and _refers(declared, member.type, variable.initial)
+    ):
         _start_reference(declared, owner, member, variable.initial)
     elif variable.initial is not None:
         member.initial = initial_image(declared, variable.initial, member.type)
@@ -158,7 +163,16 @@ def _incomplete(
     return member
 
 
-def _start_reference(declared: Declarations, owner: Record, member: Member, node: tree.Expression) -> None:
+def _refers(declared: Declarations, type: Reference, initial: tree.Initial) -> bool:
+    """Whether a reference starts with a variable: `REF(x)`, or where the dialect has it so, `x`."""
+    if isinstance(initial, tree.Call):
+        return True
+    direct = type.automatic and Allowance.DIRECT_REFERENCES in declared.dialect.allows
+    return direct and isinstance(initial, tree.Name | tree.MemberOf | tree.IndexOf) and shown(initial).upper() != "NULL"
+
+
+def _start_reference(declared: Declarations, owner: Record, member: Member, node: tree.Initial) -> None:
+    assert not isinstance(node, tree.ArrayInit | tree.StructInit)
     if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
         raise declared.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
     declared.start_references.append((owner, member, node))

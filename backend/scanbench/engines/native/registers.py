@@ -89,9 +89,9 @@ def registers(pou: Pou, looks: Iterable[Expr] = ()) -> dict[int, str]:
     """Frame offsets of the variables that nothing refers to or sees a part of, with their LLVM types. `looks` are
     evaluated in the POU's body besides.
 
-    A slot that only this POU follows is a register too. Of a divided POU none is: its pieces share them.
+    A slot that only this POU follows is a register too. Of a divided POU none is: its pieces share them. Of an addressed one neither: a reference may see them.
     """
-    if inlining.divided(pou):
+    if inlining.divided(pou) or pou.addressed:
         return {}
     members = [each for each in pou.frame.members.values() if each.storage]
     free = {each.offset: _register_type(each) for each in members}

@@ -50,7 +50,7 @@ class Flip(Firing):
         if self.bit >= bits_of(symbol):
             return Refusal(f"{symbol.path} is {symbol.type.name} now, and has no bit {self.bit}")
         offset, bit = place[0] + self.bit // 8, place[1] if place[1] is not None else self.bit % 8
-        if offset >= view.program.layout.state_size:
+        if offset >= view.program.layout.frames:
             return Refusal(f"{symbol.path} was given a value that was computed, which is gone between two scans")
         patch = turned_over(view.memory, offset, bit)
         number = holder(view.journal, patch)
@@ -191,7 +191,7 @@ def _bits(view: View, path: str) -> list[tuple[int, int]] | Refusal:
     if place is None:
         return Refusal(not_called(view, symbol))
     offset, bit = place
-    if offset >= view.program.layout.state_size:
+    if offset >= view.program.layout.frames:
         return Refusal(f"{symbol.path} was given a value that was computed, which is no input")
     return [(offset, 1 << bit)] if bit is not None else [(at, 0xFF) for at in range(offset, offset + symbol.type.size)]
 

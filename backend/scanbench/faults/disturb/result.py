@@ -92,7 +92,7 @@ class Results:
 def _value_at(program: Program, offset: int) -> tuple[str, int] | None:
     """The value that a byte is a part of, for people, and which of its bits mean anything. None for what is no value: a gap,
     what an in-out or reference refers to, what the compiler keeps."""
-    found = _temporary(program, offset) if offset >= program.layout.state_size else _variable(program, offset)
+    found = _temporary(program, offset) if offset >= program.layout.frames else _variable(program, offset)
     if found is None or not isinstance(found[1], Elementary | StringType):
         return None
     return found[0], 1 if found[1] == BOOL else 0xFF

@@ -1,0 +1,36 @@
+"""References to a variable: `REF(x)`, `ADR(x)`, and a variable where one is wanted."""
+
+from scanbench.check.body.allowed import allowed
+from scanbench.check.body.context import Body
+from scanbench.check.body.places import VARIABLES
+from scanbench.check.body.references import reference_type
+from scanbench.check.body.targets import note_written, writable
+from scanbench.check.dialect import Allowance
+from scanbench.program.program import Base, RefOf
+from scanbench.program.shown import shown
+from scanbench.program.types import OpenArray
+from scanbench.syntax import tree
+
+
+def refer(body: Body, node: tree.Expression, pointer: bool = False) -> RefOf:
+    """A reference to the variable; not to one that is gone after the call."""
+    if not isinstance(node, VARIABLES):
+        raise body.report.reject("T013", "Only a variable can be referred to.", node.span)
+    place, member = body.place(node)
+    if member is not None and member.constant:
+        raise body.report.reject("T013", f"`{member.name}` is a CONSTANT and cannot be referred to.", node.span)
+    if place.base is Base.FRAME and place.slot is None and place.reference is None:
+        if not allowed(body, Allowance.LOCAL_ADDRESSES, node.span, f"`{shown(node)}` is temporary"):
+            raise body.report.reject(
+                "T013",
+                f"`{shown(node)}` is temporary, gone when this call ends; declare it in VAR of a block.",
+                node.span,
+            )
+        assert body.pou is not None
+        body.pou.addressed = True
+    if isinstance(place.type, OpenArray):
+        raise body.report.reject("T013", "An ARRAY[*] cannot be referred to; refer to an element.", node.span)
+    note_written(body, node, may_read=True)
+    how = " What is referred to could be written: pass its value, or pass it to a VAR_IN_OUT CONSTANT."
+    writable(body, place, node.span, how)
+    return RefOf(place, reference_type(place.type, pointer))
