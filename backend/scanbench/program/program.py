@@ -392,8 +392,7 @@ class Pou:
     inline: bool = False
     """Small and from the standard library: worth inlining at every call."""
     recursive: bool = False
-    """It may be called while it runs. Then its caller keeps all that is in its frame before it stores the arguments, and puts
-    it back when outputs and result are read."""
+    """It may be called while it runs: its caller keeps what is in its frame while it stores arguments, until it has the results."""
     addressed: bool = False
     """A reference is made to a variable of its frame, which is part of the state then."""
     first_trap: int = 0
