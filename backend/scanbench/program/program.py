@@ -396,9 +396,8 @@ class Pou:
     addressed: bool = False
     """A reference is made to a variable of its frame, which is part of the state then."""
     first_trap: int = 0
-    """Trap sites in the body count from here (`Program.traps[first_trap + number - 1]`), whatever other POUs have."""
+    """Trap sites in the body count from here (`Program.traps[first_trap + number - 1]`); checks from `first_check`."""
     first_check: int = 0
-    """The same for `Program.checks`."""
 
     @property
     def this(self) -> Member | None:
