@@ -1,14 +1,26 @@
 """OPC UA at a virtual PLC, from clients of asyncua."""
 
 import asyncio
+import os
+import signal
 from collections.abc import Callable, Coroutine
 from datetime import UTC, datetime
+from pathlib import Path
 from typing import Any
 
+import pytest
 from asyncua import Client, Node, ua
+from asyncua.crypto.cert_gen import setup_self_signed_certificate
+from asyncua.crypto.security_policies import SecurityPolicyBasic256Sha256
+from cryptography.x509.oid import ExtendedKeyUsageOID
 
+from scanbench.recording.blocks import read_contents
+from scanbench.recording.format import RunFile
+from scanbench.runtime.write_variables import WriteVariables
+from scanbench.wire.codec import ENTRIES
+from tests.cli.calling import scanbench
 from tests.web.server import PATIENCE_S, Server
-from tests.web.test_communication import MODEL, seen
+from tests.web.test_communication import MODEL, break_line, raise_battery_error, seen, until
 
 SOURCE = """
 TYPE Colour : (RED, GREEN := 5, BLUE); END_TYPE
@@ -168,3 +180,205 @@ REFUSED = (
 
 def name_of(server: Server, instance: int) -> str:
     return str(server.http.get(f"/api/instances/{instance}").json()["name"])
+
+
+async def alarm(changes: Changes, active: bool) -> Any:
+    """The next event of an alarm that says so."""
+    while True:
+        event = await changes.events.get()
+        if getattr(event, "ActiveState/Id", None) is active:
+            return event
+
+
+def test_a_subscriber_sees_values_of_one_scan_errors_and_their_recovery_and_calls_methods(server: Server) -> None:
+    instance = server.instance("opc ua errors", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+
+    async def story() -> None:
+        changes = Changes()
+        async with client_at(address, server.token) as client:
+            subscription = await client.create_subscription(50, changes)
+            await subscription.subscribe_data_change(
+                [at(client, "Main.n"), at(client, "Main.twice"), numbered(client, 20)]
+            )
+            alarms = numbered(client, 5)
+            await subscription.subscribe_alarms_and_conditions(alarms, [ua.ObjectIds.OffNormalAlarmType])
+            first = await at(client, "Main.n").read_value()
+            await changes.until("Main.n", lambda value, _: value > first)
+            assert await write(client, "Main.level", 21, ua.VariantType.Int16) == "Good"
+            await changes.until("Main.twice", lambda value, _: value == 42)
+
+            await asyncio.to_thread(raise_battery_error, server, instance)
+            await changes.until("20", lambda value, _: value == ["00F7 Battery error"])
+            event = await alarm(changes, active=True)
+            assert event.Message.Text == "00F7 Battery error"
+            assert (event.ConditionName, event.Severity, event.Retain) == ("battery-error", 500, True)
+            assert await at(client, "Main.errors").read_value() == 0xF7
+            conditions = client.get_node(f"i={ua.ObjectIds.ConditionType}")
+            await conditions.call_method(
+                "0:ConditionRefresh", ua.Variant(subscription.subscription_id, ua.VariantType.UInt32)
+            )
+            assert (await alarm(changes, active=True)).ConditionName == "battery-error", "who comes later is told, too"
+
+            methods = numbered(client, 1)
+            with pytest.raises(ua.uaerrors.BadInvalidState):
+                await methods.call_method("2:ClearErrors")
+            await asyncio.to_thread(recover, server, instance)
+            await changes.until("20", lambda value, _: value == [])
+            event = await alarm(changes, active=False)
+            assert (event.Message.Text, event.Retain) == ("recovered: 00F7 Battery error", False)
+
+            await methods.call_method("2:SetMode", "PROGRAM")
+            assert await numbered(client, 10).read_value() == "PROGRAM"
+            await methods.call_method("2:SetMode", "run")
+            assert await write(client, "Main.level", 5, ua.VariantType.Int16) == "Good", "as at the device, in RUN too"
+            with pytest.raises(ua.uaerrors.BadInvalidState):
+                await methods.call_method("2:SetMode", "WALK")
+
+    run(story())
+
+
+def numbered(client: Client, number: int) -> Node:
+    return client.get_node(f"ns=2;i={number}")
+
+
+def recover(server: Server, instance: int) -> None:
+    server.http.post(f"/api/instances/{instance}/errors/recover", json={"ids": ["battery-error"]}).raise_for_status()
+
+
+def test_who_gives_no_name_reads_and_a_wrong_token_is_refused(server: Server, tmp_path: Path) -> None:
+    instance = server.instance("opc ua users", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+
+    async def story() -> None:
+        async with client_at(address) as client:
+            assert await at(client, "Main.level").read_value() == 0
+            level = await at(client, "Main.level").read_attribute(ua.AttributeIds.UserAccessLevel)
+            assert level.Value == ua.Variant(1, ua.VariantType.Byte)
+            assert await write(client, "Main.level", 1, ua.VariantType.Int16) == "BadUserAccessDenied"
+            with pytest.raises(ua.uaerrors.BadUserAccessDenied):
+                await numbered(client, 1).call_method("2:SetMode", "PROGRAM")
+            with pytest.raises(ua.uaerrors.BadUserAccessDenied):
+                await client.nodes.objects.add_folder(2, "mine")
+            names = [each["name"] for each in (await asyncio.to_thread(seen, server, instance, "opcua"))["clients"]]
+            assert names == ["OPC UA anonymous, HMI"]
+        with pytest.raises(ua.uaerrors.BadUserAccessDenied):
+            await client_at(address, "not the token").connect()
+
+        secure = client_at(address, server.token)
+        key, certificate = tmp_path / "key.pem", tmp_path / "certificate.der"
+        uses = [ExtendedKeyUsageOID.CLIENT_AUTH]
+        await setup_self_signed_certificate(key, certificate, "urn:test", "localhost", uses, {})
+        await secure.set_security(SecurityPolicyBasic256Sha256, certificate, key)
+        async with secure as client:
+            assert await write(client, "Main.level", 7, ua.VariantType.Int16) == "Good"
+
+    run(story())
+    kept = server.data / "opcua" / "key.pem"
+    assert kept.stat().st_mode & 0o077 == 0, "nobody else reads the key"
+    open_to_all = switch_on(server, instance, anonymous_writes=True)
+
+    async def anybody() -> None:
+        async with client_at(open_to_all) as client:
+            assert await write(client, "Main.level", 1, ua.VariantType.Int16) == "Good"
+
+    run(anybody())
+
+
+CHANGED = """
+PROGRAM Main
+VAR level AT D100 : INT; n : DINT; fresh : REAL := 0.5; END_VAR
+  n := n + 1;
+END_PROGRAM
+"""
+
+
+def build(server: Server, instance: int, text: str) -> None:
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    server.http.put(f"/api/projects/{project}/files/main.st", json={"text": text, "version": 1}).raise_for_status()
+    built = server.http.post(f"/api/projects/{project}/build", json={}).json()
+    assert built["ok"], built
+
+
+def test_a_changed_program_a_kill_and_a_plc_that_is_off(server: Server, tmp_path: Path) -> None:
+    instance = server.instance("opc ua life", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+
+    def die() -> None:
+        before = server.state(instance)
+        os.kill(before["pid"], signal.SIGKILL)
+        until(lambda: server.state(instance)["restarts"] > before["restarts"])
+
+    async def story() -> None:
+        changes = Changes()
+        async with client_at(address, server.token) as client:
+            subscription = await client.create_subscription(50, changes)
+            await subscription.subscribe_data_change(
+                [at(client, "Main.n"), at(client, "Main.twice"), numbered(client, 10)]
+            )
+            for value in range(1, 6):
+                assert await write(client, "Main.level", value, ua.VariantType.Int16) == "Good"
+            await asyncio.to_thread(die)
+            level = at(client, "Main.level")
+            while (found := await level.read_data_value(raise_on_bad_status=False)).StatusCode != ua.StatusCode():
+                assert found.StatusCode == ua.StatusCode(ua.UInt32(ua.StatusCodes.BadNoCommunication))
+            assert found.Value == ua.Variant(5, ua.VariantType.Int16), "what was acknowledged is not lost"
+            n = await at(client, "Main.n").read_value()
+            await changes.until("Main.n", lambda value, _: value is not None and value > n)
+
+            await asyncio.to_thread(build, server, instance, CHANGED)
+            await changes.until("Main.twice", lambda _, status: status.name == "BadNodeIdUnknown")
+            n = await at(client, "Main.n").read_value()
+            await changes.until("Main.n", lambda value, _: value is not None and value > n)
+            assert await at(client, "Main.fresh").read_value() == 0.5
+            with pytest.raises(ua.uaerrors.BadNodeIdUnknown):
+                await at(client, "Main.twice").read_value()
+
+            power = f"/api/instances/{instance}"
+            await asyncio.to_thread(server.http.patch, power, json={"power": False})
+            await changes.until("10", lambda _, status: status.name == "BadNoCommunication")
+            with pytest.raises(ua.uaerrors.BadNoCommunication):
+                await at(client, "Main.level").read_value()
+            assert await write(client, "Main.level", 9, ua.VariantType.Int16) == "BadNoCommunication"
+
+    run(story())
+    run_file = tmp_path / "run.scanrun"
+    run_file.write_bytes(server.http.get(f"/api/instances/{instance}/export").content)
+    file = RunFile.open(run_file, read_only=True)
+    entries = read_contents(file, ENTRIES).found.entries
+    file.close()
+    writes = [each.command for each in entries if isinstance(each.command, WriteVariables)]
+    assert [each.author for each in writes] == ["OPC UA Ada, HMI"] * 5
+    replayed = scanbench("replay", str(run_file))
+    assert replayed.returncode == 0, replayed.stderr
+
+
+def test_faults_of_the_line(server: Server) -> None:
+    instance = server.instance("opc ua line", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+
+    async def broken(fault: str, late_ms: int = 1000) -> None:
+        await asyncio.to_thread(break_line, server, instance, "opcua", fault, late_ms)
+
+    async def story() -> None:
+        client = client_at(address)
+        await client.connect()
+        level = at(client, "Main.level")
+        await broken("late", 1)
+        assert await level.read_value() == 0
+        await broken("silent")
+        waiting = asyncio.create_task(level.read_value())
+        assert not (await asyncio.wait((waiting,), timeout=0.2))[0]
+        await broken("cut")
+        with pytest.raises(ConnectionError):
+            await level.read_value()
+        with pytest.raises(ConnectionError):
+            await waiting
+        client.disconnect_socket()
+        await broken("refused")
+        with pytest.raises(ConnectionRefusedError):
+            await client_at(address).connect()
+
+    run(story())
+    break_line(server, instance, "opcua", "none")
+    assert seen(server, instance, "opcua")["address"] == address, "it has the port again that it had"

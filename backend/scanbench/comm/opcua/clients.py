@@ -39,6 +39,8 @@ class Desk:
     space: Space
     values: Values
     methods: dict[ua.NodeId, tuple[str, Method]]
+    tellers: tuple[ua.NodeId, ...]
+    """Objects whose events are those of the server."""
 
 
 class Users(UserManager):
@@ -258,6 +260,12 @@ class Session(InternalSession):
     ) -> list[ua.MonitoredItemCreateResult]:
         """Each begins with its present value."""
         asked = params.ItemsToCreate or []
+        for each in asked:
+            if (
+                each.ItemToMonitor.AttributeId == ua.AttributeIds.EventNotifier
+                and each.ItemToMonitor.NodeId in self._desk.tellers
+            ):
+                each.ItemToMonitor.NodeId = standard(ua.ObjectIds.Server)  # which tells of everything
         there = sum(
             len(each.monitored_item_srv._monitored_items) for each in self.subscription_service.subscriptions.values()
         )

@@ -55,9 +55,10 @@ class Errors:
         alarm = self._alarms.get(error.key)
         if alarm is None:
             alarm = self._alarms[error.key] = EventGenerator(self._server.iserver.isession)
-            await alarm.init(ua.ObjectIds.OffNormalAlarmType, self._node, add_generates_event=False)
+            await alarm.init(ua.ObjectIds.OffNormalAlarmType, ua.ObjectIds.Server, add_generates_event=False)
         event: Any = alarm.event
         event.NodeId = own(f"alarm:{error.key}")
+        event.SourceNode = self._node
         event.ConditionName, event.SourceName = error.key, error.name
         event.ConditionClassName = ua.LocalizedText("SystemConditionClassType")
         event.ConditionClassId = standard(ua.ObjectIds.SystemConditionClassType)

@@ -22,8 +22,13 @@ class Link:
     """Asks and tells. In the event loop."""
 
     def __init__(self, writer: asyncio.StreamWriter) -> None:
+        self._writer = writer
         self._channel = Channel("OPC UA", writer.close, Refused)
         self._channel.begin(writer)
+
+    def close(self) -> None:
+        """Nothing is said any more."""
+        self._writer.close()
 
     async def take(self, message: object) -> bool:
         """Gives an answer to who waits for it; false where it is none."""

@@ -60,7 +60,7 @@ class Plc:
 
     async def open(self) -> None:
         """Makes the nodes that are always there, and listens. `OSError`."""
-        iserver = ToPlc(Desk(self._start, self._link, self._space, self._values, {}))
+        iserver = ToPlc(Desk(self._start, self._link, self._space, self._values, {}, (_PLC, _ERRORS)))
         _use(iserver, self._space)
         server = self._server = OpcUa(self._start, iserver, self._line)
         await server.prepare()
@@ -97,7 +97,7 @@ class Plc:
             (_PLC, plc, standard(ua.ObjectIds.ObjectsFolder)), (_PROGRAMS, "Programs", _PLC), (_GLOBALS, "Globals", _PLC),
             (_STATUS, "Status", _PLC), (_ERRORS, "Errors", _PLC),
         ):  # fmt: skip
-            space.put_object(id, name, folder, parent, events=id == _ERRORS)
+            space.put_object(id, name, folder, parent, events=id in (_PLC, _ERRORS))
         for number, (name, form, head) in enumerate(_HEADS, _FIRST_HEAD):
             space.put_fixed(
                 Variable(

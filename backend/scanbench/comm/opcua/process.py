@@ -67,4 +67,8 @@ async def _live(plc: "Plc", link: Link) -> None:
         link.tell(OpcUaFailed(FAULT))
         return
     link.tell(OpcUaReady(plc.port))
-    await plc.live()
+    try:
+        await plc.live()
+    except Exception:
+        log.exception("an OPC UA server ends")
+        link.close()  # and so does its process: another one is started
