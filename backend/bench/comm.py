@@ -1,4 +1,4 @@
-"""`python -m bench comm`: FINS and Modbus clients at one virtual PLC of a real server.
+"""`python -m bench comm`: FINS, Modbus and OPC UA clients at one virtual PLC of a real server.
 
 Latencies are those of the clients, from request to answer, in milliseconds; the PLC runs scans of 10 ms. CPU is of one core, of the
 PLC's process and of the server's. Late scans are those that begin after the next one was due: counted without clients, with them, and under a storm of broken frames, in one run.
@@ -13,14 +13,27 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import httpx
 
+from bench.opcua_clients import subscribed
+
 CLIENTS, PER_SECOND, WORDS = 50, 20, 100
-_SOURCE = "PROGRAM Main\nVAR n : DINT; level AT D100 : INT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
+UA_CLIENTS, UA_NODES, UA_MS, UA_CHANGING = 10, 1000, 100, 100
+"""So many clients subscribe to so many variables each, ten times a second; so many of them change with each scan."""
+UA_READY_S = 25.0
+"""So long until all of them have subscribed."""
+_SOURCE = (
+    "PROGRAM Main\nVAR n : DINT; level AT D100 : INT;\n"
+    + "".join(f"  v{each} : INT;\n" for each in range(UA_NODES))
+    + "END_VAR\n  n := n + 1;\n"
+    + "".join(f"  v{each} := v{each} + 1;\n" for each in range(UA_CHANGING))
+    + "END_PROGRAM\n"
+)
 _TICKS = 100
 """Of a second, in /proc."""
 
@@ -37,6 +50,8 @@ class Load:
     worst_ms: float
     host_percent: float
     server_percent: float
+    others_percent: float
+    """Of further processes of the server: that of OPC UA."""
     late_percent: float
     """Scans that began after the next one was due."""
 
@@ -71,7 +86,7 @@ class Bench:
         return dict(self.http.get(f"/api/instances/{self.instance}").json()["state"])
 
     def switch_on(self, kind: str) -> int:
-        wanted = {"on": True, "access": "write"}
+        wanted = {"on": True, "access": "write", "port": 0}
         told = self.http.put(f"/api/instances/{self.instance}/communication/{kind}", json=wanted).json()
         (address,) = (each["address"] for each in told["servers"] if each["kind"] == kind)
         return int(str(address).rpartition(":")[2])
@@ -81,9 +96,12 @@ class Bench:
         self.http.post(f"/api/instances/{self.instance}/run", json={"action": "pause"}).raise_for_status()
         self.http.post(f"/api/instances/{self.instance}/run", json={"action": "continue"}).raise_for_status()
 
-    def cpu(self) -> tuple[float, float]:
-        """Seconds of the PLC's process and of the server's."""
-        return _cpu(self.state["pid"]), _cpu(self.process.pid)
+    def cpu(self) -> tuple[float, float, float]:
+        """Seconds of the PLC's process, of the server's, and of the others that the server has: that of OPC UA most of all."""
+        plc, server = self.state["pid"], self.process.pid
+        children = Path(f"/proc/{server}/task").glob("*/children")
+        others = {int(pid) for each in children for pid in each.read_text().split()} - {plc}
+        return _cpu(plc), _cpu(server), sum(map(_cpu, others))
 
     def close(self) -> None:
         self.http.close()
@@ -176,13 +194,35 @@ def measure(bench: Bench, what: str, work: Any, seconds: float) -> Load:
         time.sleep(seconds)
     lasted, after, state = time.perf_counter() - begin, bench.cpu(), bench.state
     percent = [100 * (b - a) / lasted for a, b in zip(before, after, strict=True)]
+    return _load(what, took, lasted, percent, state)
+
+
+def measure_opcua(bench: Bench, port: int, clients: int, seconds: float) -> Load:
+    """Clients that have subscribed; a latency is from when a value was read in the PLC to when the client has it."""
+    begin = time.time() + UA_READY_S
+    with ProcessPoolExecutor(clients) as pool:
+        waiting = [pool.submit(subscribed, port, UA_NODES, UA_MS, begin, seconds) for _ in range(clients)]
+        time.sleep(begin - time.time())
+        bench.new_pace()
+        before, at = bench.cpu(), time.perf_counter()
+        time.sleep(seconds)
+        lasted, after, state = time.perf_counter() - at, bench.cpu(), bench.state
+        took = sorted(each for one in waiting for each in one.result())
+    percent = [100 * (b - a) / lasted for a, b in zip(before, after, strict=True)]
+    return _load("OPC UA", took, lasted, percent, state)
+
+
+def _load(what: str, took: list[float], lasted: float, percent: list[float], state: dict[str, Any]) -> Load:
     p50, p99, worst = (1000 * took[min(len(took) - 1, int(q * len(took)))] if took else 0.0 for q in (0.5, 0.99, 1))
-    return Load(what, len(took), len(took) / lasted, p50, p99, worst, percent[0], percent[1], state["late_percent"])
+    return Load(
+        what, len(took), len(took) / lasted, p50, p99, worst, percent[0], percent[1], percent[2], state["late_percent"]
+    )
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m bench comm", description=__doc__)
     parser.add_argument("--clients", type=int, default=CLIENTS)
+    parser.add_argument("--ua-clients", type=int, default=UA_CLIENTS, help="of OPC UA")
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--storm", type=int, default=100_000, help="broken frames")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -191,10 +231,12 @@ def main() -> None:
         bench = Bench(Path(folder))
         try:
             port, other = bench.switch_on("fins"), bench.switch_on("modbus")
+            ua = bench.switch_on("opcua")
             loads = [
                 measure(bench, "no client", None, given.seconds),
                 measure(bench, "FINS", fins(port, given.clients, given.seconds), given.seconds),
                 measure(bench, "Modbus", modbus(other, min(16, given.clients), given.seconds), given.seconds),
+                measure_opcua(bench, ua, given.ua_clients, given.seconds),
                 measure(bench, "broken frames", storm(port, given.storm), given.seconds),
                 measure(bench, "no client", None, given.seconds),
             ]
@@ -203,11 +245,13 @@ def main() -> None:
     if given.json:
         sys.stdout.write(json.dumps([asdict(each) for each in loads]) + "\n")
         return
-    sys.stdout.write("                requests       /s   p50 ms   p99 ms   worst   PLC %  server %  late %\n")
+    sys.stdout.write(
+        "                requests       /s   p50 ms   p99 ms   worst   PLC %  server %  OPC UA %  late %\n"
+    )
     for each in loads:
         sys.stdout.write(
             f"{each.what:14}  {each.requests:8}  {each.per_second:7.0f}  {each.p50_ms:7.2f}  {each.p99_ms:7.2f}  {each.worst_ms:6.1f}"
-            f"  {each.host_percent:6.1f}  {each.server_percent:8.1f}  {each.late_percent:6.2f}\n"
+            f"  {each.host_percent:6.1f}  {each.server_percent:8.1f}  {each.others_percent:8.1f}  {each.late_percent:6.2f}\n"
         )
 
 

@@ -253,7 +253,7 @@ class Session(InternalSession):
 
     def _pace(self) -> None:
         wanted = [each.data.RevisedPublishingInterval for each in self.subscription_service.subscriptions.values()]
-        self._desk.values.interval_ms = min(SLOWEST_MS, *wanted, SLOWEST_MS) / 2
+        self._desk.values.interval_ms = min([SLOWEST_MS, *wanted])
 
     async def create_monitored_items(
         self, params: ua.CreateMonitoredItemsParameters
