@@ -287,7 +287,7 @@ class Checker:
     def _declare_pou(self, key: str, declaration: tree.PouDeclaration) -> None:
         name = qualified(declaration.namespace, declaration.name)
         inline = in_library(declaration.span)
-        if is_generic(declaration):
+        if is_generic(declaration) and (inline or "ANY" not in self.declarations.type_trees):
             self.pous.generic[key] = declaration
             return
         if declaration.kind == "function":

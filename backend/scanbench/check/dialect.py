@@ -42,6 +42,8 @@ class Allowance(Enum):
     LOCAL_ADDRESSES = auto()
     DIRECT_REFERENCES = auto()
     POINTER_NUMBERS = auto()
+    ANY_INPUTS = auto()
+    INSTANCE_COPIES = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,6 +188,16 @@ RULES: dict[Allowance, Rule] = {
         "a pointer where LWORD, ULINT or LINT is wanted, and the other way round",
         "an address is no number",
         "POINTER TO",
+    ),
+    Allowance.ANY_INPUTS: Rule(
+        "inputs of the type ANY, ANY_NUM and the like, which have the address (pValue), the size (diSize) and the TypeClass of a variable",
+        "a FUNCTION with such inputs computes with the value, and has the type that is passed",
+        "a VAR_IN_OUT",
+    ),
+    Allowance.INSTANCE_COPIES: Rule(
+        "an assignment of an instance of a block to one of the same block: all that it has is copied, pointers too",
+        "an instance is never assigned",
+        "assignments of what is to be copied",
     ),
 }
 

@@ -106,6 +106,18 @@ def test_who_uses_a_stub_is_told_once() -> None:
     assert "in 2 places" in said(found)[0]
 
 
+@pytest.mark.parametrize(
+    ("passed", "why"),
+    [("3", "needs a variable"), ("s", "a STRING[80] cannot be passed"), ("l", "which class LTIME has in TwinCAT")],
+)
+def test_what_an_input_of_the_type_any_cannot_be_given_is_told(passed: str, why: str) -> None:
+    found = check(
+        f"""FUNCTION Size : DINT VAR_INPUT x : ANY; END_VAR Size := x.diSize; END_FUNCTION
+        PROGRAM Main VAR d : DINT; s : STRING; l : LTIME; END_VAR d := Size({passed}); END_PROGRAM"""
+    )
+    assert [why in each for each in said(found)] == [True]
+
+
 def test_a_library_may_be_a_namespace() -> None:
     text = """PROGRAM Main
         VAR open : FILE.Open; size : CAA.SIZE; b : BOOL; s : STRING; END_VAR

@@ -59,7 +59,7 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
     if setter is not None:
         return setter
     target, member = _target(body, node)
-    if has_instance(target.type):
+    if has_instance(target.type) and not _copied(body, target.type, node):
         raise body.report.reject("T003", "An instance of a function block cannot be assigned.", node.span)
     what = f"`{shown(node.target)}`"
     note = noting(body, target, member)
@@ -156,6 +156,17 @@ def condition(body: Body, node: tree.Expression) -> Expr:
     except Rejected:
         return Const(BOOL, 0)
     return expr
+
+
+def _copied(body: Body, type: Type, node: tree.Assignment) -> bool:
+    """Whether the dialect copies all that an instance has to one of the same block, and `value` is such a one."""
+    if not isinstance(type, Record) or type.kind is not Kind.BLOCK or not isinstance(node.value, VARIABLES):
+        return False
+    mark = body.report.mark()
+    given = body.place(node.value)[0].type
+    body.report.undo(mark)
+    what = f"All that `{shown(node.value)}` has is copied"
+    return given == type and allowed(body, Allowance.INSTANCE_COPIES, node.span, what)
 
 
 def _not_counter(body: Body, target: Place, node: tree.Assignment) -> None:

@@ -1,6 +1,7 @@
 """Arguments of inputs: a value, or where a REFERENCE TO is wanted and the dialect has it so, the variable itself."""
 
 from scanbench.check.body.allowed import may, used
+from scanbench.check.body.any_inputs import any_of, is_any
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.places import VARIABLES
@@ -14,6 +15,8 @@ from scanbench.syntax import tree
 
 def as_argument(body: Body, node: tree.Expression, type: Type, what: str) -> Expr:
     """What is passed to an input of this type, or what it starts with; `what` it is, for people."""
+    if isinstance(type, Record) and is_any(type):
+        return any_of(body, node, type, what)
     if _is_variable(body, node, type):
         used(
             body, Allowance.DIRECT_REFERENCES, node.span, f"{what} is {type}, and this is a variable",

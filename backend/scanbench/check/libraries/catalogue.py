@@ -20,6 +20,7 @@ from scanbench.syntax.source import Source
 FOLDER = "libraries"
 """Of a project: the file `libraries/Util.st` is the library `Util`, whose name may be written before what it declares."""
 SHIPPED: dict[str, tuple[DialectName, ...]] = {
+    "__SYSTEM": ("codesys", "twincat"),
     "CAA": ("codesys",),
     "FILE": ("codesys",),
     "Logix": ("rockwell",),
