@@ -3,6 +3,7 @@
 import typer
 
 from scanbench import __version__
+from scanbench.cli.campaign import campaign
 from scanbench.cli.check import check
 from scanbench.cli.dap import dap
 from scanbench.cli.device import clear, log, present
@@ -28,7 +29,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="A bench for debugging PLC programs (IEC 61131-3) on virtual PLCs of real models.",
 )
-for command in (serve, check, format, run, verify, replay, diff, dap, lsp):
+for command in (serve, check, format, run, verify, campaign, replay, diff, dap, lsp):
     app.command()(command)
 app.command("import")(import_file)
 app.command("export")(export_file)

@@ -82,14 +82,14 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
     _refuse_what_says_nothing(given)
     if given.trace is not None:
         yield _trace(given, given.trace)
-    elif _is_run(given.path):
+    elif is_run(given.path):
         with _run_file(given.path, make) as (verifier, recording):
             lost = tell_damage(given.path, recording)
             yield Subject(verifier, given.path.stem, given.path.name, recording.about.model, "past", lost=lost)
     else:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "run")
-            program, note = _ran(given, path)
+            program, note = ran(given, path)
             with _run_file(path, make) as (verifier, _):
                 name = given.path.resolve().name
                 yield Subject(
@@ -99,14 +99,15 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
 
 def _refuse_what_says_nothing(given: Given) -> None:
     """Options that a project's run has, and what ran already has not."""
-    if any(asdict(given.options).values()) and (given.trace is not None or _is_run(given.path)):
+    if any(asdict(given.options).values()) and (given.trace is not None or is_run(given.path)):
         what = "a trace" if given.trace is not None else "a recorded run"
         usage(f"--set, --force, --raise, --clear, --mode and --restart are for a project: {what} is taken as it is")
-    if given.model is not None and _is_run(given.path):
+    if given.model is not None and is_run(given.path):
         usage(f"--model is for a project: {given.path.name} was recorded on a model of its own")
 
 
-def _is_run(path: Path) -> bool:
+def is_run(path: Path) -> bool:
+    """Whether this is a run file, and no program."""
     try:
         return path.suffix in _SUFFIXES or (path.is_file() and is_run_file(path))
     except OSError as error:
@@ -118,7 +119,7 @@ def _is_run(path: Path) -> bool:
 
 @contextmanager
 def _run_file(path: Path, make: Make) -> Iterator[tuple[Verifier, Recording]]:
-    reader = RunReader(path, programs_by(_program_of, make), ENTRIES, texts_in)
+    reader = RunReader(path, programs_by(program_of, make), ENTRIES, texts_in)
     try:
         with Verifier(RunSubject(reader)) as verifier:
             yield verifier, reader.recording
@@ -126,7 +127,8 @@ def _run_file(path: Path, make: Make) -> Iterator[tuple[Verifier, Recording]]:
         unusable_run(path, error)
 
 
-def _program_of(sources: Sources) -> Program:
+def program_of(sources: Sources) -> Program:
+    """The program of a run file; `NoProgram`."""
     return checked_program(sources, model_of(sources))
 
 
@@ -146,7 +148,7 @@ def _program(given: Given) -> tuple[Program, dict[str, str]]:
     return checked.program, below(given.path, sources.texts)
 
 
-def _ran(given: Given, path: Path) -> tuple[Program, str]:
+def ran(given: Given, path: Path) -> tuple[Program, str]:
     """Runs the project and records it; gives the program, and what a report should say about the run."""
     program, files = _program(given)
     commands = read_commands(program, given.options)
@@ -202,7 +204,7 @@ def _trace(given: Given, path: Path) -> Subject:
 
 def _program_for_trace(given: Given) -> tuple[Program, Mapping[str, str]]:
     """The project's program, or the last one of a run, and its files."""
-    if not _is_run(given.path):
+    if not is_run(given.path):
         return _program(given)
     try:
         with RunReader(given.path, no_programs, ENTRIES) as reader:

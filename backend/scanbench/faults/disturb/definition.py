@@ -19,7 +19,7 @@ FOR_EVER = 1_000_000
 """So many scans mean: until it is taken back."""
 MOST_SEED = (1 << 63) - 1
 _NEVER = 1 << 62
-_WRITING = (Assign, SetBytes, CallBlock, Evaluate, For)
+WRITING = (Assign, SetBytes, CallBlock, Evaluate, For)
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,7 +187,7 @@ def writing_sites(program: Program, site: str) -> frozenset[int] | Refusal:
     if isinstance(found, Refusal):
         return found
     sites = sites_of(program)
-    numbers = {sites.number(stmt) for pou in program.tasked for stmt in every(pou.body) if isinstance(stmt, _WRITING)}
+    numbers = {sites.number(stmt) for pou in program.tasked for stmt in every(pou.body) if isinstance(stmt, WRITING)}
     writing = frozenset(found) & frozenset(each for each in numbers if each is not None)
     if not writing:
         return Refusal(f"the statement at {site} writes nothing itself: name a line with an assignment or a call")

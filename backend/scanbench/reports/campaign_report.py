@@ -1,0 +1,122 @@
+"""An injection campaign for people and machines: a table, JSON, JUnit."""
+
+from dataclasses import asdict, dataclass
+from typing import Literal
+
+from lxml import etree
+
+from scanbench.history.campaign.contract import OUTCOMES, Campaign, Outcome, Trial
+from scanbench.plcmodel.document import xml_text
+from scanbench.reports.report_json import Json
+
+FORMAT = 1
+"""Raised when the meaning of a key changes; new keys may come at any time."""
+Require = Literal["any", "program"]
+WORDS: dict[Outcome, str] = {
+    "both": "noticed by verification and program",
+    "verification": "noticed by verification only",
+    "program": "noticed by the program only",
+    "nothing": "noticed by nothing",
+    "no effect": "without effect",
+    "missed": "did not come about",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class CampaignReport:
+    """What was tried, and on what."""
+
+    project: str
+    model: str
+    campaign: Campaign
+    require: Require = "any"
+    whole: bool = True
+    """All that was wanted was tried."""
+
+    @property
+    def findings(self) -> tuple[Trial, ...]:
+        """Those that nobody noticed, or of which an output was wrong and the program did not notice it."""
+        if self.require == "program":
+            return tuple(each for each in self.campaign.trials if each.silent)
+        return tuple(each for each in self.campaign.trials if each.outcome == "nothing")
+
+
+def campaign_text(report: CampaignReport) -> list[str]:
+    """Lines: how many of each, then those that are findings."""
+    wanted, trials = report.campaign.wanted, report.campaign.trials
+    lines = [
+        f"{report.project} on {report.model}: {len(trials)} disturbances in scans {wanted.first} to {wanted.last}, seed {wanted.seed}, "
+        f"{wanted.window} scans to notice each"
+    ]
+    lines += [f"  {report.campaign.count(each):>6}  {WORDS[each]}" for each in OUTCOMES if report.campaign.count(each)]
+    silent = sum(each.silent for each in trials)
+    lines.append(f"  {silent:>6}  made an output wrong, and the program did not notice it")
+    for each in report.findings:
+        lines += ["", *trial_text(each)]
+    return lines
+
+
+def trial_text(trial: Trial) -> list[str]:
+    """All that is known of one."""
+    lines = [f"{trial.number}: {trial.text}: {WORDS[trial.outcome]}"]
+    if trial.verification:
+        lines.append(f"  verification  {trial.verification}")
+    if trial.program:
+        lines.append(f"  program       in scan {trial.program_scan}: {'; '.join(trial.program)}")
+    if trial.output_scan is not None:
+        lines.append(f"  output        different after scan {trial.output_scan}")
+    if trial.differs:
+        lines.append("  memory        different at the end")
+    if trial.why:
+        lines.append(f"  why           {trial.why}")
+    return lines
+
+
+def campaign_json(report: CampaignReport) -> dict[str, Json]:
+    """One object; its shape is described in docs/verification.md."""
+    wanted = report.campaign.wanted
+    return {
+        "format": FORMAT, "project": report.project, "model": report.model, "seed": wanted.seed, "count": wanted.count,
+        "first": wanted.first, "last": wanted.last, "window": wanted.window, "kinds": list(wanted.kinds),
+        "alarms": list(wanted.alarms), "require": report.require, "whole": report.whole,
+        "outcomes": {each: report.campaign.count(each) for each in OUTCOMES},
+        "silent": sum(each.silent for each in report.campaign.trials),
+        "findings": [each.number for each in report.findings],
+        "trials": [_trial(each) for each in report.campaign.trials],
+    }  # fmt: skip
+
+
+def _trial(trial: Trial) -> Json:
+    told: dict[str, Json] = {**asdict(trial), "program": list(trial.program), "silent": trial.silent}
+    return told
+
+
+def campaign_junit(report: CampaignReport) -> str:
+    """A test case for each disturbance: it fails where it is a finding, and is skipped where it did not come about."""
+    trials, findings = report.campaign.trials, report.findings
+    missed = [each for each in trials if each.outcome == "missed"]
+    numbers = {"tests": len(trials), "failures": len(findings), "skipped": len(missed), "errors": 0}
+    totals = {name: str(number) for name, number in numbers.items()}
+    root = etree.Element("testsuites", totals)
+    suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{report.project} on {report.model}"), **totals})
+    for each in trials:
+        about = {
+            "classname": f"campaign.seed{report.campaign.wanted.seed}",
+            "name": xml_text(f"{each.number}: {each.text}"),
+        }
+        case = etree.SubElement(suite, "testcase", about)
+        told = "\n".join(trial_text(each))
+        if each in findings:
+            failed = {"message": xml_text(_finding(each)), "type": each.outcome.replace(" ", "_")}
+            etree.SubElement(case, "failure", failed).text = xml_text(told)
+        elif each in missed:
+            etree.SubElement(case, "skipped", {"message": xml_text(each.why)})
+        else:
+            etree.SubElement(case, "system-out").text = xml_text(told)
+    return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
+
+
+def _finding(trial: Trial) -> str:
+    if trial.output_scan is not None:
+        return f"an output is wrong after scan {trial.output_scan}, {WORDS[trial.outcome]}"
+    return f"what the program remembers is wrong, {WORDS[trial.outcome]}"

@@ -1,0 +1,161 @@
+"""Campaigns: the same seed tries the same, who noticed what is right, and what stops a program is found where it happened."""
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from scanbench.engines.available import flavours
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.observed import ObservedBuilds
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
+from scanbench.faults.schedule import Schedule
+from scanbench.history.campaign.contract import BadCampaign, Campaign, CampaignWanted, Trial
+from scanbench.history.campaign.plan import planned
+from scanbench.history.campaign.trials import Bench, Trials, run_campaign
+from scanbench.program.program import Program
+from scanbench.recording.programs import cached, on, programs_of
+from scanbench.recording.reader import RunReader
+from scanbench.runtime.joined import Joined
+from scanbench.runtime.write import Write
+from scanbench.verify.contract import Range
+from scanbench.verify.run_subject import RunSubject
+from scanbench.verify.verifier import Verifier
+from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount
+from tests.runtime.bench import program
+from tests.verify.verified_runs import record
+
+SOURCE = """
+VAR_GLOBAL start AT CIO0.00 : BOOL; lamp AT CIO100.00 : BOOL; level AT CIO101 : INT; END_VAR
+PROGRAM Main
+VAR ix : INT; list : ARRAY[0..9] OF INT; one : INT := 1; q : INT; twice, half : INT; alarm : BOOL; spare : LINT;
+  limited : INT(0..100); text : STRING[10]; END_VAR
+  ix := (ix + 1) MOD 10;
+  list[ix] := list[ix] + 1;
+  q := 1000 / one;
+  limited := list[3] MOD 100;
+  half := list[5];
+  twice := 2 * half;
+  IF twice <> 2 * half THEN
+    alarm := TRUE;
+  END_IF;
+  lamp := start AND NOT alarm;
+  level := level + 1;
+END_PROGRAM
+"""
+LINES = {text.strip(): number for number, text in enumerate(SOURCE.splitlines(), 1)}
+MAKE = on(flavours())
+
+
+def bench(folder: Path, checked: Program) -> Bench:
+    def agenda() -> Joined:
+        return Joined(Schedule(ObservedBuilds().engine), DisturbanceSchedule())
+
+    return Bench(folder, ENTRIES, cached({1: checked}, MAKE), cached({1: checked}, MAKE), agenda)
+
+
+def reading(folder: Path, scans: int = 200) -> RunReader:
+    commands = [(scan, Write("Ada", "start", "TRUE" if scan % 2 else "FALSE")) for scan in range(5, scans, 7)]
+    (folder / "base.run").unlink(missing_ok=True)
+    path = record(folder / "base.run", program(SOURCE), scans, commands, engine=NativeEngine)
+    reader = RunReader(path, programs_of(lambda kept: program(SOURCE), MAKE), ENTRIES)
+    reader.follow()
+    return reader
+
+
+def tried(folder: Path, wanted: CampaignWanted) -> Campaign:
+    with reading(folder) as reader:
+        return run_campaign(reader, wanted, bench(folder, program(SOURCE)))
+
+
+def test_the_same_seed_tries_the_same(tmp_path: Path) -> None:
+    wanted = CampaignWanted(seed=5, count=30, first=10, last=150, window=20)
+    one = tried(tmp_path, wanted)
+    with reading(tmp_path) as reader:
+        again = run_campaign(reader, wanted, bench(tmp_path, program(SOURCE)), only=(7, 3))
+    assert again.trials == (one.trials[6], one.trials[2])
+    assert planned(program(SOURCE), wanted) != planned(program(SOURCE), CampaignWanted(6, 30, 10, 150, 20))
+
+
+def test_who_noticed_what(tmp_path: Path) -> None:
+    wanted = CampaignWanted(seed=2, count=amount(400, 60), first=10, last=150, window=20, alarms=("Main.alarm",))
+    found = tried(tmp_path, wanted)
+    by = Counter(each.outcome for each in found.trials)
+    assert by["verification"], by
+    assert by["both"], by
+    for each in found.trials:
+        if (
+            each.kind in ("flip", "result")
+            and each.outcome != "missed"
+            and (each.differs or each.output_scan is not None)
+        ):
+            assert each.verification, each
+        if each.outcome == "no effect":
+            assert (each.output_scan, each.differs, each.program, each.verification) == (None, False, (), ""), each
+        if each.trapped:
+            assert any("run-time error at main.st:" in text for text in each.program), each
+    alarmed = [each for each in found.trials if "`Main.alarm` held" in each.program]
+    assert all(each.program_scan is not None and each.program_scan >= each.scan for each in alarmed)
+    assert alarmed, "a wrong sum is seen by the program itself"
+
+
+def one_of(trials: Trials, wanted: str) -> Trial:
+    for number, each in enumerate(trials.disturbances, 1):
+        if each.site == wanted or each.path == wanted:
+            return trials.trial(number)
+    raise AssertionError(f"nothing disturbs {wanted}")
+
+
+def test_an_output_that_is_wrong_is_silent_where_the_program_says_nothing(tmp_path: Path) -> None:
+    wanted = CampaignWanted(seed=3, count=80, first=10, last=150, window=20, alarms=("Main.alarm",))
+    with reading(tmp_path) as reader:
+        trials = Trials(reader, wanted, bench(tmp_path, program(SOURCE)))
+        found = one_of(trials, f"main.st:{LINES['level := level + 1;']}")
+    assert (found.silent, found.output_scan, found.outcome) == (True, found.scan, "verification")
+    assert found.place is not None
+    assert found.place.line == LINES["level := level + 1;"]
+
+
+def test_what_cannot_be_tried_is_refused(tmp_path: Path) -> None:
+    for wanted, message in (
+        (CampaignWanted(count=0, last=10), "number of disturbances is 0"),
+        (CampaignWanted(first=10, last=500), "scans 10 to 500 cannot be disturbed: the run has scans 0 to 199"),
+        (CampaignWanted(last=10, alarms=("Main.nowhere",)), "nowhere"),
+        (CampaignWanted(last=10, kinds=()), "no kind"),
+    ):
+        with pytest.raises(BadCampaign, match=message):
+            tried(tmp_path, wanted)
+
+
+def test_what_stops_the_program_is_found_in_its_scan_and_at_its_statement(tmp_path: Path) -> None:
+    """A thousand that end in a run-time error, in the nightly run."""
+    stopped, seed = 0, 0
+    with reading(tmp_path) as reader:
+        while stopped < amount(1000, 8):
+            seed += 1
+            wanted = CampaignWanted(seed, 100, 10, 150, 15, ("result", "flip"))
+            trials = Trials(reader, wanted, bench(tmp_path, program(SOURCE)))
+            for number, each in enumerate(trials.disturbances, 1):
+                if (
+                    each.path not in ("Main.one", "Main.ix")
+                    and each.site != f"main.st:{LINES['ix := (ix + 1) MOD 10;']}"
+                ):
+                    continue
+                found = trials.trial(number)
+                if found.trapped:
+                    stopped += 1
+                    assert_found(trials, found)
+
+
+def assert_found(trials: Trials, found: Trial) -> None:
+    assert found.verified_scan == found.scan, found
+    (stop,) = (each for each in found.program if each.startswith("run-time error"))
+    place = stop.removeprefix("run-time error at main.st:").partition(":")[0]
+    assert found.program_scan is not None
+    reader = RunReader(trials.file, programs_of(lambda kept: program(SOURCE), MAKE), ENTRIES)
+    with Verifier(RunSubject(reader)) as verifier:
+        verifier.begin(Range())
+        rows = verifier.verify(found.program_scan).rows
+    told = [row.note for row in rows] + [each.message for row in rows for each in row.differences]
+    assert any("run-time error" in text and f"main.st:{place}" in text for text in told), (found, told)
