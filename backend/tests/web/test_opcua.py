@@ -2,7 +2,10 @@
 
 import asyncio
 import os
+import random
 import signal
+import socket
+import struct
 from collections.abc import Callable, Coroutine
 from datetime import UTC, datetime
 from pathlib import Path
@@ -351,6 +354,28 @@ def test_a_changed_program_a_kill_and_a_plc_that_is_off(server: Server, tmp_path
     assert [each.author for each in writes] == ["OPC UA Ada, HMI"] * 5
     replayed = scanbench("replay", str(run_file))
     assert replayed.returncode == 0, replayed.stderr
+
+
+def test_what_is_no_opc_ua_does_no_harm(server: Server) -> None:
+    instance = server.instance("opc ua garbage", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+    port, chance = int(address.rpartition(":")[2]), random.Random(7)
+    hello = (
+        b"HELF" + struct.pack("<IIIIII", 52, 0, 65535, 65535, 0, 0) + struct.pack("<i", 20) + b"opc.tcp://127.0.0.1/"
+    )
+
+    async def story() -> None:
+        async with client_at(address, server.token) as client:
+            for number in range(200):
+                frame = bytearray(hello if number % 2 else b"OPNF" + struct.pack("<I", 40) + chance.randbytes(32))
+                for _ in range(number % 4):
+                    frame[chance.randrange(4, len(frame))] = chance.randrange(256)
+                with socket.create_connection(("127.0.0.1", port), PATIENCE_S) as sock:
+                    sock.sendall(frame + chance.randbytes(number))
+            assert await write(client, "Main.level", 3, ua.VariantType.Int16) == "Good"
+            assert await at(client, "Main.level").read_value() == 3
+
+    run(story())
 
 
 def test_faults_of_the_line(server: Server) -> None:
