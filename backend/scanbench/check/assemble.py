@@ -52,8 +52,10 @@ class Around:
 
     common: list[Pou]
     plant: list[Pou]
-    life: Whole | None = None
+    life: Whole | None
     """What initialises instances."""
+    placed: Record
+    """Programs that have their place already (`placed_programs`)."""
 
 
 def assemble(
@@ -81,19 +83,21 @@ def assemble(
     areas = place_areas(declarations.model)
     layout = Layout(declarations.model, areas, globals=variables, symbols=declarations.symbols)
     resources = [each.name for each in planner.resources if each.name]
-    placing = _Placing(report, pous, align(variables.size))
+    placing = _Placing(report, pous, align(around.placed.size), dict(around.placed.members))
     common = placing.one_by_one(around.common)
     life = placing.one_by_one([] if around.life is None else [around.life.pou])
     placing.programs(planned)
+    called = placing.called()
     plant = placing.one_by_one(around.plant)
-    instances = list(placing.instances.values())
+    instances = [*placing.instances.values(), *called]
     wiring = Wiring(report, declarations, pous, variables, instances, resources)
     tasks, interval = _tasks(planned, placing, wiring, interval_ns)
     layout.frames = _place_violations(report, layout, align(placing.at))
     if around.life is not None:
         around.life.write([*instances, *plant])
     run = {each.pou for each in (*life, *(each for task in tasks for each in task.programs))}
-    needed, tasked = _reachable(order, pous, {*around.common, *around.plant, *run}), _reachable(order, pous, run)
+    others = {*around.common, *around.plant, *(each.pou for each in called)}
+    needed, tasked = _reachable(order, pous, others | run), _reachable(order, pous, run)
     layout.state_size = _place_frames([each for each in needed if each.addressed], layout.frames)
     layout.size = _place_frames([each for each in needed if not each.addressed], layout.state_size)
     running = [*common, *life, *instances, *plant]
@@ -102,7 +106,7 @@ def assemble(
     image = _initial_image(layout, declarations, variables, running)
     program = Program(
         tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks),
-        common=common, plant=plant, tasked=tuple(tasked), life=life,
+        common=common, plant=plant, tasked=tuple(tasked), life=life, called=called,
     )  # fmt: skip
     settings = Settings(report, declarations, program, resources)
     return replace(settings.apply(configuration), checks=tuple(report.checks), dialect=declarations.dialect.name)
@@ -149,6 +153,8 @@ class _Placing:
     report: Report
     pous: Pous
     at: int
+    placed: dict[str, Member]
+    """Programs whose first instance has its place, by upper-case name."""
     instances: dict[str, ProgramInstance] = field(default_factory=dict)
 
     def programs(self, planned: list[PlannedTask]) -> None:
@@ -156,11 +162,25 @@ class _Placing:
         for task in planned:
             for each in task.runs:
                 if isinstance(each, PlannedInstance):
-                    self.at = align(self.at)
                     retain = each.declaration is not None and each.declaration.retain
-                    made = ProgramInstance(each.name, each.pou, self.at, retain=retain)
-                    self.instances[each.name.upper()] = made
-                    self.at += each.pou.instance.size
+                    self.instances[each.name.upper()] = ProgramInstance(
+                        each.name, each.pou, self._place_of(each.pou), retain=retain
+                    )
+
+    def _place_of(self, pou: Pou) -> int:
+        placed = self.placed.pop(pou.name.upper(), None)
+        if placed is not None:
+            return placed.offset
+        at = align(self.at)
+        self.at = at + pou.instance.size
+        return at
+
+    def called(self) -> tuple[ProgramInstance, ...]:
+        """Instances of the programs that no task runs, but others call or look into."""
+        pous = (self.pous.blocks.get(name) for name in self.placed)
+        return tuple(
+            ProgramInstance(pou.name, pou, self.placed[pou.name.upper()].offset) for pou in pous if pou is not None
+        )
 
     def one_by_one(self, pous: list[Pou]) -> tuple[ProgramInstance, ...]:
         """Instances of what runs around the tasks, named as the programs are."""

@@ -29,6 +29,7 @@ from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.kept import declare_static, kept_of
 from scanbench.check.declare.names import Space, qualified
+from scanbench.check.declare.programs import placed_programs
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.dialect import IEC, Allowance, Dialect, dialect_in
 from scanbench.check.folding import folded
@@ -149,6 +150,8 @@ class Checker:
     names: Collector = field(init=False)
     system: System = field(init=False)
     plant: Plant = field(init=False)
+    programs: Record = field(init=False)
+    """See `placed_programs`."""
     stimuli: Stimuli = field(default_factory=Stimuli)
     life: Life | None = None
     """What initialises instances, where the dialect has that."""
@@ -184,6 +187,7 @@ class Checker:
         declare_globals(self.parsed, self.globals, self.declarations, self.pous)
         declare_static(self.declarations, self.globals, self.names.user)
         place_globals(self.model, areas, self.globals)
+        self.programs = placed_programs(self.declarations, self.globals, self.plant.holds)
         self._declare_pous()
         self.declarations.declare_types()
         if Allowance.LIFE in self.dialect.allows:
@@ -224,7 +228,7 @@ class Checker:
         order = self._order([*common, *([] if whole is None else [whole.pou])])
         self.report.join(order)
         configurations = [each for file in self.parsed for each in file.configurations]
-        around = Around(common, self.plant.programs(), whole)
+        around = Around(common, self.plant.programs(), whole, self.programs)
         return assemble(
             self.report,
             self.declarations,
@@ -374,7 +378,7 @@ class Checker:
             return (self.system.words,), "engine"
         if in_library(span):
             return (), "program"
-        return (self.system.symbols,), "engine" if self.plant.holds(span) else "program"
+        return (self.system.symbols, self.programs), "engine" if self.plant.holds(span) else "program"
 
     def _check_instances(self) -> None:
         """Bodies of generic functions, for the types that they are called with; they may call others."""

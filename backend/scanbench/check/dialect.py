@@ -44,6 +44,7 @@ class Allowance(Enum):
     POINTER_NUMBERS = auto()
     ANY_INPUTS = auto()
     INSTANCE_COPIES = auto()
+    PROGRAM_CALLS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,6 +199,11 @@ RULES: dict[Allowance, Rule] = {
         "an assignment of an instance of a block to one of the same block: all that it has is copied, pointers too",
         "an instance is never assigned",
         "assignments of what is to be copied",
+    ),
+    Allowance.PROGRAM_CALLS: Rule(
+        "calls of a PROGRAM by other POUs, and its variables read there; without tasks in the project it then does not run by itself",
+        "a task runs a PROGRAM, and nobody else sees it",
+        "a FUNCTION_BLOCK, and an instance in VAR_GLOBAL",
     ),
 }
 

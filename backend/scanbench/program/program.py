@@ -369,9 +369,6 @@ Stmt = (
 )  # fmt: skip
 
 
-# ---- program organisation units -----------------------------------------------------------------------------------
-
-
 @dataclass(eq=False, slots=True)
 class Pou:
     """A PROGRAM, FUNCTION_BLOCK or FUNCTION, ready to run. `body` starts by setting its temporaries."""
@@ -431,6 +428,8 @@ class Program:
     """Phase 1: keeps the model's system words alive (first cycle flag, clock pulses, clock). Made from the model."""
     life: tuple["ProgramInstance", ...] = ()
     """Phase 1, after `common`: at most one, which initialises new instances (FB_init). What it calls is observed like a task."""
+    called: tuple["ProgramInstance", ...] = ()
+    """Of programs that no task runs, but other POUs may call."""
     plant: tuple["ProgramInstance", ...] = ()
     """Phase 2: the project's `plant/`: programs and stimuli that drive the inputs, before the forces."""
     tasked: tuple[Pou, ...] = ()
@@ -442,7 +441,7 @@ class Program:
     def instances(self) -> tuple["ProgramInstance", ...]:
         """Every instance of a program: of common processing, of the tasks, of the plant. Blocks that a task runs are none."""
         tasks = (each for task in self.tasks for each in task.programs if each.pou.kind == "program")
-        return (*self.common, *self.life, *tasks, *self.plant)
+        return (*self.common, *self.life, *tasks, *self.called, *self.plant)
 
     @property
     def shown(self) -> tuple["ProgramInstance", ...]:

@@ -137,7 +137,7 @@ def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refuse
 APART = {
     Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES, Allowance.VENDOR_TYPES,
     Allowance.FINAL_INTERFACES, Allowance.DINT_RESULTS, Allowance.LOCAL_ADDRESSES, Allowance.DIRECT_REFERENCES,
-    Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES,
+    Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 
@@ -175,6 +175,25 @@ def test_a_change_of_the_dialect_checks_everything_again() -> None:
     assert checks.check(sources, MODEL, 10_000_000).program is None
     assert checks.check(with_dialect(sources, "twincat"), MODEL, 10_000_000).program is not None
     assert checks.check(with_dialect(sources, "iec"), MODEL, 10_000_000).program is None
+
+
+def test_a_program_that_others_call_does_not_run_by_itself() -> None:
+    sub = "PROGRAM Sub\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
+    checks = Checks()
+    for call, running in (
+        ("", ["Sub", "Main"]),
+        ("Sub();", ["Main"]),
+        ("Sub.Nothing();", []),
+        ("i := Sub.n;", ["Sub", "Main"]),
+    ):
+        sources = with_dialect({"a.st": f"{sub}PROGRAM Main\nVAR i : INT; END_VAR\n{call}\nEND_PROGRAM\n"}, "codesys")
+        whole = check_sources(sources, MODEL).program
+        edited = checks.check(sources, MODEL, 10_000_000).program
+        for program in (whole, edited):
+            assert (program is None) == (running == [])
+            if program is not None:
+                assert [each.name for each in program.tasks[0].programs] == running
+                assert [each.name for each in program.called] == [each for each in ("Sub",) if each not in running]
 
 
 def test_what_people_type_is_understood_in_the_dialect_of_the_program() -> None:

@@ -1,9 +1,12 @@
 """Names -> variables, as they are declared."""
 
+from scanbench.check.body.allowed import used
 from scanbench.check.body.context import Body, Found
 from scanbench.check.context import Rejected
+from scanbench.check.declare.programs import PROGRAMS
 from scanbench.check.declare.scopes import place_of
-from scanbench.check.uses import variable_symbol
+from scanbench.check.dialect import Allowance
+from scanbench.check.uses import Symbol, variable_symbol
 from scanbench.problems import Span
 from scanbench.program.program import Base, Place
 from scanbench.program.sites import TrapKind
@@ -21,7 +24,10 @@ def declared(body: Body, name: str, span: Span) -> Found:
     if found is None:
         raise body.lookup.unknown(body, name, span)
     member, base, owner = found
-    if not member.hidden:
+    if owner.name == PROGRAMS:
+        used(body, Allowance.PROGRAM_CALLS, span, f"`{name}` is a PROGRAM")
+        body.report.use(span, name, Symbol("pou", "", name.upper()))
+    elif not member.hidden:
         body.report.use(span, name, variable_symbol(member, owner))
     null = 0
     if member.bound:

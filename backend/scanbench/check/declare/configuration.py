@@ -86,9 +86,12 @@ class Planner:
         return [pou for pou in programs if pou not in self._plant]
 
     def free(self) -> list[PlannedTask]:
-        """Without a CONFIGURATION every PROGRAM runs, in order of declaration, in one task."""
+        """Without a CONFIGURATION every PROGRAM that no other POU calls runs, in order of declaration, in one task."""
         task = PlannedTask("Main", self._interval_ns)
+        called = {callee for caller, callees in self._pous.uses.items() for callee in callees if callee is not caller}
         for pou in self._programs():
+            if pou in called:
+                continue
             name = pou.name.rpartition(".")[2]  # of a namespace: the dot is for resources
             if self._is_free(name, pou.span):
                 task.runs.append(PlannedInstance(name, pou))
