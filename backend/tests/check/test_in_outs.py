@@ -12,7 +12,7 @@ from scanbench.program.program import Program
 from scanbench.program.types import Record
 from scanbench.symbols.sites import Outcome, StatementSite, sites_of
 from scanbench.symbols.symbols import resolve
-from tests.caseformat import MODELS, read_cases
+from tests.caseformat import MODELS, project_of, read_cases
 
 BY_REFERENCE = MODELS["GENERIC-IEC"]
 BY_VALUE = replace(BY_REFERENCE, in_out="value")
@@ -131,7 +131,7 @@ def test_both_conventions_have_the_same_statements(case) -> None:  # type: ignor
     found: list[tuple[tuple[StatementSite, ...], tuple[Outcome, ...]]] = []
     for convention in ("reference", "value"):
         model = replace(MODELS[case.model], in_out=convention)
-        made = check_sources({"case.st": case.source, **case.files}, model, case.interval_ns).program
+        made = check_sources(project_of(case), model, case.interval_ns).program
         assert made is not None
         sites = sites_of(made)
         found.append((sites.statements, sites.outcomes))
