@@ -72,10 +72,7 @@ def assemble(
     """The program, or None when there is nothing that can run."""
     planner = Planner(report, declarations, pous, variables, interval_ns, around.plant)
     configuration = configurations[0] if configurations else None
-    planned = planner.configured(configuration) if configuration else planner.free()
-    planner.plant()
-    for extra in configurations[1:]:
-        report.error("D010", "A program has one CONFIGURATION; remove this one.", extra.span)
+    planned = _planned(report, planner, configurations)
     if not any(task.runs for task in planned):
         alone = " What is in plant/ drives the inputs of a program." if around.plant else ""
         report.error("D011", f"There is no PROGRAM, so nothing would run.{alone}", where)
@@ -110,6 +107,14 @@ def assemble(
     )  # fmt: skip
     settings = Settings(report, declarations, program, resources)
     return replace(settings.apply(configuration), checks=tuple(report.checks), dialect=declarations.dialect.name)
+
+
+def _planned(report: Report, planner: Planner, configurations: list[tree.Configuration]) -> list[PlannedTask]:
+    planned = planner.configured(configurations[0]) if configurations else planner.free()
+    planner.plant()
+    for extra in configurations[1:]:
+        report.error("D010", "A program has one CONFIGURATION; remove this one.", extra.span)
+    return planned
 
 
 def _place_violations(report: Report, layout: Layout, at: int) -> int:
