@@ -151,9 +151,9 @@ RULES: dict[Allowance, Rule] = {
         "`?=`, `SIZEOF(x)`",
     ),
     Allowance.VENDOR_TYPES: Rule(
-        "XINT, UXINT, XWORD (with `__` before them or not) and PVOID, as types of 64 bits",
+        "XINT, UXINT, XWORD (with `__` before them or not) and PVOID, as types of 64 bits; BIT, of which eight share a byte",
         "there are no such types",
-        "LINT, ULINT, LWORD, POINTER TO",
+        "LINT, ULINT, LWORD, POINTER TO, `AT %X0.3` in a STRUCT",
     ),
     Allowance.FINAL_INTERFACES: Rule(
         "FINAL before a method or property of an INTERFACE, which means nothing there",

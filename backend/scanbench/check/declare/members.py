@@ -9,6 +9,7 @@ from scanbench.check.declare.addresses import is_relative, locate, place_relativ
 from scanbench.check.declare.creations import FB_INIT
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image
+from scanbench.check.declare.vendor_types import BIT, place_bit
 from scanbench.check.dialect import Allowance
 from scanbench.program.shown import shown
 from scanbench.program.types import (
@@ -178,12 +179,20 @@ def _start_reference(declared: Declarations, owner: Record, member: Member, node
     declared.start_references.append((owner, member, node))
 
 
+def _is_bit(declared: Declarations, spec: tree.TypeSpec) -> bool:
+    named = isinstance(spec, tree.NamedType) and spec.name.upper() == BIT
+    return named and Allowance.VENDOR_TYPES in declared.dialect.allows and BIT not in declared.type_trees
+
+
 def _place(declared: Declarations, owner: Record, member: Member, variable: tree.Variable) -> None:
     if variable.address is not None and member.section is Section.MEMBER and is_relative(variable.address):
         try:
             place_relative(declared, owner, member, variable.address, variable.address_span or variable.span)
         except Rejected:
             owner.place(member)
+        return
+    if member.section is Section.MEMBER and _is_bit(declared, variable.type):
+        place_bit(owner, member)
         return
     owner.place(member)
     if member.copied:
