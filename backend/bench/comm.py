@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -20,7 +21,7 @@ from typing import Any
 
 import httpx
 
-from bench.opcua_clients import subscribed
+from bench.opcua_clients import reads, subscribed
 
 CLIENTS, PER_SECOND, WORDS = 50, 20, 100
 UA_CLIENTS, UA_NODES, UA_MS, UA_CHANGING = 10, 1000, 100, 100
@@ -197,11 +198,17 @@ def measure(bench: Bench, what: str, work: Any, seconds: float) -> Load:
     return _load(what, took, lasted, percent, state)
 
 
-def measure_opcua(bench: Bench, port: int, clients: int, seconds: float) -> Load:
-    """Clients that have subscribed; a latency is from when a value was read in the PLC to when the client has it."""
+def measure_opcua(
+    bench: Bench, what: str, work: Callable[..., list[float]], port: int, clients: int, nodes: int, seconds: float
+) -> Load:
+    """Clients that have subscribed, or that read. A latency is from request to answer; of what is subscribed to, from when a value was
+    read in the PLC to when the client has it."""
     begin = time.time() + UA_READY_S
     with ProcessPoolExecutor(clients) as pool:
-        waiting = [pool.submit(subscribed, port, UA_NODES, UA_MS, begin, seconds) for _ in range(clients)]
+        waiting = [
+            pool.submit(work, port, nodes, UA_MS, begin + each * UA_MS / clients / 1000, seconds)
+            for each in range(clients)
+        ]
         time.sleep(begin - time.time())
         bench.new_pace()
         before, at = bench.cpu(), time.perf_counter()
@@ -209,7 +216,7 @@ def measure_opcua(bench: Bench, port: int, clients: int, seconds: float) -> Load
         lasted, after, state = time.perf_counter() - at, bench.cpu(), bench.state
         took = sorted(each for one in waiting for each in one.result())
     percent = [100 * (b - a) / lasted for a, b in zip(before, after, strict=True)]
-    return _load("OPC UA", took, lasted, percent, state)
+    return _load(what, took, lasted, percent, state)
 
 
 def _load(what: str, took: list[float], lasted: float, percent: list[float], state: dict[str, Any]) -> Load:
@@ -236,7 +243,8 @@ def main() -> None:
                 measure(bench, "no client", None, given.seconds),
                 measure(bench, "FINS", fins(port, given.clients, given.seconds), given.seconds),
                 measure(bench, "Modbus", modbus(other, min(16, given.clients), given.seconds), given.seconds),
-                measure_opcua(bench, ua, given.ua_clients, given.seconds),
+                measure_opcua(bench, "OPC UA reads", reads, ua, given.ua_clients, WORDS, given.seconds),
+                measure_opcua(bench, "OPC UA", subscribed, ua, given.ua_clients, UA_NODES, given.seconds),
                 measure(bench, "broken frames", storm(port, given.storm), given.seconds),
                 measure(bench, "no client", None, given.seconds),
             ]

@@ -2,6 +2,7 @@
 
 import asyncio
 import logging
+import os
 import signal
 import socket
 from pathlib import Path
@@ -60,7 +61,7 @@ async def _live(plc: "Plc", link: Link) -> None:
     try:
         await plc.open()
     except OSError as error:
-        link.tell(OpcUaFailed(error.strerror or str(error)))
+        link.tell(OpcUaFailed(os.strerror(error.errno) if error.errno else str(error)))
         return
     except Exception:
         log.exception("an OPC UA server could not be started")

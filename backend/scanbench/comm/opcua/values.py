@@ -6,6 +6,8 @@ from datetime import UTC, datetime
 from typing import cast
 
 from asyncua import ua
+from asyncua.server import monitored_item_service
+from asyncua.server.monitored_item_service import MonitoredItemValues
 
 from scanbench.comm.opcua.link import Link, NotThere
 from scanbench.comm.opcua.space import Space, Variable
@@ -16,6 +18,17 @@ FASTEST_MS, SLOWEST_MS = 50.0, 1000.0
 """Bounds of how often what is subscribed to is read."""
 _RENEWED_S = 10.0
 """So long a client waits for the nodes of a program that was changed just now."""
+
+
+class _Same(MonitoredItemValues):
+    """What was told last, to compare with. A value is never changed here, so it need not be copied, which takes half of the time."""
+
+    def set_current_datavalue(self, cur_val: ua.DataValue) -> None:
+        """See asyncua."""
+        self.old_dvalue, self.current_dvalue = self.current_dvalue, cur_val
+
+
+vars(monitored_item_service)["MonitoredItemValues"] = _Same
 
 
 class Values:
