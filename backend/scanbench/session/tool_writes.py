@@ -2,6 +2,7 @@
 
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Entry
+from scanbench.runtime.copy_areas import CopyAreas
 from scanbench.runtime.write_areas import WriteAreas
 from scanbench.runtime.write_variables import WriteVariables
 
@@ -20,7 +21,7 @@ class ToolWrites:
 
     def text(self, entry: Entry) -> str | None:
         """What the log says of an entry; None: nothing now."""
-        if not isinstance(entry.command, WriteAreas | WriteVariables):
+        if not isinstance(entry.command, WriteAreas | WriteVariables | CopyAreas):
             return entry.plan.message
         author, now = entry.command.author, monotonic_ns()
         if now - self._told.get(author, -_EVERY_NS) < _EVERY_NS:

@@ -55,6 +55,7 @@ from scanbench.recording.gaps import LostScans
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Freed, Held, Numbered, Patch, Plan, Restarted, Swapped
+from scanbench.runtime.copy_areas import CopyAreas
 from scanbench.runtime.forces import FORCED, Force, ForcedValue, Release
 from scanbench.runtime.holds import HELD
 from scanbench.runtime.migrate_image import Lost
@@ -97,7 +98,7 @@ _CLASSES: dict[str, type] = {
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.InEffect, protocol.Start, protocol.StartFailed,
         protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
-        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, variables.ReadVariables, variables.VariablesAre, AreaWrite, WriteAreas, VariableWrite, WriteVariables, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
+        symbols.WatchItem, memory.WantWords, memory.WantPlace, memory.PlaceIs, memory.WordInfo, memory.WordsAre, memory.FindWords, memory.WordsFound, memory.AreaSpan, memory.ReadAreas, memory.AreasAre, variables.ReadVariables, variables.VariablesAre, AreaWrite, WriteAreas, CopyAreas, VariableWrite, WriteVariables, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Carried, Difference, Line, Reaction, Reader, RequiredResult, OutputRestart, Unreached, ValueThen, job_protocol.SweepPlanned,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.JobRefused, job_protocol.Check, job_protocol.Checked, job_protocol.KeepProgram,

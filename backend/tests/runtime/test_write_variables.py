@@ -1,9 +1,10 @@
-"""What a protocol client writes by paths: all of it or nothing, and only what tools may write."""
+"""What a protocol client writes by paths, or has copied: all of it or nothing, and only what tools may write."""
 
 import pytest
 
 from scanbench.host.variables import Variables
 from scanbench.runtime.command import Entry, Refusal
+from scanbench.runtime.copy_areas import CopyAreas
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.resource import Resource
@@ -87,3 +88,14 @@ def test_an_in_out_means_what_its_block_was_given_and_what_is_forced_stays() -> 
     assert write(resource, ("Main.lamp", "BOOL", b"\0")) == ""
     assert value(resource, "Main.lamp") is True
     assert read(resource, "Main.lamp", "CIO100.03") == (b"\1\1", b"\1\1")
+
+
+def test_a_copy_is_of_the_seam_in_which_it_is_written() -> None:
+    resource = plc("PROGRAM Main VAR n AT D100 : INT; END_VAR n := n + 1; END_PROGRAM")
+    resource.run(3)
+    assert isinstance(resource.submit(CopyAreas("FINS 127.0.0.1, node 1", "D", 200, "D", 600, 2)), Entry)
+    assert (value(resource, "D300"), value(resource, "D100")) == (3, 3)
+    for source, size, target, why in (("D", 1 << 20, "D", "no such memory"), ("D", 2, "A", "read-only for tools")):
+        refused = resource.submit(CopyAreas("FINS 127.0.0.1, node 1", source, 0, target, 800, size))
+        assert isinstance(refused, Refusal)
+        assert why in refused.message

@@ -7,6 +7,7 @@ from scanbench.comm.fins.areas import Element, Form, element, swapped
 from scanbench.comm.fins.codes import End, Refused
 from scanbench.comm.fins.frame import HEAD, LARGEST
 from scanbench.comm.fins.outcome import enter
+from scanbench.runtime.copy_areas import CopyAreas
 from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 
 _MOST_READ, _MOST_WRITTEN = 999, 996
@@ -70,7 +71,7 @@ async def on_multiple_read(door: Door, body: bytes) -> bytes:
 
 
 async def on_transfer(door: Door, body: bytes) -> bytes:
-    """Words from one place to a second one."""
+    """Words from one place to a second one, all of it in one seam."""
     _exactly(body, 10)
     source, target = _element(door, body[:4]), _element(door, body[4:8])
     count = int.from_bytes(body[8:10], "big")
@@ -79,9 +80,13 @@ async def on_transfer(door: Door, body: bytes) -> bytes:
     if count > _MOST_READ:
         raise Refused(End.TOO_LONG)
     if count:
-        _writable(target, count)
-        read = await door.read(source.spans(count))
-        await _write(door, target, count, source.encode(read.data, count))
+        area, spans = _writable(target, count), source.spans(count)
+        if not spans:  # what no program here has reads 0
+            await _write(door, target, count, source.encode((), count))
+            return b""
+        (span,) = spans
+        door.noted(spans)
+        await enter(door, CopyAreas(door.author, span.area, span.byte, area, 2 * target.word, span.size))
     return b""
 
 
