@@ -45,6 +45,7 @@ class Allowance(Enum):
     ANY_INPUTS = auto()
     INSTANCE_COPIES = auto()
     PROGRAM_CALLS = auto()
+    HEAP = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,6 +205,11 @@ RULES: dict[Allowance, Rule] = {
         "calls of a PROGRAM by other POUs, and its variables read there; without tasks in the project it then does not run by itself",
         "a task runs a PROGRAM, and nobody else sees it",
         "a FUNCTION_BLOCK, and an instance in VAR_GLOBAL",
+    ),
+    Allowance.HEAP: Rule(
+        "`__NEW(type)`, `__NEW(type, count)`, `__DELETE(pointer)`, with the memory of the library `__HEAP`",
+        "all memory is declared",
+        "an ARRAY, and a number of how many of its elements are used",
     ),
 }
 

@@ -191,9 +191,12 @@ class _Carrier:
         area = self._old_program.layout.area_at(offset)
         if area is not None:
             return self._new_program.layout.areas[area[0].name] + area[1]
-        for part in names_of(self._old_program).starting(offset):
-            if not _refers_to(reference, part.type):
-                continue
+        parts = tuple(names_of(self._old_program).starting(offset))
+        # a pointer takes any address, also that of bytes which it sees as something else
+        for part in (
+            *(each for each in parts if _refers_to(reference, each.type)),
+            *(parts if reference.pointer else ()),
+        ):
             try:
                 there = resolve(self._new_program, part.name)
             except UnknownPath:

@@ -137,7 +137,7 @@ def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refuse
 APART = {
     Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES, Allowance.VENDOR_TYPES,
     Allowance.FINAL_INTERFACES, Allowance.DINT_RESULTS, Allowance.LOCAL_ADDRESSES, Allowance.DIRECT_REFERENCES,
-    Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS,
+    Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

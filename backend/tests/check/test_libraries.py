@@ -13,7 +13,7 @@ from tests.caseformat import MODELS
 
 MODEL = MODELS["GENERIC-IEC"]
 PAGE = Path(__file__).parents[3] / "docs" / "libraries.md"
-HELPERS = {"Tc2_Utilities_Digits", "Passed", "Ready"}
+HELPERS = {"Tc2_Utilities_Digits", "Passed", "Ready", "Take", "Give"}
 """What the libraries themselves need; cases of what uses them try these."""
 ARGUMENTS = {f"F_{each}" for each in "BYTE WORD DWORD LWORD SINT DINT LINT USINT UINT UDINT ULINT REAL BOOL".split()}
 """Like F_INT, F_LREAL and F_STRING, which have a case."""

@@ -284,3 +284,15 @@ def test_a_step_more_changes_no_other_step_and_no_action(engine: EngineFactory) 
     resource.submit(Write("Ada", "Main.go", "FALSE"))
     resource.run(2)
     assert [value(resource, name) for name in ("Main.Work.X", "Main.Rest.X", "Main.lamp")] == [0, 1, 1]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_pointer_follows_the_bytes_that_it_sees_as_something_else(engine: EngineFactory) -> None:
+    text = "PROGRAM Main\nVAR memory : ARRAY[0..9] OF ULINT; p : POINTER TO DINT; END_VAR\n"
+    text += "IF p = NULL THEN p := ADR(memory[3]); END_IF\np^ := p^ + 1;\nEND_PROGRAM\n"
+    resource = plc(text, engine)
+    resource.run(2)
+    message = change(resource, program(text.replace("VAR memory", "VAR fresh : LINT; memory")), engine)
+    assert message.endswith("2 variables kept, 1 new or changed: initialised")
+    resource.run(1)
+    assert value(resource, "Main.memory[3]") == 3

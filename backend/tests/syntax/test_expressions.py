@@ -60,7 +60,6 @@ BROKEN = [
     ("x := f(1, 2;", "S003 2:12 `)` expected to close the call, found `;`."),
     ("x := AND a;", "S003 2:6 an expression (a value, variable or call) expected, found `AND`."),
     ('x := "Motor".run;', "X001 2:6 Names in quotes are not supported; write Motor."),
-    ("p := __NEW(INT);", "X001 2:6 `__NEW` is not supported: memory that is allocated while the program runs."),
 ]
 
 

@@ -41,7 +41,6 @@ REFUSED = [
         "X001 3:1 STEP is not supported; a chart (SFC) is a body of its own, without statements beside it.",
     ),
     ("_LD_BODY\n_NETWORKS : 1\n", "X001 2:1 _LD_BODY is not supported; convert the drawing to Structured Text."),
-    ("__DELETE(p);", "X001 2:1 `__DELETE` is not supported: memory that is allocated while the program runs."),
     ("x = 1;", "S003 2:1 An assignment is written `:=`; `=` compares."),
     ("x := 1 y := 2;", "S003 2:6 `;` expected at the end of the assignment, found `y`."),
     ("IF a THEN b := 1;", "S003 4:1 `END_IF` expected to close the IF of line 2, found `END_PROGRAM`."),

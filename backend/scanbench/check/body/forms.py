@@ -5,6 +5,8 @@ from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.elements import array_bounds
+from scanbench.check.body.heap import FORMS as HEAP_FORMS
+from scanbench.check.body.heap import heap_form
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import as_written
@@ -111,6 +113,8 @@ def form(body: Body, node: tree.Call) -> Expr | None:
     name = node.callee.name.upper()
     if name in WHY:
         return vendor_form(body, node, name)
+    if name in HEAP_FORMS:
+        return heap_form(body, node, name)
     known = name in FORMS or (name == "XSIZEOF" and may(body, Allowance.VENDOR_OPERATORS))
     if not known or name in body.pous.functions or body.scope.find(name) is not None:
         return None

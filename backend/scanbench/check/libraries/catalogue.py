@@ -20,6 +20,7 @@ from scanbench.syntax.source import Source
 FOLDER = "libraries"
 """Of a project: the file `libraries/Util.st` is the library `Util`, whose name may be written before what it declares."""
 SHIPPED: dict[str, tuple[DialectName, ...]] = {
+    "__HEAP": ("codesys", "twincat"),
     "__SYSTEM": ("codesys", "twincat"),
     "CAA": ("codesys",),
     "FILE": ("codesys",),
@@ -33,6 +34,8 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "Util": ("codesys", "twincat"),
 }
 """Each name, and the dialects that it is written in."""
+NEEDED_BY = {"__HEAP": frozenset({"__NEW", "__DELETE"})}
+"""Operators that use a library whose name they do not say."""
 _WORD = re.compile(r"\b[A-Z_]\w*")
 _IN_NAMESPACE = re.compile(r"\b(?=([A-Z_]\w*\.[A-Z_]\w*))")
 NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)
@@ -120,7 +123,14 @@ def _library(name: str) -> Library:
     assert not problems, problems
     about, _, source = " ".join(text.partition("(*")[2].partition("*)")[0].split()).partition(" From ")
     return Library(
-        name, SHIPPED[name], text, about, source, (*file.types, *file.pous), frozenset(_names(file)), _words(text)
+        name,
+        SHIPPED[name],
+        text,
+        about,
+        source,
+        (*file.types, *file.pous),
+        frozenset(_names(file)) | NEEDED_BY.get(name, frozenset()),
+        _words(text),
     )
 
 

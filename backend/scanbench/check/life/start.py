@@ -28,7 +28,7 @@ from scanbench.program.program import (
     Stmt,
 )
 from scanbench.program.sites import TrapKind
-from scanbench.program.types import BOOL, DINT, ULINT, ArrayType, Elementary, Member, Record, initial_of
+from scanbench.program.types import BOOL, DINT, ULINT, ArrayType, Elementary, Member, Record, Type, initial_of
 from scanbench.syntax import tree
 
 RETAINS, COPY = "bInitRetains$", "bInCopyCode$"
@@ -104,6 +104,10 @@ class Writer:
 
     def _input(self, name: str, span: Span) -> tree.Expression:
         return tree.Name(name, span) if self.passed_on else tree.Literal("bool", int(name == RETAINS), None, span)
+
+    def whole(self, place: Place, type: Type, span: Span) -> list[Stmt]:
+        """For something new that no declaration gives values to."""
+        return [*self.walk(place, type, (), [], span, True), *self._after(place, type, span)]
 
     # ---- what is in a variable --------------------------------------------------------------------------
 

@@ -1,0 +1,121 @@
+"""`__NEW(type)`, `__NEW(type, count)` and `__DELETE(pointer)` of vendors: memory of the library `__HEAP`, which is part of the image."""
+
+from scanbench.check.body import fold
+from scanbench.check.body.allowed import may, used
+from scanbench.check.body.context import Body
+from scanbench.check.body.references import reference_type
+from scanbench.check.context import Rejected
+from scanbench.check.dialect import Allowance
+from scanbench.check.life.start import Writer
+from scanbench.problems import Span
+from scanbench.program.program import (
+    Assign,
+    Base,
+    CallFunction,
+    Const,
+    Evaluate,
+    Expr,
+    If,
+    Load,
+    Place,
+    Sequence,
+    SetBytes,
+    Stmt,
+)
+from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind
+from scanbench.program.types import BOOL, NULL, ULINT, Kind, OpenArray, Record, Reference, Type, initial_of
+from scanbench.syntax import tree
+
+FORMS = ("__NEW", "__DELETE")
+HEAP = "__HEAP"
+
+
+def heap_form(body: Body, node: tree.Call, name: str) -> Expr | None:
+    """One of `FORMS`; None where the user declared something of that name."""
+    if name in body.pous.functions or body.scope.find(name) is not None:
+        return None
+    if not may(body, Allowance.HEAP) or body.pou is None:
+        raise body.report.reject(
+            "X001", f"`{name}` is not supported: memory that is allocated while the program runs.", node.callee.span
+        )
+    if f"{HEAP}.TAKE" not in body.pous.functions:
+        raise body.report.reject(
+            "X001", f"`{name}` needs the library `{HEAP}`; add it to the project.", node.callee.span
+        )
+    used(body, Allowance.HEAP, node.callee.span, f"`{name}` uses the memory of the library `{HEAP}`")
+    values = [each.value for each in node.arguments if each.name is None and each.value is not None]
+    if name == "__NEW" and len(values) == len(node.arguments) in (1, 2):
+        return _new(body, node, values[0], values[1] if len(values) == 2 else None)
+    if name == "__DELETE" and len(values) == len(node.arguments) == 1:
+        return _delete(body, node, values[0])
+    takes = "a type, and perhaps how many" if name == "__NEW" else "one pointer"
+    raise body.report.reject("T004", f"`{name}` takes {takes}.", node.span)
+
+
+def _new(body: Body, node: tree.Call, named: tree.Expression, count: tree.Expression | None) -> Expr:
+    if not isinstance(named, tree.Name | tree.MemberOf):
+        raise body.report.reject("T004", "`__NEW` takes the name of a type.", named.span)
+    type = body.declarations.named(shown(named), named.span)
+    if isinstance(type, OpenArray) or (isinstance(type, Record) and type.kind is Kind.INTERFACE):
+        raise body.report.reject("T004", f"`__NEW` makes no {type}.", named.span)
+    size = tree.Literal("int", max(type.size, 1), None, node.span)
+    taken = _call(body, "Take", (size, count or tree.Literal("int", 1, None, node.span)), node.span)
+    pointer = reference_type(type, pointer=True)
+    kept = body.temporary(pointer, node.span)
+    first = Assign(kept, fold.convert(pointer, fold.convert(ULINT, taken)), node.span)
+    made = _initialised(body, type, kept, node.span, one=count is None)
+    there = fold.compare("ne", BOOL, Load(kept), Const(NULL, 0))
+    stores: tuple[Stmt, ...] = (first, If(((there, tuple(made)),), (), node.span)) if made else (first,)
+    return Sequence(stores, Load(kept))
+
+
+def _initialised(body: Body, type: Type, kept: Place, span: Span, one: bool) -> list[Stmt]:
+    """What is new starts as a variable of the type does; its memory is all zero."""
+    data, life = initial_of(type), body.pous.life
+    lives = life is not None and life.needs.of(type)
+    if not any(data) and not lives:
+        return []
+    if not one:
+        raise body.report.reject(
+            "X001", f"`__NEW` makes several of {type} only where all of it starts as zero; make them one by one.", span
+        )
+    trap = body.trap(TrapKind.NULL, span, "there is no room in the memory for __NEW")
+    place = Place(type, Base.IMAGE, 0, null_trap=trap, reference=Load(kept))
+    made: list[Stmt] = [SetBytes(place, data, span)] if any(data) else []
+    if life is not None and lives:
+        made += Writer(body, life, lambda member: place, passed_on=False).whole(place, type, span)
+    return made
+
+
+def _delete(body: Body, node: tree.Call, value: tree.Expression) -> Expr:
+    place, _ = body.place(value)
+    if not isinstance(place.type, Reference) or not place.type.pointer:
+        raise body.report.reject("T002", f"`__DELETE` takes a pointer, not {place.type}.", value.span)
+    ended: list[Stmt] = []
+    owner = body.pous.classes.of(place.type.target)
+    if owner is not None and owner.find("FB_EXIT") is not None:
+        callee = tree.MemberOf(tree.Dereference(value, value.span), "FB_exit", node.span)
+        off = tree.Argument(None, False, tree.Literal("bool", 0, None, node.span), node.span)
+        ended.append(_done(body, body.call(tree.Call(callee, (off,), node.span)), node.span))
+    ended.append(_done(body, _call(body, "Give", (value,), node.span), node.span))
+    ended.append(Assign(place, Const(place.type, 0), node.span))
+    there = fold.compare("ne", BOOL, Load(place), Const(NULL, 0))
+    return Sequence((If(((there, tuple(ended)),), (), node.span),), Const(BOOL, 1))
+
+
+def _done(body: Body, value: Expr, span: Span) -> Stmt:
+    """A call whose result nobody wants."""
+    if isinstance(value, CallFunction):
+        return Evaluate(value, span)
+    return Assign(body.temporary(value.type or BOOL, span), value, span)
+
+
+def _call(body: Body, name: str, values: tuple[tree.Expression, ...], span: Span) -> Expr:
+    """A call of a function of the library, which nobody is told of."""
+    arguments = tuple(tree.Argument(None, False, each, span) for each in values)
+    callee = tree.MemberOf(tree.Name(HEAP, span), name, span)
+    made = body.call(tree.Call(callee, arguments, span))
+    if made.type is None:
+        raise Rejected
+    return made
