@@ -13,6 +13,8 @@ from scanbench.wire.variables import ReadVariables, VariablesAre
 
 _PLANS = 64
 """Lists of paths that are remembered."""
+_SYMBOLS = 50_000
+"""Paths, too."""
 
 
 class Variables:
@@ -21,6 +23,7 @@ class Variables:
     def __init__(self) -> None:
         self._program: Program | None = None
         self._plans: dict[tuple[str, ...], _Gather] = {}
+        self._symbols: dict[str, Symbol | None] = {}
 
     def are(self, question: ReadVariables, loaded: Loaded, memory: bytes | bytearray) -> VariablesAre:
         """The answer, from an image."""
@@ -28,7 +31,10 @@ class Variables:
         if program is not self._program:
             self._program = program
             self._plans.clear()
-        plan = self._plans.pop(question.paths, None) or _Gather(program, question.paths)
+            self._symbols.clear()
+        plan = self._plans.pop(question.paths, None) or _Gather(
+            [self._symbol(program, each) for each in question.paths]
+        )
         self._plans[question.paths] = plan  # the dict keeps the order of use
         while len(self._plans) > _PLANS:
             del self._plans[next(iter(self._plans))]
@@ -38,18 +44,28 @@ class Variables:
             header.epoch_ns + header.next_clock_ns(program.interval_ns), there, data,
         )  # fmt: skip
 
+    def _symbol(self, program: Program, path: str) -> Symbol | None:
+        """The variable; a list that has one more than the last one is quick to plan."""
+        if path not in self._symbols:
+            if len(self._symbols) >= _SYMBOLS:
+                self._symbols.clear()
+            try:
+                self._symbols[path] = resolve(program, path)
+            except UnknownPath:
+                self._symbols[path] = None
+        return self._symbols[path]
+
 
 class _Gather:
     """Copies the bytes of many variables: those that stay where they are by one index, the others one by one."""
 
-    def __init__(self, program: Program, paths: Sequence[str]) -> None:
+    def __init__(self, symbols: Sequence[Symbol | None]) -> None:
         places: list[np.ndarray[tuple[int], np.dtype[np.int64]]] = []
-        self._there = bytearray(len(paths))
+        self._there = bytearray(len(symbols))
         self._moving: list[tuple[int, int, Symbol]] = []
         """Number of the path, byte of the answer, symbol: what is reached through in-outs and references."""
         at, bits = 0, []
-        for number, path in enumerate(paths):
-            symbol = _symbol(program, path)
+        for number, symbol in enumerate(symbols):
             if symbol is None:
                 continue
             size = 1 if symbol.bit is not None else symbol.type.size
@@ -89,10 +105,3 @@ class _Gather:
             if bit is not None and symbol.type == BOOL:
                 data[at] = data[at] >> bit & 1
         return bytes(there), bytes(data)
-
-
-def _symbol(program: Program, path: str) -> Symbol | None:
-    try:
-        return resolve(program, path)
-    except UnknownPath:
-        return None
