@@ -28,6 +28,7 @@ from scanbench.host.program_cache import keep, key_of, recall
 from scanbench.host.run_files import programs_by
 from scanbench.jobs import history as history_job
 from scanbench.jobs import verification as verify_job
+from scanbench.jobs.campaign import run_campaign
 from scanbench.jobs.retrospective import record
 from scanbench.jobs.starting import checked_program, model_of, point_in, reaction_in
 from scanbench.plcmodel.user_errors import is_of_catalogue
@@ -41,6 +42,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
 from scanbench.syntax.requirements import is_requirements
+from scanbench.wire.campaigns import RunCampaign
 from scanbench.wire.codec import BadMessage, Splitter, pack
 from scanbench.wire.events import CheckOutcome
 from scanbench.wire.host import Sources
@@ -68,7 +70,7 @@ _NICENESS = 10
 _TELL_EVERY_NS = 250_000_000
 _PROGRAMS = 4
 """Checked programs that stay in memory."""
-Request = FindReaction | RunSweep | RecordRetrospective | Check | verify_job.Request | history_job.Request
+Request = FindReaction | RunSweep | RecordRetrospective | Check | RunCampaign | verify_job.Request | history_job.Request
 _REFUSALS = (Unreadable, NoProgram, RunFileError, Died, OSError)
 
 
@@ -119,6 +121,9 @@ class Job:
                 return record(
                     request, programs_by(self._program, on(self._flavours)), self._telling(RetrospectiveAt, request.ref)
                 )
+            case RunCampaign():
+                programs = programs_by(self._program, on(self._flavours))
+                return run_campaign(request, programs, self._flavours.observed, self._say)
             case FindWriter() | FindChanges() | CompareRuns() | RerunRun() | MakeScenario():
                 if self._past is None:
                     self._past = history_job.HistoryJob(self._program, self._cache, self._flavours.observed)

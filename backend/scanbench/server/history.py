@@ -11,7 +11,7 @@ from scanbench.jobs.client import FAULT, Make, SharedJob, alone
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
-from scanbench.wire.events import Comparison, Rerun
+from scanbench.wire.comparisons import Comparison, Rerun
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     NOW,

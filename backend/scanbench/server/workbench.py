@@ -19,6 +19,7 @@ from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.reader import Unreadable
 from scanbench.runtime.clock import monotonic_ns
+from scanbench.server.campaigns import Campaigns
 from scanbench.server.communication import Communication
 from scanbench.server.history import RunHistory
 from scanbench.server.looks import Looks
@@ -77,6 +78,7 @@ class Workbench:
         self.verifications = Verifications(store, data / "verifications", self._cache)
         self.trace_files = TraceFiles(store, data / "imports", self._cache)
         self.history = RunHistory(self._runs, self._cache, self._open_rerun)
+        self.campaigns = Campaigns(self._runs, self._cache, self._open_rerun)
         self.sweeps = Sweeps(
             store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state
         )  # fmt: skip
@@ -122,6 +124,7 @@ class Workbench:
         await self.trace_records.close()
         await self.verifications.close()
         await self.history.close()
+        await self.campaigns.close()
         await asyncio.gather(
             *(session.stop() for session in self._sessions.values()),
             self._checker.close(),
@@ -283,6 +286,7 @@ class Workbench:
         await self.communication.end(id)
         await self.verifications.forget_instance(id)
         await self.history.forget_instance(id)
+        await self.campaigns.forget_instance(id)
         await session.stop()
         await self._write_behind.flush()
         await asyncio.to_thread(self._store.instances.delete, id)

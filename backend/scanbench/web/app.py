@@ -26,6 +26,7 @@ from scanbench.web.operations import Api, operation_id
 from scanbench.web.pages import frontend_directory, not_built_page
 from scanbench.web.routes import archives as routes_archives
 from scanbench.web.routes import binding as routes_binding
+from scanbench.web.routes import campaigns as routes_campaigns
 from scanbench.web.routes import communication as routes_communication
 from scanbench.web.routes import debug as routes_debug
 from scanbench.web.routes import dialects as routes_dialects
@@ -101,6 +102,7 @@ def bare_app() -> FastAPI:
         routes_instances, routes_dap, routes_lsp, routes_errors, routes_sweeps, routes_records, routes_projects, routes_archives, routes_git, routes_user_errors,
         routes_models, routes_invitations, routes_memory, routes_communication, routes_binding, routes_debug, routes_dialects, routes_libraries, routes_traces, routes_values, routes_watch, routes_verify,
         routes_past,
+        routes_campaigns,
     ):  # fmt: skip
         app.include_router(routes.router)
     for error, status in _STATUS.items():

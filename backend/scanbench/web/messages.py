@@ -23,8 +23,10 @@ from scanbench.web.messages_together import Draft
 from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
+from scanbench.wire.campaigns import CampaignState
+from scanbench.wire.comparisons import Comparison, Rerun
 from scanbench.wire.debugging import Coverage
-from scanbench.wire.events import Comparison, Disturbances, LogEntry, Rerun
+from scanbench.wire.events import Disturbances, LogEntry
 from scanbench.wire.symbols import SymbolInfo
 from scanbench.wire.together import DraftEdited, PeopleChanged
 
@@ -429,6 +431,7 @@ ServerMessage = Annotated[
     | Verifications
     | Disturbances
     | Comparison
+    | CampaignState
     | Rerun
     | Alive,
     Field(discriminator="type"),

@@ -12,6 +12,7 @@ from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.reaction.reaction import Reaction, RequiredResult
+from scanbench.history.campaign.contract import Trial
 from scanbench.history.contract import BetweenEntry, Changes, Divergence
 from scanbench.recording.recording import RecordingInfo
 from scanbench.reports.record import RecordCell
@@ -30,6 +31,8 @@ from scanbench.web import (
 )
 from scanbench.web.messages_base import Wire
 from scanbench.wire import events
+from scanbench.wire.campaigns import CampaignState
+from scanbench.wire.comparisons import Comparison, Rerun
 from scanbench.wire.host import PreviewedErrors, RunMark
 from scanbench.wire.traces import TraceStatus
 
@@ -84,10 +87,15 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (RunMark, "text"),
     (TraceProblem, "message"),
     (TraceStatus, "note"),
-    (events.Comparison, "message"),
+    (Trial, "text"),
+    (Trial, "verification"),
+    (Trial, "program"),
+    (Trial, "why"),
+    (CampaignState, "message"),
+    (Comparison, "message"),
     (events.LogEntry, "text"),
-    (events.Rerun, "message"),
-    (events.Rerun, "refused"),
+    (Rerun, "message"),
+    (Rerun, "refused"),
     (events.RetrospectiveChanged, "message"),
 )
 

@@ -48,6 +48,7 @@ from scanbench.faults.reaction.reaction import (
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
+from scanbench.history.campaign.contract import CampaignWanted, Trial
 from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence, RerunChange, Writer
 from scanbench.problems import Problem, Span
 from scanbench.program.sites import CheckSite
@@ -72,6 +73,7 @@ from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.typed import check
 from scanbench.verify.contract import Column, Compared, Input, Mismatch, Output, Place, Range, Row, VerifyCoverage
+from scanbench.wire import campaigns as campaign_protocol
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events, memory, opcua, symbols, variables
 from scanbench.wire import host as protocol
@@ -123,6 +125,7 @@ _CLASSES: dict[str, type] = {
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
         verify_protocol.MakeScenario, verify_protocol.ScenarioMade, verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
+        CampaignWanted, Trial, campaign_protocol.RunCampaign, campaign_protocol.TrialDone, campaign_protocol.CampaignDone, campaign_protocol.CampaignCount, campaign_protocol.CampaignState,
         verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,
         opcua.OpcUaStart, opcua.OpcUaProgram, opcua.PresentError, opcua.OpcUaErrors, opcua.OpcUaFault, opcua.OpcUaReady, opcua.OpcUaFailed,

@@ -13,7 +13,6 @@ from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.faults.raised_numbers import RaisedNumber
-from scanbench.history.contract import Divergence
 from scanbench.problems import Problem, Severity
 from scanbench.program.sites import CheckSite
 from scanbench.public import Moment, Public
@@ -23,6 +22,8 @@ from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
 from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range, VerifyCoverage
 from scanbench.wire import debugging as debug_protocol
+from scanbench.wire.campaigns import CampaignState
+from scanbench.wire.comparisons import Comparison, Rerun
 from scanbench.wire.host import MarkKind, PlcState, Previewed, RunMark
 from scanbench.wire.symbols import WatchItem
 from scanbench.wire.together import DraftEdited, PeopleChanged
@@ -361,40 +362,6 @@ class Disturbances(Public):
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison(Public):
-    """How far a comparison of the runs of instances `a` and `b` is, and what came of it. The last 20 of an instance are kept."""
-
-    id: int
-    a: int
-    b: int
-    by: str
-    done: int = 0
-    of: int = 0
-    """Scans."""
-    result: Divergence | None = None
-    message: str = ""
-    """Why nothing came of it."""
-    type: Literal["comparison"] = "comparison"
-
-
-@dataclass(frozen=True, slots=True)
-class Rerun(Public):
-    """How far a replay with a change is, and the instance that came of it."""
-
-    id: int
-    by: str
-    name: str
-    done: int = 0
-    of: int = 0
-    instance: int | None = None
-    refused: tuple[str, ...] = ()
-    """Commands that were not taken this time, and why."""
-    message: str = ""
-    """Why nothing came of it."""
-    type: Literal["rerun"] = "rerun"
-
-
-@dataclass(frozen=True, slots=True)
 class WrittenInside:
     """Something was written into the scan that is halted: what is shown of it is not what it was."""
 
@@ -426,6 +393,7 @@ Told = (
     | VerificationsChanged
     | Disturbances
     | Comparison
+    | CampaignState
     | Rerun
     | Watching
 )

@@ -23,6 +23,7 @@ import { catchUp, onBuilt, onDeleted, onSaved } from "../store/project/documents
 import { onDraft, onDraftEdited } from "../store/project/drafts";
 import { onPeople } from "../store/project/people";
 import { onRetrospective, onTraces, refreshTraces } from "../store/trace/traces";
+import { onCampaign, refreshCampaigns } from "../store/verify/campaigns";
 import { onDisturbances } from "../store/verify/disturb";
 import { onVerifications, refreshVerifications } from "../store/verify/verify";
 import { onForces, onWritten } from "../store/watch/forces";
@@ -80,6 +81,7 @@ function dispatch(message: ServerMessage): void {
       void refreshTraces();
       void refreshVerifications();
       void refreshComparisons();
+      void refreshCampaigns();
       void catchUp();
       void catchUpPanels();
       followLink();
@@ -171,6 +173,9 @@ function dispatch(message: ServerMessage): void {
       return;
     case "comparison":
       onComparison(message);
+      return;
+    case "campaign":
+      onCampaign(message);
       return;
     case "rerun":
       onRerun(message);

@@ -12,6 +12,7 @@ import { CrossPage } from "../panels/project/cross/CrossPage";
 import { VersionsPage } from "../panels/project/editor/VersionsPage";
 import { CommunicationPage } from "../panels/run/communication/CommunicationPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
+import { CampaignPage } from "../panels/verify/campaign/CampaignPage";
 import { MemoryPage } from "../panels/watch/memory/MemoryPage";
 import { useHardwareEdited } from "../store/errors/hardware";
 import { useRecordTitle } from "../store/errors/records";
@@ -34,6 +35,7 @@ export const PAGES: Record<PageName, Page> = {
   hardware: { component: HardwarePage, icon: "plc", useTitle: useHardwareTitle },
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
+  campaign: { component: CampaignPage, icon: "disturbance", useTitle: () => t("campaign.tab") },
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
   cross: { component: CrossPage, icon: "swap", useTitle: () => t("cross.title") },
   calls: { component: CallsPage, icon: "stack", useTitle: () => t("calls.title") },

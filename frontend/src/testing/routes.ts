@@ -38,7 +38,15 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "", () => someApp(instance()));
   on("GET", "/instances", () => [instance()]);
   on("GET", "/instances/*/model", () => MODEL);
-  for (const what of ["symbols", "complete", "instances-of", "traces", "verifications", "comparisons"] as const)
+  for (const what of [
+    "symbols",
+    "complete",
+    "instances-of",
+    "traces",
+    "verifications",
+    "comparisons",
+    "campaigns",
+  ] as const)
     on("GET", `/instances/*/${what}`, none);
   for (const what of [
     "files",

@@ -60,6 +60,70 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/campaigns/{campaign}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * A campaign with what was tried so far
+         * @description A campaign with what was tried so far.
+         */
+        get: operations["get_campaign"];
+        put?: never;
+        post?: never;
+        /**
+         * Cancels a campaign, or deletes its result
+         * @description Cancels a campaign, or deletes its result.
+         */
+        delete: operations["delete_campaign"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/campaigns/{campaign}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The same as `scanbench campaign --json` and `--junit` write
+         * @description The same as `scanbench campaign --json` and `--junit` write.
+         */
+        get: operations["export_campaign"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/campaigns/{campaign}/trials/{number}/open": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A new paused PLC that goes on with the run as this disturbance made it: one can go to its scan, and verify it
+         * @description A new paused PLC that goes on with the run as this disturbance made it: one can go to its scan, and verify it.
+         */
+        post: operations["open_campaign_trial"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/comparisons/{comparison}": {
         parameters: {
             query?: never;
@@ -167,6 +231,30 @@ export interface paths {
          * @description A new PLC that begins as this one was before a scan, or is now.
          */
         post: operations["branch_instance"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/campaigns": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The campaigns of this PLC since the server was started, the newest first
+         * @description The campaigns of this PLC since the server was started, the newest first.
+         */
+        get: operations["list_instance_campaigns"];
+        put?: never;
+        /**
+         * Begins a campaign on the recorded run; the PLC goes on meanwhile
+         * @description Begins a campaign on the recorded run; the PLC goes on meanwhile. Progress comes by this instance's WebSocket.
+         */
+        post: operations["create_instance_campaign"];
         delete?: never;
         options?: never;
         head?: never;
@@ -3190,6 +3278,160 @@ export interface components {
             type: "calm";
         };
         /**
+         * CampaignCount
+         * @description So many disturbances ended like this.
+         */
+        CampaignCount: {
+            /** Count */
+            count: number;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "both" | "verification" | "program" | "nothing" | "no effect" | "missed";
+        };
+        /**
+         * CampaignState
+         * @description How far a campaign of disturbances is, and how many ended how. The last 10 of an instance are kept.
+         */
+        CampaignState: {
+            /** By */
+            by: string;
+            /** Done */
+            done: number;
+            /** Id */
+            id: number;
+            /** Instance */
+            instance: number;
+            /**
+             * Message
+             * @description Why it did not come to its end.
+             */
+            message: string;
+            /** Of */
+            of: number;
+            /**
+             * Outcomes
+             * @description Those that there were.
+             */
+            outcomes: components["schemas"]["CampaignCount"][];
+            /** Over */
+            over: boolean;
+            /**
+             * Silent
+             * @description So many made an output wrong, and the program did not notice it.
+             */
+            silent: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "campaign";
+            wanted: components["schemas"]["CampaignWanted"];
+        };
+        /**
+         * CampaignTrial
+         * @description One disturbance, and what came of it.
+         */
+        CampaignTrial: {
+            /**
+             * Differs
+             * @description Whether anything that the program remembers was different at the end of the window.
+             */
+            differs: boolean;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "flip" | "late" | "stuck" | "result";
+            /**
+             * Number
+             * @description From 1.
+             */
+            number: number;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "both" | "verification" | "program" | "nothing" | "no effect" | "missed";
+            /**
+             * Output Scan
+             * @description After this scan an output was different for the first time.
+             */
+            output_scan: number | null;
+            /** @description Where in the program that was. */
+            place: components["schemas"]["VerifyPlace"] | null;
+            /**
+             * Program
+             * @description What the program, or the PLC that runs it, did that it would not have done otherwise, ...
+             */
+            program: string[];
+            /**
+             * Program Scan
+             * @description ... and the scan in which that began.
+             */
+            program_scan: number | null;
+            /** Scan */
+            scan: number;
+            /**
+             * Text
+             * @description `Memory Main.count, bit 3, once in scan 500`
+             */
+            text: string;
+            /**
+             * Trapped
+             * @description A run-time error stopped the program.
+             */
+            trapped: boolean;
+            /**
+             * Verification
+             * @description The first difference that the second execution found, ...
+             */
+            verification: string;
+            /**
+             * Verified Scan
+             * @description ... and in which scan.
+             */
+            verified_scan: number | null;
+            /**
+             * Why
+             * @description missed: why.
+             */
+            why: string;
+        };
+        /**
+         * CampaignWanted
+         * @description What is tried. The same of the same run gives the same disturbances, on every machine.
+         */
+        CampaignWanted: {
+            /**
+             * Alarms
+             * @description Conditions that say that the program has noticed something, where they hold and would not hold otherwise: `Main.alarm`.
+             */
+            alarms: string[];
+            /** Count */
+            count: number;
+            /**
+             * First
+             * @description The disturbances come in these scans, ...
+             */
+            first: number;
+            /** Kinds */
+            kinds: ("flip" | "late" | "stuck" | "result")[];
+            /**
+             * Last
+             * @description ... this one included.
+             */
+            last: number;
+            /** Seed */
+            seed: number;
+            /**
+             * Window
+             * @description Scans after a disturbance in which the program may notice it.
+             */
+            window: number;
+        };
+        /**
          * Carried
          * @description State that still differs when the window ends, and that decides an output.
          */
@@ -5663,6 +5905,54 @@ export interface components {
             verified_facts: number;
         };
         /**
+         * NewCampaign
+         * @description The same numbers on the same run try the same disturbances.
+         */
+        NewCampaign: {
+            /**
+             * Alarms
+             * @description conditions that say that the program has noticed something
+             * @default []
+             */
+            alarms: string[];
+            /**
+             * Count
+             * @default 100
+             */
+            count: number;
+            /**
+             * First
+             * @description the disturbances come from this scan on; else in the last 500
+             */
+            first?: number | null;
+            /**
+             * Kinds
+             * @default [
+             *       "flip",
+             *       "result",
+             *       "stuck",
+             *       "late"
+             *     ]
+             */
+            kinds: ("flip" | "late" | "stuck" | "result")[];
+            /**
+             * Last
+             * @description up to this one; else to the end of the run so far
+             */
+            last?: number | null;
+            /**
+             * Seed
+             * @default 1
+             */
+            seed: number;
+            /**
+             * Window
+             * @description scans in which the program may notice each
+             * @default 100
+             */
+            window: number;
+        };
+        /**
          * NewCommit
          * @description Optimistic, like a save: `head` is the last commit that somebody saw.
          */
@@ -7212,7 +7502,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["CampaignState"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /** SetCell */
         SetCell: {
             /** Call */
@@ -9246,6 +9536,12 @@ export interface components {
             /** Version */
             version: number;
         };
+        /** WholeCampaign */
+        WholeCampaign: {
+            state: components["schemas"]["CampaignState"];
+            /** Trials */
+            trials: components["schemas"]["CampaignTrial"][];
+        };
         /**
          * Wording
          * @description Name and description in a language other than English; empty where the model has none.
@@ -9445,6 +9741,130 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Project"];
+                };
+            };
+        };
+    };
+    get_campaign: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                campaign: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WholeCampaign"];
+                };
+            };
+        };
+    };
+    delete_campaign: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                campaign: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    export_campaign: {
+        parameters: {
+            query?: {
+                format?: "json" | "junit";
+                require?: "any" | "program";
+            };
+            header?: never;
+            path: {
+                campaign: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    open_campaign_trial: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                campaign: number;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Instance"];
                 };
             };
         };
@@ -9699,6 +10119,72 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Instance"];
+                };
+            };
+        };
+    };
+    list_instance_campaigns: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CampaignState"][];
+                };
+            };
+        };
+    };
+    create_instance_campaign: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewCampaign"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CampaignState"];
                 };
             };
         };

@@ -10,7 +10,7 @@ from scanbench.web import messages_past as wire
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.reach import Bench
-from scanbench.wire.events import Comparison, Rerun
+from scanbench.wire.comparisons import Comparison, Rerun
 
 router = APIRouter(prefix="/api", tags=["past"])
 

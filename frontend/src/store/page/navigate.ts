@@ -26,6 +26,7 @@ const PAGES = [
   "plcerrors",
   "record",
   "compare",
+  "campaign",
   "hardware",
   "versions",
   "rack",

@@ -1,5 +1,6 @@
 import { grouped } from "../../../logic/format/numbers";
 import { useForbidden } from "../../../store/plc/plc";
+import { showCampaigns } from "../../../store/verify/campaigns";
 import { calm, useDisturb } from "../../../store/verify/disturb";
 import { t } from "../../../text";
 import { StateWord } from "../../../ui/StateWord";
@@ -16,6 +17,9 @@ export function DisturbList() {
         <b className="grow">
           {t(disturbances.length === 1 ? "disturb.count.one" : "disturb.count", { count: disturbances.length })}
         </b>
+        <button type="button" className="btn quiet sm" onClick={showCampaigns}>
+          {t("campaign.show")}
+        </button>
         {disturbances.length > 1 && (
           <button type="button" className="btn quiet sm" {...locked} onClick={() => void calm(null)}>
             {t("disturb.takeback.all")}

@@ -1,3 +1,4 @@
+import { showCampaigns } from "../../../store/verify/campaigns";
 import { t } from "../../../text";
 
 /** What a disturbance is, where none is defined. */
@@ -7,6 +8,9 @@ export function NoneYet() {
     <section className="disturbnone" aria-label={t("disturb.none")} tabIndex={0}>
       <h3>{t("disturb.none")}</h3>
       <p className="muted">{t("disturb.none.about")}</p>
+      <button type="button" className="btn sm" onClick={showCampaigns}>
+        {t("campaign.show")}
+      </button>
     </section>
   );
 }

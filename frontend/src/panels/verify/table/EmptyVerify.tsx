@@ -1,4 +1,5 @@
 import { useOnline } from "../../../store/plc/plc";
+import { showCampaigns } from "../../../store/verify/campaigns";
 import { askVerification, verifyWholeProgram } from "../../../store/verify/verify";
 import { t } from "../../../text";
 import { Empty } from "../../../ui/Empty";
@@ -30,6 +31,9 @@ export function EmptyVerify() {
             onClick={() => askVerification({ range: {}, stretch: null })}
           >
             {t("verify.new")}
+          </button>
+          <button type="button" className="btn" onClick={showCampaigns}>
+            {t("campaign.show")}
           </button>
         </div>
       </Empty>

@@ -1,0 +1,136 @@
+/** Campaigns of disturbances on the run of the selected PLC: the form, their progress, and what came of each disturbance. */
+
+import { create } from "zustand";
+import { messageOf } from "../../logic/format/messageOf";
+import { withNewest } from "../../logic/past/past";
+import { type CampaignForm, FORM, type Shown, wantedOf } from "../../logic/verify/campaign";
+import { t } from "../../text";
+import { campaigns } from "../../wire/campaigns";
+import type { CampaignState, CampaignTrial } from "../../wire/types";
+import { openPage } from "../page/navigate";
+import { refreshApp, useBench } from "../plc/bench";
+import { openInstance } from "../plc/instances";
+
+interface Campaigns {
+  form: CampaignForm;
+  /** Those of the selected instance, the newest first. */
+  list: readonly CampaignState[];
+  /** Id of the chosen one; null: the newest. */
+  chosen: number | null;
+  trials: { of: number; all: readonly CampaignTrial[] } | null;
+  /** Only those that ended like this are listed. */
+  shown: Shown;
+  /** The disturbance that is being opened. */
+  opening: number | null;
+  trouble: string | null;
+}
+
+const nothing = { list: [], chosen: null, trials: null, shown: null, opening: null, trouble: null };
+
+export const useCampaigns = create<Campaigns>(() => ({ form: FORM, ...nothing }));
+const get = useCampaigns.getState;
+const set = useCampaigns.setState;
+
+export const showCampaigns = () => openPage("campaign");
+export const changeForm = (changed: Partial<CampaignForm>) => set(({ form }) => ({ form: { ...form, ...changed } }));
+export const showOutcome = (shown: Shown) => set({ shown });
+
+/** The chosen one, else the newest. */
+export const shownCampaign = ({ list, chosen }: Campaigns): CampaignState | null =>
+  list.find(({ id }) => id === chosen) ?? list[0] ?? null;
+
+export function chooseCampaign(id: number): void {
+  set({ chosen: id, shown: null });
+  fetchTrials();
+}
+
+/** Begins what the form asks for. */
+export async function beginCampaign(): Promise<void> {
+  const wanted = wantedOf(get().form);
+  if (wanted === null) {
+    set({ trouble: t("campaign.bad") });
+    return;
+  }
+  await guarded(async (instance) => {
+    const { id } = await campaigns.begin(instance, wanted);
+    set({ chosen: id, shown: null });
+    fetchTrials();
+  });
+}
+
+/** Cancels a running one, deletes a finished one. */
+export const forgetCampaign = (id: number) =>
+  guarded(async () => {
+    await campaigns.forget(id);
+    set(({ list, chosen }) => ({
+      list: list.filter((known) => known.id !== id),
+      chosen: chosen === id ? null : chosen,
+    }));
+    fetchTrials();
+  });
+
+/** A new paused PLC with the run as this disturbance made it. */
+export const openTrial = (id: number, number: number) =>
+  guarded(async () => {
+    set({ opening: number });
+    try {
+      const made = await campaigns.open(id, number);
+      await refreshApp();
+      openInstance(made);
+    } finally {
+      set({ opening: null });
+    }
+  });
+
+/** After each connection: fetches what the socket missed. */
+export const refreshCampaigns = () =>
+  guarded(async (instance) => {
+    const list = await campaigns.list(instance);
+    if (useBench.getState().instance?.id !== instance) return;
+    set({ list });
+    fetchTrials();
+  });
+
+/** The progress of one of the selected instance. */
+export function onCampaign(campaign: CampaignState): void {
+  if (campaign.instance !== useBench.getState().instance?.id) return;
+  set(({ list }) => ({ list: withNewest(list, campaign) }));
+  if (campaign.id === shownCampaign(get())?.id) fetchTrials();
+}
+
+let fetching = false;
+let again = false;
+
+/** What came of the shown one so far; one request at a time. */
+function fetchTrials(): void {
+  const id = shownCampaign(get())?.id;
+  if (id === undefined) return;
+  again = fetching;
+  if (fetching) return;
+  fetching = true;
+  void campaigns
+    .whole(id)
+    .then(({ trials }) => {
+      if (shownCampaign(get())?.id === id) set({ trials: { of: id, all: trials } });
+    })
+    .catch(() => undefined) // it was deleted meanwhile
+    .finally(() => {
+      fetching = false;
+      if (again) fetchTrials();
+    });
+}
+
+async function guarded(deed: (instance: number) => Promise<void>): Promise<void> {
+  const instance = useBench.getState().instance?.id;
+  if (instance === undefined) return;
+  try {
+    set({ trouble: null });
+    await deed(instance);
+  } catch (error) {
+    set({ trouble: messageOf(error) });
+  }
+}
+
+useBench.subscribe((now, before) => {
+  if (now.instance?.id !== before.instance?.id) set(nothing);
+});
