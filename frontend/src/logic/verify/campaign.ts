@@ -1,7 +1,7 @@
 /** What the form of a campaign asks for, and which of its disturbances are listed. */
 import type { CampaignTrial, NewCampaign } from "../../wire/types";
 
-export type Kind = CampaignTrial["kind"];
+type Kind = CampaignTrial["kind"];
 export type Outcome = CampaignTrial["outcome"];
 /** `silent`: an output was wrong, and the program did not notice it. */
 export type Shown = Outcome | "silent" | null;

@@ -2,7 +2,6 @@
 
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
-import { withNewest } from "../../logic/past/past";
 import { type CampaignForm, FORM, type Shown, wantedOf } from "../../logic/verify/campaign";
 import { t } from "../../text";
 import { campaigns } from "../../wire/campaigns";
@@ -94,7 +93,7 @@ export const refreshCampaigns = () =>
 /** The progress of one of the selected instance. */
 export function onCampaign(campaign: CampaignState): void {
   if (campaign.instance !== useBench.getState().instance?.id) return;
-  set(({ list }) => ({ list: withNewest(list, campaign) }));
+  set(({ list }) => ({ list: [campaign, ...list.filter(({ id }) => id !== campaign.id)].sort((a, b) => b.id - a.id) }));
   if (campaign.id === shownCampaign(get())?.id) fetchTrials();
 }
 
