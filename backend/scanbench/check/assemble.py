@@ -74,6 +74,8 @@ def assemble(
     configuration = configurations[0] if configurations else None
     planned = _planned(report, planner, configurations)
     if not any(task.runs for task in planned):
+        if configuration is None and planner.has_programs:
+            return None  # they call each other, which was reported
         alone = " What is in plant/ drives the inputs of a program." if around.plant else ""
         report.error("D011", f"There is no PROGRAM, so nothing would run.{alone}", where)
         return None

@@ -13,6 +13,8 @@ from scanbench.program.types import (
     ArrayType,
     Elementary,
     Enumeration,
+    Kind,
+    Member,
     Record,
     Reference,
     StringType,
@@ -22,50 +24,77 @@ from scanbench.program.types import (
 from scanbench.syntax import tree
 
 ANY = "__SYSTEM.ANYTYPE"
-"""The structure that such an input is."""
+"""The structure that such an input is; those of ANY_NUM and the like extend it."""
+GROUPS: dict[str, tuple[Kind, ...]] = {
+    "ANY_BIT": (Kind.BOOL, Kind.BITS),
+    "ANY_DATE": (Kind.DATE,),
+    "ANY_INT": (Kind.INT, Kind.UINT),
+    "ANY_NUM": (Kind.INT, Kind.UINT, Kind.REAL),
+    "ANY_REAL": (Kind.REAL,),
+}
+"""What each of those takes."""
 CLASSES = {"DATE_AND_TIME": "DATEANDTIME", "TIME_OF_DAY": "TIMEOFDAY"}
 """Of elementary types with a different name there."""
 
 
 def is_any(type: Type) -> bool:
     """Whether an input has this type."""
-    return isinstance(type, Record) and type.name.upper() == ANY
+    return isinstance(type, Record) and (type.name.upper() == ANY or type.name.upper() in GROUPS)
 
 
 def any_of(body: Body, node: tree.Expression, type: Record, what: str) -> Expr:
     """What the input `what` is given for this variable; one that is such an input itself is passed on."""
+    name = type.name.upper() if type.name.upper() in GROUPS else "ANY"
     if not isinstance(node, VARIABLES):
-        raise body.report.reject("T005", f"{what} is ANY and needs a variable.", node.span)
+        raise body.report.reject("T005", f"{what} is {name} and needs a variable.", node.span)
     mark = body.report.mark()
     given = body.place(node)[0].type
     body.report.undo(mark)
     if given == type:
         return as_type(body, node, type, what)
-    used(
-        body,
-        Allowance.ANY_INPUTS,
-        node.span,
-        f"{what} is ANY, and is given the address of `{shown(node)}`",
-        "a VAR_IN_OUT",
-    )
     place = body.temporary(type, node.span)
-    members = type.members
-    class_, pointer, size = (members[name] for name in ("TYPECLASS", "PVALUE", "DISIZE"))
+    passed: list[tuple[Member, Expr]]
+    if isinstance(given, Record) and is_any(given) and name == "ANY":
+        source = body.place(node)[0]
+        passed = [(each, Load(inside(source, given, given.members[key]))) for key, each in type.members.items()]
+    else:
+        passed = _told(body, node, type, given, name, what)
+    stores = tuple(Assign(inside(place, type, member), value, node.span) for member, value in passed)
+    return Sequence(stores, Load(place))
+
+
+def _told(
+    body: Body, node: tree.Expression, type: Record, given: Type, name: str, what: str
+) -> list[tuple[Member, Expr]]:
+    """The members of such an input, for a variable of the type `given`."""
+    class_, pointer, size = (type.members[key] for key in ("TYPECLASS", "PVALUE", "DISIZE"))
     assert isinstance(class_.type, Enumeration)
     number = class_.type.number(f"TYPE_{_class_of(given)}")
-    if isinstance(given, StringType):
+    if name in GROUPS and given.kind not in GROUPS[name]:
+        raise body.report.reject("T002", f"{what} is {name}, and this is {given}.", node.span)
+    if _is_different(given):
         raise body.report.reject(
             "T002",
-            f"{what} is ANY; a {given} cannot be passed, as its bytes are not those of {body.dialect.title}.",
+            f"{what} is {name}; {given} cannot be passed, as its bytes are not those of {body.dialect.title}.",
             node.span,
         )
     if number is None:
-        why = f"{what} is ANY; which class {given} has in {body.dialect.title} is not documented."
+        why = f"{what} is {name}; which class {given} has in {body.dialect.title} is not documented."
         raise body.report.reject("T002", why, node.span)
+    told = f"{what} is {name}, and is given the address of `{shown(node)}`"
+    used(body, Allowance.ANY_INPUTS, node.span, told, "a VAR_IN_OUT")
     address = coerce(body, refer(body, node, pointer=True), pointer.type, node.span, what)
-    values = ((class_, Const(class_.type, number)), (pointer, address), (size, Const(DINT, given.size)))
-    stores = tuple(Assign(inside(place, type, member), value, node.span) for member, value in values)
-    return Sequence(stores, Load(place))
+    return [(class_, Const(class_.type, number)), (pointer, address), (size, Const(DINT, given.size))]
+
+
+def _is_different(type: Type) -> bool:
+    """Whether it is stored differently there: strings begin with their length here, times and dates have 64 bits."""
+    match type:
+        case ArrayType():
+            return _is_different(type.element)
+        case Record():
+            return any(_is_different(each.type) for each in type.members.values())
+    return isinstance(type, StringType) or type.kind in (Kind.TIME, Kind.DATE)
 
 
 def _class_of(type: Type) -> str:

@@ -4,10 +4,10 @@ from scanbench.check.body.allowed import may, used
 from scanbench.check.body.any_inputs import any_of, is_any
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.places import VARIABLES
+from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
 from scanbench.check.dialect import Allowance
-from scanbench.program.program import Expr
+from scanbench.program.program import Expr, Load
 from scanbench.program.shown import shown
 from scanbench.program.types import Record, Reference, Type, is_derived
 from scanbench.syntax import tree
@@ -17,6 +17,10 @@ def as_argument(body: Body, node: tree.Expression, type: Type, what: str) -> Exp
     """What is passed to an input of this type, or what it starts with; `what` it is, for people."""
     if isinstance(type, Record) and is_any(type):
         return any_of(body, node, type, what)
+    if isinstance(type, Reference) and type.automatic and isinstance(node, VARIABLES):
+        place, _ = raw_place(body, node)
+        if isinstance(place.type, Reference) and place.type.automatic and may(body, Allowance.DIRECT_REFERENCES):
+            return coerce(body, Load(place), type, node.span, what)  # also one that refers to nothing
     if _is_variable(body, node, type):
         used(
             body, Allowance.DIRECT_REFERENCES, node.span, f"{what} is {type}, and this is a variable",

@@ -85,17 +85,32 @@ class Planner:
         programs = (pou for pou in self._pous.blocks.values() if pou.kind == "program" and not pou.inline)
         return [pou for pou in programs if pou not in self._plant]
 
+    @property
+    def has_programs(self) -> bool:
+        """Whether there is any that a task may run."""
+        return bool(self._programs())
+
     def free(self) -> list[PlannedTask]:
         """Without a CONFIGURATION every PROGRAM that no other POU calls runs, in order of declaration, in one task."""
         task = PlannedTask("Main", self._interval_ns)
-        called = {callee for caller, callees in self._pous.uses.items() for callee in callees if callee is not caller}
-        for pou in self._programs():
+        programs = self._programs()
+        called = {each for pou in programs for each in self._called_by(pou) if each is not pou}
+        for pou in programs:
             if pou in called:
                 continue
             name = pou.name.rpartition(".")[2]  # of a namespace: the dot is for resources
             if self._is_free(name, pou.span):
                 task.runs.append(PlannedInstance(name, pou))
         return [task]
+
+    def _called_by(self, pou: Pou) -> set[Pou]:
+        """All that this program leads to."""
+        found, open_ = {pou}, [pou]
+        while open_:
+            fresh = self._pous.uses.get(open_.pop(), {}).keys() - found
+            found |= fresh
+            open_ += fresh
+        return found
 
     def configured(self, configuration: tree.Configuration) -> list[PlannedTask]:
         """All tasks, the highest priority first; those of one priority in order of declaration."""
