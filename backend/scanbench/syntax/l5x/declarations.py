@@ -2,8 +2,9 @@
 
 from collections.abc import Iterable, Iterator
 
+from scanbench.syntax.l5x import notes
 from scanbench.syntax.l5x.names import name_of, type_name
-from scanbench.syntax.l5x.values import members_of, start_value, structure_in
+from scanbench.syntax.l5x.values import members_of, sizes_of, start_value, structure_in
 from scanbench.syntax.xml_tree import Element, attribute, child, children, text_of
 
 INDENT = "    "
@@ -13,9 +14,7 @@ ENABLED = ("EnableIn", "EnableOut")
 
 def dimensions_of(node: Element) -> list[int]:
     """Of a tag (`2 3`, `2,3`) or of a member (`Dimension`); none where it is no array."""
-    written = attribute(node, "Dimensions") or attribute(node, "Dimension")
-    sizes = [int(each) for each in written.replace(",", " ").split() if each.isdigit()]
-    return [each for each in sizes if each > 0]
+    return sizes_of(attribute(node, "Dimensions") or attribute(node, "Dimension"))
 
 
 def spec(type: str, sizes: Iterable[int]) -> str:
@@ -24,28 +23,31 @@ def spec(type: str, sizes: Iterable[int]) -> str:
     return f"ARRAY[{ranges}] OF {type_name(type)}" if ranges else type_name(type)
 
 
-def line_of_tag(node: Element) -> str:
-    """One variable, with its start value and its description."""
-    initial = start_value(node) or ("TRUE" if attribute(node, "Name") in ENABLED else "")
+def line_of_tag(node: Element, told: list[str]) -> str:
+    """One variable, with its start value and its description; a value that is not read is added to `told`."""
+    lost: list[str] = []
+    initial = start_value(node, lost) or ("TRUE" if attribute(node, "Name") in ENABLED else "")
     comment = " ".join(text_of(child(node, "Description")).split())
+    if lost:
+        told.append(notes.lost_value(attribute(node, "Name"), lost[0]))
     if attribute(node, "TagType") in ("Produced", "Consumed"):
         comment = " ".join((comment, "(exchanged with another controller, which there is not here)")).strip()
     declared = f"{name_of(attribute(node, 'Name'))} : {spec(attribute(node, 'DataType'), dimensions_of(node))}"
     return f"{INDENT}{declared}{f' := {initial}' if initial else ''};{f' // {comment}' if comment else ''}\n"
 
 
-def section(words: str, tags: Iterable[Element]) -> str:
+def section(words: str, tags: Iterable[Element], told: list[str]) -> str:
     """A section of variables; empty without one."""
-    lines = "".join(line_of_tag(each) for each in tags)
+    lines = "".join(line_of_tag(each, told) for each in tags)
     return f"{words}\n{lines}END_VAR\n" if lines else ""
 
 
-def sections(words: str, tags: Iterable[Element]) -> str:
+def sections(words: str, tags: Iterable[Element], told: list[str]) -> str:
     """The same, what never changes apart."""
     own = [each for each in tags if attribute(each, "TagType", "Base") != "Alias"]
     constants = [each for each in own if attribute(each, "Constant") == "true"]
-    return section(f"{words} RETAIN", (each for each in own if each not in constants)) + section(
-        f"{words} CONSTANT", constants
+    return section(f"{words} RETAIN", (each for each in own if each not in constants), told) + section(
+        f"{words} CONSTANT", constants, told
     )
 
 
@@ -80,6 +82,5 @@ def _type_of(structure: Element, known: set[str]) -> Iterator[str]:
         inner = child(element, "Element", "Structure") if child(element, "Element") is not None else element
         if inner is not None and next(members_of(inner), None) is not None:
             yield from _type_of(inner, known)
-        sizes = [int(each) for each in dimensions.replace(",", " ").split() if each.isdigit()]
-        lines += f"{INDENT}{name_of(member)} : {spec(type, sizes)};\n"
+        lines += f"{INDENT}{name_of(member)} : {spec(type, sizes_of(dimensions))};\n"
     yield f"{name_of(name)} : STRUCT\n{lines}END_STRUCT;\n"

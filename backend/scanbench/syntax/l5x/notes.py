@@ -12,7 +12,27 @@ def protected(routine: str) -> str:
 
 
 def with_parameters(routine: str) -> str:
-    return f"JSR of {routine} passes parameters, which is not read"
+    return f"{routine} has parameters, which are not read: the statement stays as it is, and is refused"
+
+
+def other_bytes(call: str) -> str:
+    return f"{call} copies between different types, whose bytes are different here: the statement stays as it is, and is refused"
+
+
+def lost_value(tag: str, written: str) -> str:
+    return f"the start value of {tag} is not read ({written}); it is zero"
+
+
+def hidden_alias(alias: str, target: str) -> str:
+    return f"the alias {alias} leads to {target}, of which the program has one of its own; it is left out"
+
+
+def alias_parameter(parameter: str) -> str:
+    return f"the parameter {parameter} is an alias of a member, which is not read"
+
+
+def not_run(what: str) -> str:
+    return f"{what} does not run: it is disabled, inhibited, or started by an event"
 
 
 def unused(routine: str) -> str:

@@ -2,10 +2,11 @@
 
 import re
 from collections.abc import Iterable, Iterator
+from itertools import chain, count
 
 from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.l5x import notes
-from scanbench.syntax.l5x.declarations import data_type, section, sections, types_of_data
+from scanbench.syntax.l5x.declarations import data_type, dimensions_of, section, sections, types_of_data
 from scanbench.syntax.l5x.names import ELEMENTARY, name_of
 from scanbench.syntax.l5x.statements import Known, Parameter, statements
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
@@ -39,6 +40,7 @@ class _Reader:
             for each in self._all("AddOnInstructionDefinitions", "AddOnInstructionDefinition")
         }
         self._tags = [*self._all("Tags", "Tag"), *_module_tags(controller)]
+        self._about_tags = Read("Tags", line_of(controller) if controller is not None else 1, "")
 
     def read(self) -> Project:
         for each in self._all("AddOnInstructionDefinitions", "AddOnInstructionDefinition"):
@@ -46,8 +48,10 @@ class _Reader:
         for each in self._all("Programs", "Program"):
             self._file(attribute(each, "Name"), self._program(each))
         self._file("Types", self._types())
-        self._file("Tags", sections("VAR_GLOBAL", self._tags))
+        self._file("Tags", sections("VAR_GLOBAL", self._tags, self._about_tags.notes))
         self._file("Configuration", self._configuration())
+        if self._about_tags.notes:
+            self._made.pous.append(self._about_tags)
         if self._made.files:
             self._made.files[LANGUAGE_FILE] = language_text("rockwell")
         return self._made
@@ -56,8 +60,10 @@ class _Reader:
         yield from children(child(self._controller, *path[:-1]), path[-1])
 
     def _file(self, name: str, text: str) -> None:
+        taken = {each.lower() for each in self._made.files}
+        numbered = chain((f"{name}.st",), (f"{name}_{number}.st" for number in count(2)))
         if text:
-            self._made.files[f"{name}.st"] = text
+            self._made.files[next(each for each in numbered if each.lower() not in taken)] = text
 
     def _types(self) -> str:
         known = {*self._instructions, *ELEMENTARY}
@@ -77,13 +83,19 @@ class _Reader:
             usage: [each for each in parameters if attribute(each, "Usage") == usage]
             for usage in ("Input", "Output", "InOut")
         }
+        own, locals = self._about_tags.notes, list(children(child(node, "LocalTags"), "LocalTag"))
         declared = (
-            section("VAR_INPUT", (each for each in of["Input"] if attribute(each, "TagType") != "Alias"))
-            + section("VAR_OUTPUT", (each for each in of["Output"] if attribute(each, "TagType") != "Alias"))
-            + section("VAR_IN_OUT", of["InOut"])
-            + section("VAR", children(child(node, "LocalTags"), "LocalTag"))
+            section("VAR_INPUT", (each for each in of["Input"] if attribute(each, "TagType") != "Alias"), own)
+            + section("VAR_OUTPUT", (each for each in of["Output"] if attribute(each, "TagType") != "Alias"), own)
+            + section("VAR_IN_OUT", of["InOut"], own)
+            + section("VAR", locals, own)
         )
-        known = Known(_aliases(parameters), {}, self._instructions)
+        own += [
+            notes.alias_parameter(f"{name}.{attribute(each, 'Name')}")
+            for each in parameters
+            if attribute(each, "TagType") == "Alias"
+        ]
+        known = Known(_aliases(parameters), {}, self._instructions, _types([*parameters, *locals]))
         body = ""
         for routine in children(child(node, "Routines"), "Routine"):
             read = self._read(f"{name}.{attribute(routine, 'Name')}", routine)
@@ -100,7 +112,7 @@ class _Reader:
         routines = list(children(child(node, "Routines"), "Routine"))
         taken = {attribute(each, "Name").upper() for each in tags}
         actions = {(found := attribute(each, "Name")).upper(): _action(found, taken) for each in routines}
-        known = Known(_aliases([*self._tags, *tags]), actions, self._instructions)
+        known = Known(self._aliases_in(tags), actions, self._instructions, _types([*self._tags, *tags]))
         body, rest = "", ""
         for routine in routines:
             of = attribute(routine, "Name")
@@ -110,7 +122,21 @@ class _Reader:
                 body = text
             elif not read.refused:
                 rest += f"ACTION {actions[of.upper()]}:\n{text}END_ACTION\n"
-        return f"PROGRAM {name_of(name)}\n{sections('VAR', tags)}{rest}{body}END_PROGRAM\n"
+        declared = sections("VAR", tags, self._about_tags.notes)
+        return f"PROGRAM {name_of(name)}\n{declared}{rest}{body}END_PROGRAM\n"
+
+    def _aliases_in(self, tags: list[Element]) -> dict[str, str]:
+        """What aliases are written for in a program with these tags, which go before those of the controller."""
+        own = {attribute(each, "Name").upper() for each in tags}
+        found = {}
+        for alias, target in _aliases(self._tags).items():
+            if alias in own:
+                continue
+            if re.split(r"\W", target, maxsplit=1)[0].upper() in own:
+                self._about_tags.notes.append(notes.hidden_alias(alias, target))
+                continue
+            found[alias] = target
+        return found | _aliases(tags)
 
     def _read(self, name: str, routine: Element) -> Read:
         type = attribute(routine, "Type")
@@ -125,20 +151,47 @@ class _Reader:
         return read
 
     def _configuration(self) -> str:
-        tasks, programs = "", ""
-        have = {attribute(each, "Name") for each in self._all("Programs", "Program")}
+        """What runs: the periodic tasks, the continuous one after them; nothing else, where the file has tasks."""
+        tasks, programs, seen = "", "", False
+        run = {
+            attribute(each, "Name"): attribute(each, "Disabled") != "true" for each in self._all("Programs", "Program")
+        }
+        for name, enabled in run.items():
+            if not enabled:
+                self._about_tags.notes.append(notes.not_run(name))
         for task in self._all("Tasks", "Task"):
-            named = name_of(attribute(task, "Name"))
-            rate = attribute(task, "Rate") if attribute(task, "Type") == "PERIODIC" else ""
-            interval = f"INTERVAL := T#{rate}ms, " if rate else ""
+            seen = True
+            named, type = name_of(attribute(task, "Name")), attribute(task, "Type")
+            if attribute(task, "InhibitTask") == "true" or type not in ("CONTINUOUS", "PERIODIC"):
+                self._about_tags.notes.append(notes.not_run(attribute(task, "Name")))
+                continue
             own = [attribute(each, "Name") for each in children(child(task, "ScheduledPrograms"), "ScheduledProgram")]
-            own = [each for each in own if each in have]
+            own = [each for each in own if run.get(each)]
             if own:
-                tasks += f"TASK {named}({interval}PRIORITY := {attribute(task, 'Priority', '10')});\n"
+                tasks += f"TASK {named}({_when(task)});\n"
             programs += "".join(f"PROGRAM {name_of(each)}_1 WITH {named} : {name_of(each)};\n" for each in own)
-        if not programs:
+        if not seen:
             return ""
         return f"CONFIGURATION Config\nRESOURCE Controller ON PLC\n{tasks}{programs}END_RESOURCE\nEND_CONFIGURATION\n"
+
+
+CONTINUOUS = 16
+"""The priority of the continuous task: those of the others are 1 to 15."""
+
+
+def _when(task: Element) -> str:
+    if attribute(task, "Type") == "CONTINUOUS":
+        return f"PRIORITY := {CONTINUOUS}"
+    rate, priority = attribute(task, "Rate", "10"), attribute(task, "Priority", "10")
+    return f"INTERVAL := T#{rate}ms, PRIORITY := {priority}"
+
+
+def _types(tags: Iterable[Element]) -> dict[str, tuple[str, list[int]]]:
+    """The type and the dimensions of each, by its name here."""
+    return {
+        name_of(attribute(each, "Name")).upper(): (attribute(each, "DataType").upper(), dimensions_of(each))
+        for each in tags
+    }
 
 
 def _required(node: Element) -> list[Parameter]:
@@ -152,17 +205,23 @@ def _required(node: Element) -> list[Parameter]:
 def _module_tags(controller: Element | None) -> Iterator[Element]:
     """The tags of inputs and outputs, which have the name of their module: `Local:1:I`."""
     for module in children(child(controller, "Modules"), "Module"):
-        owner, slot = attribute(module, "ParentModule"), ""
-        for port in children(child(module, "Ports"), "Port"):
-            slot = slot or attribute(port, "Address")
         for each in module.iter("InputTag", "OutputTag", "ConfigTag"):
             letter = {"InputTag": "I", "OutputTag": "O", "ConfigTag": "C"}[str(each.tag)]
-            base = attribute(module, "Name") if attribute(module, "Name") and owner != "Local" else f"{owner}:{slot}"
-            each.set("Name", f"{base}:{letter}")
+            each.set("Name", f"{_module_name(module)}:{letter}")
             structure = next(each.iter("Structure"), None)
             each.set("DataType", attribute(structure, "DataType"))
             if structure is not None:
                 yield each
+
+
+def _module_name(module: Element) -> str:
+    """As its tags have it: `Parent:slot` in a chassis, else its own name."""
+    ports = list(children(child(module, "Ports"), "Port"))
+    upstream = next((each for each in ports if attribute(each, "Upstream") == "true"), ports[0] if ports else None)
+    slot = attribute(upstream, "Address")
+    if re.fullmatch(r"[0-9]{1,3}", slot) and attribute(module, "ParentModule"):
+        return f"{attribute(module, 'ParentModule')}:{slot}"
+    return attribute(module, "Name")
 
 
 def _aliases(tags: Iterable[Element]) -> dict[str, str]:

@@ -45,6 +45,8 @@ class Known:
     """The action that each routine of the program is."""
     instructions: Mapping[str, Sequence[Parameter]] = field(default_factory=dict)
     """Add-On Instructions."""
+    types: Mapping[str, tuple[str, Sequence[int]]] = field(default_factory=dict)
+    """The type of each tag, in upper case, and its dimensions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +83,10 @@ class _Writer:
         if piece.text == "[:=]":
             self._tell(notes.NOT_RETAINED)
             return ":="
-        if piece.kind == "number" and before is not None and before.text == "." and piece.text.isdigit():
-            return f"%X{piece.text}"
+        if piece.text == "-" and self._is_sign():
+            return self._sign()
+        if piece.kind == "number":
+            return self._number(piece.text)
         if piece.kind == "text":
             return f"{LIBRARY}.TEXT({piece.text})"
         if piece.kind != "name":
@@ -93,11 +97,57 @@ class _Writer:
             return self._call(piece.text)
         return self._name(piece.text)
 
+    def _number(self, written: str) -> str:
+        before = "".join(each.text for each in self._pieces[max(0, self._at - 3) : self._at - 1])
+        if re.search(r"(?<!\.)\.$", before) and _DIGITS.fullmatch(written):  # a bit, and no range `1..5`
+            return f"%X{written}"
+        bits = _BASED.fullmatch(written)
+        if bits is not None and 1 << 31 <= int(bits[2].replace("_", "") or "0", int(bits[1])) < 1 << 32:
+            return f"DWORD_TO_DINT({written})"  # in a DINT it is its bits
+        return written
+
+    def _is_sign(self) -> bool:
+        """Whether the minus that was taken has no operand before it."""
+        before = next((each for each in reversed(self._pieces[: self._at - 1]) if each.kind not in BLANK), None)
+        if before is None or (before.kind == "name" and before.text.upper() in KEYWORDS - {"TRUE", "FALSE"}):
+            return True
+        return before.kind not in ("name", "number") and before.text not in (")", "]")
+
+    def _sign(self) -> str:
+        """A minus: of `-x ** y` the power comes first there, and the minus in the standard."""
+        end = self._operand(self._at)
+        power = self._after_blanks(end)
+        if power is None or self._pieces[power].text != "**":
+            return "-"
+        end = self._operand(power + 1)
+        inner = "".join(each.text for each in self._pieces[self._at : end])
+        self._at = end
+        return f"-({statements(inner, self._known, self._told)})"
+
+    def _after_blanks(self, at: int) -> int | None:
+        return next((i for i in range(at, len(self._pieces)) if self._pieces[i].kind not in BLANK), None)
+
+    def _operand(self, at: int) -> int:
+        """Where the operand that begins here ends: a name with its members and indices, a number, what is in parentheses."""
+        start = self._after_blanks(at)
+        if start is None:
+            return len(self._pieces)
+        if self._pieces[start].text == "-":
+            return self._operand(start + 1)
+        i, depth = start, 0
+        while i < len(self._pieces):
+            piece = self._pieces[i]
+            if depth == 0 and piece.kind not in ("name", "number") and piece.text not in (".", "[", "("):
+                break
+            depth += (piece.text in ("(", "[")) - (piece.text in (")", "]"))
+            i += 1
+        return i
+
     def _name(self, written: str) -> str:
         target = self._known.aliases.get(written.upper())
         if target is not None:  # of one that is an alias itself, too, but never round in a circle
             rest = {name: text for name, text in self._known.aliases.items() if name != written.upper()}
-            return statements(target, Known(rest), self._told)
+            return statements(target, Known(rest, types=self._known.types), self._told)
         if written.upper() in KEYWORDS:
             return written
         return name_of(written.removeprefix("\\"))
@@ -126,9 +176,43 @@ class _Writer:
     def jump(self, given: list[str]) -> str:
         """JSR: a routine of the same program is an action of it."""
         routine = given[0] if given else ""
-        if len(given) > 1 and given[1].strip() not in ("", "0"):
-            self._tell(notes.with_parameters(routine))
+        if len(given) > 2 or (len(given) == 2 and given[1] not in ("", "0")):
+            return self._as_it_is("JSR", given)
         return f"{self._known.routines.get(routine.upper(), routine)}()"
+
+    def back(self, given: list[str]) -> str:
+        """RET: the end of a routine."""
+        return self._as_it_is("RET", given) if given else "RETURN"
+
+    def begin(self, given: list[str]) -> str:
+        """SBR: the beginning of one."""
+        return self._as_it_is("SBR", given) if given else ""
+
+    def _as_it_is(self, name: str, given: list[str]) -> str:
+        self._tell(notes.with_parameters(name))
+        return f"{name}({', '.join(given)})"
+
+    def copied(self, given: list[str]) -> str:
+        """COP, CPS: so many elements of the destination, byte for byte, up to its end."""
+        source, destination, length = (*given, "", "", "")[:3]
+        one, other = self._element(source), self._element(destination)
+        if one is None or other is None or one[0] != other[0] or one[0] in _PACKED:
+            self._tell(notes.other_bytes(f"COP({', '.join(given)})"))
+            return f"COP({', '.join(given)})"
+        target, left = other[1], other[2]
+        return f"{LIBRARY}.COP(ADR({one[1]}), ADR({target}), MIN({length}, {left}) * SIZEOF({target}))"
+
+    def _element(self, written: str) -> tuple[str, str, str] | None:
+        """Its type, how it is written, and how many there are from it on; None for what is no tag or element of one."""
+        found = _TAG.fullmatch(written)
+        known = self._known.types.get(found[1].upper()) if found is not None else None
+        if found is None or known is None or len(known[1]) > 1:
+            return None
+        type, sizes = known
+        if not sizes:
+            return None if found[2] is not None else (type, written, "1")
+        index = found[2] or "0"
+        return type, f"{found[1]}[{index}]", f"{sizes[0]} - ({index})" if index != "0" else str(sizes[0])
 
     def _arguments(self) -> list[str]:
         """Those in the parentheses that come now, in the words of the standard; comments between them are dropped."""
@@ -160,19 +244,19 @@ class _Writer:
             self._told.append(note)
 
 
-def _copied(writer: _Writer, given: list[str]) -> str:
-    """COP, CPS: so many elements of the destination, byte for byte."""
-    source, destination, length = (*given, "", "", "")[:3]
-    return f"{LIBRARY}.COP(ADR({source}), ADR({destination}), {length} * SIZEOF({destination}))"
-
+_DIGITS = re.compile(r"[0-9]{1,2}")
+_BASED = re.compile(r"(2|8|16)#([0-9A-Fa-f_]{1,80})")
+_TAG = re.compile(r"(\w+)(?:\[([^\[\],]+)\])?")
+_PACKED = ("BOOL", "BIT")
+"""Types whose values share bytes there."""
 
 CALLS: dict[str, Callable[[_Writer, list[str]], str]] = {
     "JSR": _Writer.jump,
-    "RET": lambda writer, given: "RETURN",
-    "TND": lambda writer, given: "RETURN",
-    "SBR": lambda writer, given: "",
-    "COP": _copied,
-    "CPS": _copied,
+    "RET": _Writer.back,
+    "TND": _Writer.back,
+    "SBR": _Writer.begin,
+    "COP": _Writer.copied,
+    "CPS": _Writer.copied,
 }
 KEYWORDS = frozenset(
     "IF THEN ELSIF ELSE END_IF CASE OF END_CASE FOR TO BY DO END_FOR WHILE END_WHILE REPEAT UNTIL END_REPEAT EXIT RETURN "

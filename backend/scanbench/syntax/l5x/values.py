@@ -1,4 +1,4 @@
-"""Values of tags and types, as L5X writes them (`Decorated`) -> start values."""
+"""Values of tags and types, as L5X writes them (`Decorated`, and `String` of texts) -> start values."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -9,78 +9,124 @@ from scanbench.syntax.xml_tree import Element, attribute, child, children, kind,
 
 BITS = {"SINT": 8, "INT": 16, "DINT": 32, "LINT": 64}
 """Of the signed integers, which L5X may write by their bits: `16#ffff_fffe` is -2."""
-_BASED = re.compile(r"(\d+)#([0-9A-Fa-f_]+)$")
-_NUMBER = re.compile(r"[-+]?\d+$")
-_REAL = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?$")
-_PLAIN = re.compile(r"'(?:[^'$]|\$.)*'$")
+REALS = ("REAL", "LREAL")
+_BASED = re.compile(r"(2|8|10|16)#([0-9A-Fa-f_]{1,80})")
+_NUMBER = re.compile(r"[-+]?[0-9]{1,30}")
+_REAL = re.compile(r"[-+]?[0-9]{1,400}(?:\.[0-9]{1,400})?(?:[eE][-+]?[0-9]{1,3})?")
+_PLAIN = re.compile(r"'(?:[^'$]|\$.)*'", re.DOTALL)
+_SIZE = re.compile(r"[0-9]{1,9}")
 
 
-def start_value(node: Element | None) -> str:
-    """Of a tag or parameter, from its data; empty where it has none that says more than zero."""
-    data = next(
-        (each for each in children(node, "Data", "DefaultData") if attribute(each, "Format") == "Decorated"), None
-    )
+def sizes_of(written: str) -> list[int]:
+    """The dimensions of an array: `2 3`, `2,3`; none where it is no array."""
+    sizes = [int(each) for each in written.replace(",", " ").split() if _SIZE.fullmatch(each)]
+    return [each for each in sizes if each > 0]
+
+
+def start_value(node: Element, lost: list[str]) -> str:
+    """Of a tag or parameter, from its data; empty where it has none that says more than zero.
+
+    What is not understood is added to `lost`, as it is written.
+    """
+    texts = [each for each in children(node, "Data", "DefaultData") if attribute(each, "Format") == "String"]
+    if texts:
+        return _text(text_of(texts[0]), lost)
+    data = _decorated(node)
     inner = next(children(data), None)
-    return "" if inner is None else _value(inner)
+    if inner is None:
+        for each in children(node, "Data", "DefaultData"):
+            format = attribute(each, "Format")
+            if format not in ("", "L5K") or re.search(r"[1-9]", text_of(each)):
+                lost.append(format or "L5K")
+        return ""
+    return _Reader(lost).value(inner)
 
 
-def _value(node: Element) -> str:
-    """A value, an array or a structure; empty where all of it is zero."""
-    match kind(node):
-        case "DataValue" | "DataValueMember":
-            return _simple(attribute(node, "DataType"), attribute(node, "Value") or text_of(node))
-        case "Array" | "ArrayMember":
-            return _array(node)
-        case "Structure" | "StructureMember":
-            return _text(node) if _is_text(node) else _structure(node)
-    return ""
+def _decorated(node: Element | None) -> Element | None:
+    data = children(node, "Data", "DefaultData")
+    return next((each for each in data if attribute(each, "Format") == "Decorated"), None)
 
 
-def _simple(type: str, written: str) -> str:
-    written = written.strip()
-    based = _BASED.match(written)
-    if based is not None or _NUMBER.match(written):
-        number = _integer(based[2], int(based[1])) if based is not None else int(written)
-        bits = BITS.get(type.upper(), 0)
-        if bits and number >= 1 << bits - 1:
-            number -= 1 << bits
-        if type.upper() in ("REAL", "LREAL"):
-            return f"{number}.0" if number else ""
-        return str(number) if number else ""
-    if _REAL.match(written) and type.upper() in ("REAL", "LREAL"):
-        return _real(written)
-    return ""
+class _Reader:
+    """Reads one value, however deep."""
+
+    def __init__(self, lost: list[str]) -> None:
+        self._lost = lost
+
+    def value(self, node: Element) -> str:
+        """A value, an array or a structure; empty where all of it is zero."""
+        match kind(node):
+            case "DataValue" | "DataValueMember":
+                return self._simple(attribute(node, "DataType"), attribute(node, "Value") or text_of(node))
+            case "Array" | "ArrayMember":
+                return self._array(node)
+            case "Structure" | "StructureMember":
+                characters = _characters(node)
+                if attribute(characters, "Radix") == "ASCII":
+                    return _text(text_of(characters), self._lost)
+                return self._structure(node)
+        return ""
+
+    def _simple(self, type: str, written: str) -> str:
+        written, upper = written.strip(), type.upper()
+        number = _integer(written)
+        if number is None and upper in BITS and _PLAIN.fullmatch(written):
+            # characters, the most significant byte first
+            number = int.from_bytes(bytes(code & 0xFF for code in _codes(written[1:-1]))[-8:], "big")
+        if number is not None:
+            bits = BITS.get(upper, 0)
+            if bits and number >= 1 << bits - 1:
+                number -= 1 << bits
+            if upper in REALS:
+                return f"{number}.0" if number else ""
+            return str(number) if number else ""
+        if _REAL.fullmatch(written) and upper in REALS:
+            return _real(written)
+        if written:
+            self._lost.append(written[:40])
+        return ""
+
+    def _array(self, node: Element) -> str:
+        type = attribute(node, "DataType")
+        values = [
+            self.value(inner)
+            if (inner := next(children(each), None)) is not None
+            else self._simple(type, attribute(each, "Value"))
+            for each in children(node, "Element")
+        ]
+        while values and not values[-1]:
+            values.pop()  # the rest is zero
+        if not values:
+            return ""
+        zero = _zero(next(children(node, "Element"), None), type)
+        return f"[{', '.join(_repeated(each or zero for each in values))}]"
+
+    def _structure(self, node: Element) -> str:
+        members = (
+            (attribute(each, "Name"), self.value(each))
+            for each in children(node, "DataValueMember", "ArrayMember", "StructureMember")
+        )
+        said = ", ".join(f"{name_of(name)} := {value}" for name, value in members if value)
+        return f"({said})" if said else ""
 
 
-def _integer(digits: str, base: int) -> int:
+def _integer(written: str) -> int | None:
+    based = _BASED.fullmatch(written)
+    if based is None:
+        return int(written) if _NUMBER.fullmatch(written) else None
     try:
-        return int(digits.replace("_", ""), base)
-    except ValueError:  # of no number of that base
-        return 0
+        return int(based[2].replace("_", "") or "0", int(based[1]))
+    except ValueError:  # digits of a larger base
+        return None
 
 
 def _real(written: str) -> str:
     """A literal of the standard, which has a point."""
-    number = float(written)
-    if not number:
+    if not float(written):
         return ""
     mantissa, e, exponent = written.lower().partition("e")
     mantissa += "" if "." in mantissa else ".0"
     return f"{mantissa}{e}{exponent}"
-
-
-def _array(node: Element) -> str:
-    type = attribute(node, "DataType")
-    values = [
-        _value(inner) if (inner := next(children(each), None)) is not None else _simple(type, attribute(each, "Value"))
-        for each in children(node, "Element")
-    ]
-    while values and not values[-1]:
-        values.pop()  # the rest is zero
-    if not values:
-        return ""
-    zero = _zero(next(children(node, "Element"), None), type)
-    return f"[{', '.join(_repeated(each or zero for each in values))}]"
 
 
 def _zero(node: Element | None, type: str) -> str:
@@ -88,7 +134,9 @@ def _zero(node: Element | None, type: str) -> str:
     structure = child(node, "Structure") if child(node, "Structure") is not None else node
     first = next(children(structure, "DataValueMember", "ArrayMember", "StructureMember"), None)
     if first is None:
-        return "0.0" if type.upper() in ("REAL", "LREAL") else "0"
+        return "0.0" if type.upper() in REALS else "0"
+    if attribute(_characters(structure), "Radix") == "ASCII":
+        return "(LEN := 0)"
     inner = _zero(first, attribute(first, "DataType"))
     return f"({name_of(attribute(first, 'Name'))} := {f'[{inner}]' if kind(first) == 'ArrayMember' else inner})"
 
@@ -99,30 +147,20 @@ def _repeated(values: Iterable[str]) -> Iterator[str]:
         yield value if times == 1 else f"{times}({value})"
 
 
-def _structure(node: Element) -> str:
-    members = (
-        (attribute(each, "Name"), _value(each))
-        for each in children(node, "DataValueMember", "ArrayMember", "StructureMember")
-    )
-    said = ", ".join(f"{name_of(name)} := {value}" for name, value in members if value)
-    return f"({said})" if said else ""
-
-
-def _characters(node: Element) -> Element | None:
+def _characters(node: Element | None) -> Element | None:
     return next((each for each in children(node, "DataValueMember") if attribute(each, "Name") == "DATA"), None)
 
 
-def _is_text(node: Element) -> bool:
-    return attribute(_characters(node), "Radix") == "ASCII"
-
-
-def _text(node: Element) -> str:
+def _text(written: str, lost: list[str]) -> str:
     """A string, whose characters are numbers: its length, and what it has."""
-    written = text_of(_characters(node)).strip()
-    if not _PLAIN.match(written) or written == "''":
+    written = written.strip()
+    if not written:
         return ""
-    codes = list(_codes(written[1:-1]))
-    return f"(LEN := {len(codes)}, DATA := [{', '.join(map(str, codes))}])"
+    if not _PLAIN.fullmatch(written):
+        lost.append(written[:40])
+        return ""
+    codes = list(_codes(written[1:-1].replace("\r", "").replace("\n", "")))
+    return f"(LEN := {len(codes)}, DATA := [{', '.join(map(str, codes))}])" if codes else ""
 
 
 _ESCAPES = {"$": 36, "'": 39, "L": 10, "N": 13, "P": 12, "R": 13, "T": 9}
@@ -140,7 +178,7 @@ def _codes(text: str) -> Iterator[int]:
             code = _ESCAPES.get(text[at + 1].upper(), ord(text[at + 1]))
             at += 1
         at += 1
-        yield code - 256 if code > 127 else code
+        yield (code & 0xFF) - 256 if code & 0xFF > 127 else code & 0xFF
 
 
 def members_of(structure: Element) -> Iterator[tuple[str, str, str, Element]]:
@@ -151,7 +189,5 @@ def members_of(structure: Element) -> Iterator[tuple[str, str, str, Element]]:
 
 def structure_in(node: Element | None) -> Element | None:
     """The structure that the data of a tag is, also of an array of them."""
-    data = next(
-        (each for each in children(node, "Data", "DefaultData") if attribute(each, "Format") == "Decorated"), None
-    )
+    data = _decorated(node)
     return child(data, "Structure") if child(data, "Array") is None else child(data, "Array", "Element", "Structure")

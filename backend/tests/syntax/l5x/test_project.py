@@ -77,6 +77,7 @@ def test_any_text_is_written(text: str) -> None:
 KNOWN = Known(
     aliases={"DOOR": "Local:1:I.Data.3", "GATE": "Door", "ROUND": "Round"},
     routines={"FILL": "Fill"},
+    types={"A": ("DINT", [9]), "B": ("DINT", [4]), "W": ("INT", []), "BITS": ("BOOL", [32])},
     instructions={"VALVE": [Parameter("Open", "Input"), Parameter("Moved", "Output"), Parameter("Log", "InOut")]},
 )
 
@@ -94,7 +95,12 @@ KNOWN = Known(
             "V[i, 2](Open := (a AND b), Moved => Done, Log := Logs);",
         ),
         ("TONR(t1); Other(1, 2);", "Logix.TONR(t1); Other(1, 2);"),
-        ("COP(a[0], b[0], 4);", "Logix.COP(ADR(a[0]), ADR(b[0]), 4 * SIZEOF(b[0]));"),
+        ("COP(a[2], b, 4);", "Logix.COP(ADR(a[2]), ADR(b[0]), MIN(4, 4) * SIZEOF(b[0]));"),
+        ("COP(a[0], b[i + 1], n);", "Logix.COP(ADR(a[0]), ADR(b[i + 1]), MIN(n, 4 - (i + 1)) * SIZEOF(b[i + 1]));"),
+        ("CASE x OF 1..5: y := 10; 7: y := -x; END_CASE;", "CASE x OF 1..5: y := 10; 7: y := -x; END_CASE;"),
+        ("d := -i ** 2 - x[1] ** 2;", "d := -(i ** 2) - x[1] ** 2;"),
+        ("d := -2.0 ** -n.a[3] * -4;", "d := -(2.0 ** -n.a[3]) * -4;"),
+        ("d := 16#FFFF_FFFF AND 16#7FFF_FFFF;", "d := DWORD_TO_DINT(16#FFFF_FFFF) AND 16#7FFF_FFFF;"),
         ("var := 'a$'b'; type.of := 1;", "var_ := Logix.TEXT('a$'b'); type_.of_ := 1;"),
         ("#region one\nx := 1; /* b.3 */\n#endregion", "//#region one\nx := 1; /* b.3 */\n//#endregion"),
         ("TONR(", "Logix.TONR("),
@@ -111,11 +117,88 @@ def test_statements_are_written_as_the_standard_has_them(logix: str, here: str) 
 
 def test_what_a_statement_cannot_keep_is_told() -> None:
     told: list[str] = []
-    assert statements("x [:=] 1; JSR(Fill, 1, a);", KNOWN, told) == "x := 1; Fill();"
+    kept = "JSR(Fill, 1, a); RET(z); COP(a[0], w, 1); COP(bits[0], bits[1], 1);"
+    assert statements(f"x [:=] 1; {kept}", KNOWN, told) == f"x := 1; {kept}"
     assert told == [
         "`[:=]` is `:=` here: the variable keeps its value over a restart",
-        "JSR of Fill passes parameters, which is not read",
+        "JSR has parameters, which are not read: the statement stays as it is, and is refused",
+        "RET has parameters, which are not read: the statement stays as it is, and is refused",
+        "COP(a[0], w, 1) copies between different types, whose bytes are different here: the statement stays as it is, and is refused",
+        "COP(bits[0], bits[1], 1) copies between different types, whose bytes are different here: the statement stays as it is, and is refused",
     ]
+
+
+def controller(tags: str = "", programs: str = "", more: str = "") -> bytes:
+    return (
+        f'<RSLogix5000Content><Controller Name="C"><Tags>{tags}</Tags>{more}<Programs>{programs}</Programs></Controller></RSLogix5000Content>'
+    ).encode()
+
+
+def tag(name: str, type: str, data: str = "", more: str = "") -> str:
+    return f'<Tag Name="{name}" DataType="{type}" {more}>{data}</Tag>'
+
+
+def program(name: str, text: str, tags: str = "", more: str = "") -> str:
+    return (
+        f'<Program Name="{name}" MainRoutineName="M" {more}><Tags>{tags}</Tags><Routines><Routine Name="M" Type="ST"><STContent>'
+        f"<Line>{text}</Line></STContent></Routine></Routines></Program>"
+    )
+
+
+def decorated(type: str, value: str) -> str:
+    return f'<Data Format="Decorated"><DataValue DataType="{type}" Value="{value}"/></Data>'
+
+
+def test_start_values_in_all_their_forms() -> None:
+    texts = '<Data Format="String" Length="2"><![CDATA[\'A1\']]></Data>'
+    made = read_project(
+        controller(
+            tag("s", "STRING", texts)
+            + tag("ascii", "DINT", decorated("DINT", "'$00$00$00A'"))
+            + tag("inf", "REAL", decorated("REAL", "1.#INF"))
+            + tag("long", "DINT", decorated("DINT", "9" * 5000))
+            + tag("alarm", "ALARM", '<Data Format="Alarm"/>')
+            + tag("odd", "DINT", more='Dimensions="²"')
+        )
+    )
+    text = made.files["Tags.st"]
+    assert "s : Logix.STRING82 := (LEN := 2, DATA := [65, 49]);" in text
+    assert "ascii : DINT := 65;" in text
+    assert "inf : REAL;" in text
+    assert "odd : DINT;" in text
+    assert [note.split(" is not read")[0] for note in made.pous[-1].notes] == [
+        "the start value of inf", "the start value of long", "the start value of alarm",
+    ]  # fmt: skip
+
+
+def test_aliases_of_the_controller_and_tags_of_the_program() -> None:
+    tags = tag("v", "DINT", more='TagType="Alias" AliasFor="raw"') + tag(
+        "w", "DINT", more='TagType="Alias" AliasFor="q"'
+    )
+    tags += tag("raw", "DINT") + tag("q", "DINT")
+    made = read_project(controller(tags, program("P", "v := 5; w := 7;", tag("v", "DINT") + tag("q", "DINT"))))
+    assert "v := 5; w := 7;" in made.files["P.st"]
+    assert made.pous[-1].notes == ["the alias W leads to q, of which the program has one of its own; it is left out"]
+
+
+def test_what_does_not_run_there_does_not_run_here() -> None:
+    tasks = "<Tasks>" + "".join(
+        f'<Task Name="{name}" Type="{type}" Rate="20" Priority="5" {more}><ScheduledPrograms><ScheduledProgram Name="{of}"/></ScheduledPrograms></Task>'
+        for name, type, more, of in (
+            ("T", "PERIODIC", "", "A"), ("E", "EVENT", "", "B"), ("I", "PERIODIC", 'InhibitTask="true"', "B"), ("C", "CONTINUOUS", "", "D"),
+        )
+    ) + "</Tasks>"  # fmt: skip
+    programs = program("A", "") + program("B", "") + program("D", "", more='Disabled="true"')
+    made = read_project(controller("", programs, tasks))
+    assert made.files["Configuration.st"].splitlines()[2:-2] == [
+        "TASK T(INTERVAL := T#20ms, PRIORITY := 5);", "PROGRAM A_1 WITH T : A;",
+    ]  # fmt: skip
+    assert [note.split(" ")[0] for note in made.pous[-1].notes] == ["D", "E", "I"]
+
+
+def test_files_of_one_name_are_all_kept() -> None:
+    made = read_project(controller(tag("x", "DINT"), program("Tags", "x := 1;") + program("tags", "x := 2;")))
+    assert {"Tags.st", "tags_2.st", "Tags_3.st"} <= set(made.files)
 
 
 @pytest.mark.parametrize(
