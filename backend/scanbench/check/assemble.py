@@ -74,10 +74,8 @@ def assemble(
     configuration = configurations[0] if configurations else None
     planned = _planned(report, planner, configurations)
     if not any(task.runs for task in planned):
-        if configuration is None and planner.has_programs:
-            return None  # they call each other, which was reported
-        alone = " What is in plant/ drives the inputs of a program." if around.plant else ""
-        report.error("D011", f"There is no PROGRAM, so nothing would run.{alone}", where)
+        if configuration is not None or not planner.has_programs:  # else they call each other, which was reported
+            _tell_empty(report, where, around)
         return None
     areas = place_areas(declarations.model)
     layout = Layout(declarations.model, areas, globals=variables, symbols=declarations.symbols)
@@ -109,6 +107,11 @@ def assemble(
     )  # fmt: skip
     settings = Settings(report, declarations, program, resources)
     return replace(settings.apply(configuration), checks=tuple(report.checks), dialect=declarations.dialect.name)
+
+
+def _tell_empty(report: Report, where: Span, around: Around) -> None:
+    alone = " What is in plant/ drives the inputs of a program." if around.plant else ""
+    report.error("D011", f"There is no PROGRAM, so nothing would run.{alone}", where)
 
 
 def _planned(report: Report, planner: Planner, configurations: list[tree.Configuration]) -> list[PlannedTask]:

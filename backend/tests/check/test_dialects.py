@@ -196,6 +196,17 @@ def test_a_program_that_others_call_does_not_run_by_itself() -> None:
                 assert [each.name for each in program.called] == [each for each in ("Sub",) if each not in running]
 
 
+def test_dead_code_and_the_plant_keep_no_program_from_running() -> None:
+    main = "PROGRAM Main\nVAR x : INT; END_VAR\nx := x + 1;\nEND_PROGRAM\n"
+    for name, text in (
+        ("a.st", "FUNCTION_BLOCK Never\nMain();\nEND_FUNCTION_BLOCK\n"),
+        ("plant/p.st", "PROGRAM P\nIF FALSE THEN Main(); END_IF\nEND_PROGRAM\n"),
+    ):
+        program = check_sources(with_dialect({"main.st": main, name: text}, "twincat"), MODEL).program
+        assert program is not None
+        assert [each.name for each in program.tasks[0].programs] == ["Main"]
+
+
 def test_what_people_type_is_understood_in_the_dialect_of_the_program() -> None:
     text = "DWORD_TO_REAL(Main.dw) = 3.0"
     cases: list[tuple[DialectName, bool]] = [("iec", False), ("codesys", True)]
