@@ -7,13 +7,12 @@ again by itself or not.
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
-from scanbench.faults.arm import Disarm
 from scanbench.faults.detect import Detection
-from scanbench.faults.disturb.disturb import Calm
 from scanbench.history.contract import RerunChange
+from scanbench.history.renumbered import Numbers, refused
 from scanbench.history.rerun_plan import Given, Planned, planned
 from scanbench.recording.blocks import Codec
 from scanbench.recording.format import RunFileError
@@ -22,7 +21,7 @@ from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.recording import DEFAULT_LIMIT
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.agenda import Agenda
-from scanbench.runtime.command import Command, Numbered, Refusal
+from scanbench.runtime.command import Refusal
 
 _SLICE = 20_000
 """Scans between two words about how far it is."""
@@ -78,8 +77,7 @@ class _Again:
         self._timeline, self._end, self._on_progress = timeline, end, on_progress
         self._waiting = list(plan.given)
         self._first = timeline.live_scan
-        self._numbers: dict[int, int] = {}
-        """Of armed faults and disturbances: what their numbers were, and are now."""
+        self._numbers = Numbers()
         self._refused: list[str] = list(plan.notes)
         self._left = 0
 
@@ -118,21 +116,12 @@ class _Again:
             self._enter(self._waiting.pop(0))
 
     def _enter(self, given: Given) -> None:
-        command = self._renumbered(given.command)
-        outcome = self._timeline.submit(command)
-        if isinstance(outcome, Refusal):
-            if len(self._refused) >= _TOLD:
-                self._left += 1
-            else:
-                self._refused.append(f"before scan {self._timeline.live_scan}: {_named(command)}: {outcome.message}")
-        elif isinstance(outcome.plan.effect, Numbered) and given.number is not None:
-            self._numbers[given.number] = outcome.plan.effect.number
-
-    def _renumbered(self, command: Command) -> Command:
-        if isinstance(command, Disarm | Calm) and command.ids is not None:
-            return replace(command, ids=tuple(self._numbers.get(each, each) for each in command.ids))
-        return command
-
-
-def _named(command: Command) -> str:
-    return f"{type(command).__name__} by {command.author}"
+        command = self._numbers.renamed(given.command)
+        outcome = command if isinstance(command, Refusal) else self._timeline.submit(command)
+        self._numbers.note(given.number, outcome)
+        if not isinstance(outcome, Refusal):
+            return
+        if len(self._refused) >= _TOLD:
+            self._left += 1
+        else:
+            self._refused.append(refused(self._timeline.live_scan, given.command, outcome))

@@ -9,6 +9,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef, covers, error_of, find_error
 from scanbench.faults.shapes import Start
 from scanbench.history.contract import RerunChange
+from scanbench.recording.gaps import gap_between
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Command, Entry, Numbered, Refusal
 from scanbench.runtime.trap import Trapped
@@ -52,12 +53,15 @@ def planned(reader: RunReader, change: RerunChange) -> Planned:
         raise Unreadable(f"scan {first} is not kept: the run begins with scan {reader.first}")
     if first > reader.end:
         raise Unreadable(f"scan {first} has not come yet: the run ends at scan {reader.end}")
+    gap = gap_between(reader.recording.gaps, first, reader.end)
+    if gap is not None:
+        raise Unreadable(f"not all that was entered from scan {first} on is known: {gap}")
     cut = (
         index
         if first == entry.scan and not entry.step
         else sum(each.scan <= first and not (each.scan == first and each.step) for each in entries)
     )
-    begin = [] if command is None else [Given(scan, command, _number(entry))]
+    begin = [] if command is None else [Given(scan, command, number_of(entry))]
     rest, notes = _rest(entries, cut, index, raised, change)
     given = sorted((*begin, *rest), key=lambda each: each.scan)
     return Planned(first, cut, tuple(given), tuple(notes))
@@ -104,7 +108,7 @@ def _changed(reader: RunReader, raised: int) -> int:
     if command.arm is not None:
         armed = (
             at for at, each in enumerate(entries[:raised])
-            if isinstance(each.command, Arm) and _number(each) == command.arm
+            if isinstance(each.command, Arm) and number_of(each) == command.arm
         )  # fmt: skip
         index = next(armed, -1)
     if index < reader.timeline.recording.checkpoints[0].entries:
@@ -181,7 +185,7 @@ def _rest(
                 f"{type(command).__name__} by {command.author} was entered inside of scan {entry.scan}, and is entered "
                 "before it this time"
             )
-        given.append(Given(scan, command, _number(entry)))
+        given.append(Given(scan, command, number_of(entry)))
     return given, notes
 
 
@@ -214,7 +218,8 @@ def comes_by_itself(command: Command) -> bool:
     return False
 
 
-def _number(entry: Entry) -> int | None:
+def number_of(entry: Entry) -> int | None:
+    """What an armed fault or a disturbance was given as its number."""
     effect = entry.plan.effect
     return effect.number if isinstance(effect, Numbered) else None
 

@@ -6,6 +6,7 @@ from scanbench.history.scenario import Scenario
 from scanbench.history.scenario_steps import from_run
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary
+from scanbench.recording.gaps import gap_between
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.symbols.rack import INPUT, OUTPUT, terminals
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
@@ -23,6 +24,9 @@ def scenario_of(
         raise Unreadable(f"the run begins with scan {reader.first}, and a scenario with a cold start: begin a new run")
     if scan > reader.end:
         raise Unreadable(f"scan {scan} has not come yet: the run ends at scan {reader.end}")
+    gap = gap_between(reader.recording.gaps, 0, scan)
+    if gap is not None:
+        raise Unreadable(f"not all that was entered before scan {scan} is known: {gap}")
     plc = reader.at(scan)
     try:
         wanted = (

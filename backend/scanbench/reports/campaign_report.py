@@ -67,6 +67,7 @@ def trial_text(trial: Trial) -> list[str]:
         lines.append(f"  output        different after scan {trial.output_scan}")
     if trial.differs:
         lines.append("  memory        different at the end")
+    lines += [f"  refused       {each}" for each in trial.refused]
     if trial.why:
         lines.append(f"  why           {trial.why}")
     return lines
@@ -87,7 +88,9 @@ def campaign_json(report: CampaignReport) -> dict[str, Json]:
 
 
 def _trial(trial: Trial) -> Json:
-    told: dict[str, Json] = {**asdict(trial), "program": list(trial.program), "silent": trial.silent}
+    told: dict[str, Json] = {
+        **asdict(trial), "program": list(trial.program), "refused": list(trial.refused), "silent": trial.silent
+    }  # fmt: skip
     return told
 
 

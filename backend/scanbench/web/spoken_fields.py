@@ -90,6 +90,7 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (Trial, "text"),
     (Trial, "verification"),
     (Trial, "program"),
+    (Trial, "refused"),
     (Trial, "why"),
     (CampaignState, "message"),
     (Comparison, "message"),

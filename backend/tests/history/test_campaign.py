@@ -8,14 +8,19 @@ import pytest
 from scanbench.engines.available import flavours
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observed import ObservedBuilds
+from scanbench.faults.arm import Arm, Disarm
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
+from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
+from scanbench.faults.shapes import Wanted
 from scanbench.history.campaign.contract import BadCampaign, Campaign, CampaignWanted, Trial
 from scanbench.history.campaign.plan import planned
 from scanbench.history.campaign.trials import Bench, Trials, run_campaign
 from scanbench.program.program import Program
 from scanbench.recording.programs import cached, on, programs_of
 from scanbench.recording.reader import RunReader
+from scanbench.runtime.command import Command
+from scanbench.runtime.forces import Force
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.write import Write
 from scanbench.verify.contract import Range
@@ -146,6 +151,40 @@ def test_what_stops_the_program_is_found_in_its_scan_and_at_its_statement(tmp_pa
                 if found.trapped:
                     stopped += 1
                     assert_found(trials, found)
+
+
+def harmless(folder: Path, wanted: CampaignWanted, *commands: tuple[int, Command]) -> tuple[Trial, ...]:
+    """Of a run in which the input stays as it is."""
+    path = record(
+        folder / "base.run",
+        program(SOURCE),
+        120,
+        commands,
+        engine=NativeEngine,
+        agenda=Schedule(ObservedBuilds().engine),
+    )
+    with RunReader(path, programs_of(lambda kept: program(SOURCE), MAKE), ENTRIES) as reader:
+        reader.follow()
+        return run_campaign(reader, wanted, bench(folder, program(SOURCE))).trials
+
+
+def test_what_was_armed_is_taken_back_under_the_number_of_now(tmp_path: Path) -> None:
+    armed = Arm("Ada", Wanted((ErrorRef("battery-error"),)))
+    wanted = CampaignWanted(seed=1, count=8, first=10, last=15, window=60, kinds=("stuck", "late"))
+    found = harmless(tmp_path, wanted, (20, armed), (40, Disarm("Ada", (1,))))
+    assert [(each.outcome, each.refused) for each in found] == 8 * [("no effect", ())]
+
+
+def test_what_is_refused_because_of_the_disturbance_is_told(tmp_path: Path) -> None:
+    wanted = CampaignWanted(seed=1, count=4, first=39, last=39, window=40, kinds=("stuck",))
+    found = harmless(tmp_path, wanted, (40, Force("Ada", "start", "TRUE")))
+    refused = {each.refused for each in found}
+    assert refused == {("before scan 40: Force by Ada: start is held by disturbance 1: take that back first",)}
+
+
+def test_an_input_that_is_still_held_at_the_end_of_the_window_is_no_difference(tmp_path: Path) -> None:
+    wanted = CampaignWanted(seed=1, count=12, first=10, last=60, window=1, kinds=("stuck", "late"))
+    assert [(each.outcome, each.differs) for each in harmless(tmp_path, wanted)] == 12 * [("no effect", False)]
 
 
 def assert_found(trials: Trials, found: Trial) -> None:

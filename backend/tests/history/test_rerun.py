@@ -1,5 +1,6 @@
 """A run once more, with one error another."""
 
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -14,10 +15,12 @@ from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.history.contract import RerunChange
 from scanbench.history.divergence import find_divergence
+from scanbench.history.renumbered import Numbers
 from scanbench.history.rerun import Rerun, rerun
+from scanbench.recording.format import Kind, RunFile
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.timeline import Timeline
-from scanbench.runtime.command import Command, Entry, Refusal
+from scanbench.runtime.command import Command, Entry, Numbered, Plan, Refusal
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
 from tests.recording.recorded import SourcePrograms, advance, of_file
@@ -139,6 +142,31 @@ def test_what_follows_is_planned_again(tmp_path: Path) -> None:
     assert again.live_scan == 35
 
 
+def test_a_gap_after_the_change_is_not_crossed(tmp_path: Path) -> None:
+    """What was entered before scan 20 is lost, up to the state of scan 25."""
+    timeline = _begun(tmp_path / "run")
+    for scan in range(30):
+        if scan == 10:
+            _enter(timeline, Generate("Ada", (ErrorRef(BATTERY),)))
+        if scan == 20:
+            _enter(timeline, Write("Ada", "Main.level", "5"))
+        if scan in (18, 25):
+            timeline.recording.checkpoint(scan, timeline.resource.version, timeline.resource.state)
+        advance(timeline, 1)
+    timeline.close()
+    path = tmp_path / "run"
+    file = RunFile.open(path, read_only=True)
+    last = [each for each in file.scan_blocks() if each.kind is Kind.ENTRY][-1]
+    file.close()
+    data = bytearray(path.read_bytes())
+    data[last.payload_offset] ^= 4
+    path.write_bytes(data)
+    with RunReader(path, of_file, ENTRIES) as reading:
+        reading.follow()
+        with pytest.raises(Unreadable, match=r"not all that was entered from scan 10 on is known.*are lost"):
+            rerun(reading, tmp_path / "again", RerunChange(10, BATTERY, leave_out=True), "Bob", of_file, ENTRIES)
+
+
 def test_an_armed_fault_moves_as_a_whole(tmp_path: Path) -> None:
     timeline = _begun(tmp_path / "run")
     advance(timeline, 3)
@@ -238,3 +266,15 @@ def test_somebody_ends_it(tmp_path: Path) -> None:
         with pytest.raises(Enough):
             rerun(reading, path, RerunChange(10, BATTERY, 1), "Bob", of_file, ENTRIES, None, on_progress)
     assert not path.exists()
+
+
+def test_what_takes_back_something_refused_takes_back_nothing_else() -> None:
+    numbers = Numbers()
+    plan = Plan((), "armed", Numbered(5))
+    taken = Entry(3, datetime(2026, 1, 1, tzinfo=UTC), Arm("Ada", Wanted((ErrorRef(BATTERY),))), plan)
+    numbers.note(2, taken)
+    numbers.note(5, Refusal("it is present already"))
+    assert numbers.renamed(Disarm("Ada", (2,))) == Disarm("Ada", (5,))
+    assert numbers.renamed(Disarm("Ada", (2, 5))) == Disarm("Ada", (5,))
+    assert numbers.renamed(Disarm("Ada", (5,))) == Refusal("what it takes back was refused this time: 5")
+    assert numbers.renamed(Disarm("Ada", None)) == Disarm("Ada", None)

@@ -3371,6 +3371,11 @@ export interface components {
              * @description ... and the scan in which that began.
              */
             program_scan: number | null;
+            /**
+             * Refused
+             * @description What somebody had entered in the run, and the PLC did not take this time, but does without the disturbance; and why.
+             */
+            refused: string[];
             /** Scan */
             scan: number;
             /**

@@ -70,6 +70,8 @@ class Trial(Public):
     """Whether anything that the program remembers was different at the end of the window."""
     trapped: bool = False
     """A run-time error stopped the program."""
+    refused: tuple[str, ...] = ()
+    """What somebody had entered in the run, and the PLC did not take this time, but does without the disturbance; and why."""
     why: str = ""
     """missed: why."""
 

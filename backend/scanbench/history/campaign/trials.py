@@ -4,6 +4,7 @@ import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import blake2b
+from itertools import chain
 from pathlib import Path
 
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
@@ -23,15 +24,19 @@ from scanbench.history.campaign.contract import (
 )
 from scanbench.history.campaign.places import places
 from scanbench.history.campaign.plan import planned
-from scanbench.history.rerun_plan import comes_by_itself
+from scanbench.history.renumbered import Numbers, refused
+from scanbench.history.rerun_plan import Given, comes_by_itself, number_of
+from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.recording.blocks import Codec
 from scanbench.recording.format import RunFileError
+from scanbench.recording.gaps import gap_between
 from scanbench.recording.reader import RunReader, TextsOf, Unreadable
 from scanbench.recording.stump import write_stump
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.agenda import Agenda
-from scanbench.runtime.command import Command, Refusal
+from scanbench.runtime.command import Refusal, Swapped
+from scanbench.runtime.holds import held
 from scanbench.runtime.programs import Programs
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.violations import Violation, read_violations
@@ -66,12 +71,16 @@ class _Seen:
 
     outputs: dict[int, bytes] = field(default_factory=dict)
     """A digest after each scan, ..."""
-    states: dict[int, bytes] = field(default_factory=dict)
-    """... the same of all that is kept."""
+    states: dict[int, tuple[bytes, bytes]] = field(default_factory=dict)
+    """... and of all that is kept but the force table and the inputs; and the inputs themselves."""
     alarms: dict[int, tuple[bool, ...]] = field(default_factory=dict)
     errors: list[tuple[int, str]] = field(default_factory=list)
     """What the PLC or its program raised, and before which scan."""
     violations: dict[tuple[int, str], Violation] = field(default_factory=dict)
+    refused: dict[int, str] = field(default_factory=dict)
+    """Of what is entered: the places in the list of it that were refused, and why."""
+    held: dict[int, int] = field(default_factory=dict)
+    """Offset -> the bits of inputs that a disturbance still holds at the end."""
     trap: tuple[int, str] | None = None
     end: int = 0
     """Scans before this one are over."""
@@ -104,7 +113,7 @@ class Trials:
         self._stump.unlink(missing_ok=True)
         write_stump(reader, self._stump, wanted.first, AUTHOR, bench.codec)
         self._given = [
-            (each.scan, each.command)
+            Given(each.scan, each.command, number_of(each))
             for each in reader.entries
             if each.scan > wanted.first and not comes_by_itself(each.command) and not is_disturbance(each.command)
         ]
@@ -129,13 +138,14 @@ class Trials:
         difference, at = self._verified(fired)
         noticed, program_scan = self._noticed(seen, wanted.scan)
         output = next((scan for scan in sorted(seen.outputs) if self._differs(seen, scan)), None)
-        last = max(seen.states, default=wanted.scan)
-        differs = seen.trap != self._right.trap or seen.states.get(last) != self._right.states.get(last)
+        differs = seen.trap != self._right.trap or self._remembers(seen, max(seen.states, default=wanted.scan))
+        refused = tuple(text for at, text in seen.refused.items() if at not in self._right.refused)
         return replace(
             trial, outcome=_outcome(difference is not None, bool(noticed), output is not None or differs),
             verification="" if difference is None else difference.message, verified_scan=at,
             place=None if difference is None else difference.place, program=noticed, program_scan=program_scan,
             output_scan=output, differs=differs, trapped=seen.trap is not None and self._right.trap != seen.trap,
+            refused=refused,
         )  # fmt: skip
 
     @property
@@ -176,11 +186,11 @@ class Trials:
 
     def _through(self, timeline: Timeline, seen: _Seen, begin: int, end: int) -> None:
         """Scan by scan from `begin` on; before that as fast as it goes."""
-        waiting = list(self._given)
+        waiting, numbers = list(enumerate(self._given)), Numbers()
         resource = timeline.resource
         while (now := timeline.live_scan) < end and not resource.header.halted_by_trap:
-            self._enter(timeline, waiting)
-            following = min([end, *(scan for scan, _ in waiting[:1])])
+            self._enter(timeline, waiting, numbers, seen)
+            following = min([end, *(given.scan for _, given in waiting[:1])])
             until = now + 1 if now >= begin else min(following, begin)
             if resource.runnable:
                 timeline.run(until - now)
@@ -190,10 +200,15 @@ class Trials:
                 self._look(resource, seen, timeline.live_scan - 1)
 
     @staticmethod
-    def _enter(timeline: Timeline, waiting: list[tuple[int, Command]]) -> None:
+    def _enter(timeline: Timeline, waiting: list[tuple[int, Given]], numbers: Numbers, seen: _Seen) -> None:
         """What somebody entered before this scan; a disturbed PLC may refuse it."""
-        while waiting and waiting[0][0] <= timeline.live_scan:
-            timeline.submit(waiting.pop(0)[1])
+        while waiting and waiting[0][1].scan <= timeline.live_scan:
+            at, given = waiting.pop(0)
+            command = numbers.renamed(given.command)
+            outcome = command if isinstance(command, Refusal) else timeline.submit(command)
+            numbers.note(given.number, outcome)
+            if isinstance(outcome, Refusal):
+                seen.refused[at] = refused(timeline.live_scan, given.command, outcome)
 
     def _look(self, resource: Resource, seen: _Seen, scan: int) -> None:
         memory = resource.memory
@@ -201,12 +216,21 @@ class Trials:
         for stretch in places(resource.program, "Q"):
             outputs.update(memory[stretch.start : stretch.stop])
         seen.outputs[scan] = outputs.digest()
-        seen.states[scan] = blake2b(resource.state, digest_size=8).digest()
+        kept, inputs = bytearray(resource.state), b""
+        kept[Layout.FORCE_COUNT : Layout.FORCES_END] = bytes(Layout.FORCES_END - Layout.FORCE_COUNT)
+        for stretch in places(resource.program, "I"):
+            inputs += kept[stretch.start : stretch.stop]
+            kept[stretch.start : stretch.stop] = bytes(len(stretch))
+        before = seen.states.get(scan - 1)
+        if before is not None and before[1] == inputs:
+            inputs = before[1]  # they hardly ever change, and are kept once
+        seen.states[scan] = blake2b(kept, digest_size=8).digest(), inputs
         seen.alarms[scan] = tuple(resource.engine.holds(each) for each in self._alarms)
 
     def _take(self, timeline: Timeline, seen: _Seen, known: int) -> None:
         """What is known at the end."""
         resource = timeline.resource
+        seen.held = held(resource.journal)
         for entry in timeline.live_journal[known:]:
             if isinstance(entry.command, Generate) and entry.command.origin != "simulator":
                 seen.errors.append((entry.scan, entry.plan.message))
@@ -222,6 +246,16 @@ class Trials:
 
     def _differs(self, seen: _Seen, scan: int) -> bool:
         return seen.outputs[scan] != self._right.outputs.get(scan)
+
+    def _remembers(self, seen: _Seen, scan: int) -> bool:
+        """Whether anything else is remembered after this scan than without the disturbance. What holds an input, in the force
+        table and at its place, is the disturbance itself: it is left out as long as it holds."""
+        mine, right = seen.states.get(scan), self._right.states.get(scan)
+        if mine is None or right is None:
+            return mine is not right
+        offsets = chain.from_iterable(places(self.program, "I"))
+        inputs = zip(offsets, mine[1], right[1], strict=True)
+        return mine[0] != right[0] or any((one ^ other) & ~seen.held.get(at, 0) for at, one, other in inputs)
 
     def _noticed(self, seen: _Seen, first: int) -> tuple[tuple[str, ...], int | None]:
         """What the program did that it does not do by itself, and when that began."""
@@ -308,3 +342,13 @@ def _check(reader: RunReader, wanted: CampaignWanted) -> None:
         )
     if wanted.last - wanted.first >= MOST_SCANS:
         raise BadCampaign(f"{wanted.last - wanted.first + 1} scans are too many: at most {MOST_SCANS}")
+    end = wanted.last + wanted.window + 1
+    gap = gap_between(reader.recording.gaps, wanted.first, end)
+    if gap is not None:
+        raise BadCampaign(f"scans {wanted.first} to {end - 1} cannot be run again: {gap}")
+    for each in reader.entries:
+        if wanted.first < each.scan < end and isinstance(each.plan.effect, Swapped):
+            raise BadCampaign(
+                f"the program was changed before scan {each.scan}, and a campaign is about one program: let the disturbances "
+                f"begin with scan {each.scan}, or end so early that the last window ends before it"
+            )

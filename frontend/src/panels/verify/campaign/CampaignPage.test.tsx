@@ -20,6 +20,7 @@ const TRIAL: CampaignTrial = {
   output_scan: 503,
   differs: true,
   trapped: false,
+  refused: [],
   why: "",
 };
 const TRIALS: CampaignTrial[] = [

@@ -43,6 +43,7 @@ function Line({ campaign, trial }: { campaign: number; trial: CampaignTrial }) {
     program,
     program_scan: noticed,
     output_scan: output,
+    refused,
     why,
   } = trial;
   const opening = useCampaigns((campaigns) => campaigns.opening);
@@ -58,6 +59,11 @@ function Line({ campaign, trial }: { campaign: number; trial: CampaignTrial }) {
       <span role="cell">
         {text}
         {why && <small className="faint">{why}</small>}
+        {refused.map((each) => (
+          <small key={each} className="faint">
+            {each}
+          </small>
+        ))}
       </span>
       <span role="cell">
         <button
