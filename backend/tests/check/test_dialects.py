@@ -70,6 +70,7 @@ USES = [
     (Allowance.VENDOR_OPERATORS, "i := SIZEOF(POINTER TO INT);", "`8`"),
     (Allowance.LABELS, "again: IF i < j THEN i := j; JMP again; END_IF", "IF and loops"),
     (Allowance.ROUNDING, "d := r;", "REAL_TO_DINT(...)"),
+    (Allowance.ROUNDING, "d := 2.5;", "`2`"),
     (Allowance.BLOCK_VARIABLES, "i := unit.level;", "VAR_OUTPUT"),
 ]
 """What the strict language refuses, and a dialect allows; and what the warning says to write."""

@@ -3,10 +3,12 @@
 import math
 from dataclasses import replace
 
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.context import Body
 from scanbench.check.body.enumerations import typed
 from scanbench.check.body.lenient import enumerated
 from scanbench.check.body.subrange_checks import into
+from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Const, Expr, Intrinsic
@@ -16,6 +18,7 @@ from scanbench.program.types import (
     CHAR,
     ELEMENTARY,
     LINT,
+    REAL,
     TIME,
     ULINT,
     WCHAR,
@@ -131,6 +134,10 @@ def literal_as(body: Body, expr: Const, type: Elementary, span: Span, what: str)
             return made
         example = next((f" Write {type}#{name}." for name, number in type.values if number == value), "")
         raise body.report.reject("T002", f"{what} is {type}, but this is the number {value}.{example}", span)
+    if expr.type == ANY_REAL and type.kind in (Kind.INT, Kind.UINT) and math.isfinite(value):
+        nearest = round(round_real(float(value), REAL))
+        if allowed(body, Allowance.ROUNDING, span, f"{what} is {type}, and this is {value}", f"`{nearest}`"):
+            return Const(type, _in_range(body, nearest, type, span))
     if expr.type == ANY_REAL or type.kind in (Kind.TIME, Kind.DATE, Kind.CHAR, Kind.REF):
         hint = f" Write it like {EXAMPLES[type.name]}." if type.name in EXAMPLES else ""
         if type.kind in (Kind.INT, Kind.UINT, Kind.BITS):
