@@ -75,6 +75,8 @@ class About:
     by: str
     thinned_before: int = 0
     dropped_before: int = 0
+    roots: int = 0
+    """So many entries of the scans that were dropped are left, before the first state: later ones depend on them."""
 
     @staticmethod
     def of(program: Program, by: str) -> "About":
@@ -286,6 +288,8 @@ class Reader:
         first, begin = found.checkpoints[0], found.about.dropped_before
         if first.scan > begin and self._damaged and not (found.gaps and found.gaps[0].first <= begin):
             found.gaps.insert(0, Gap(begin, first.scan, first.entries, first.version))
+        elif first.entries < found.about.roots:
+            found.gaps.insert(0, Gap(first.scan, first.scan, first.entries, first.version))
 
     def _count(self, block: Block) -> None:
         """Whether an entry is missing before this block."""

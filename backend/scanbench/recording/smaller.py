@@ -71,21 +71,24 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     plan = plan_thinning(seen.checkpoints, seen.end - limit * 3 // 4, excess_entries, needed)
     cut, kept = plan.cut, tuple[int, ...]()
 
+    states = _states(seen)
+
     def keep(block: Block, before: int) -> bool:
-        if block.offset in plan.dropped:
+        if block.offset in plan.dropped or (block.kind in STATES and block.offset not in states):
             return False
         if cut is None or block.offset >= cut.block.offset:
             return True
         return block.kind is Kind.ENTRY and before in kept
 
-    about = replace(
-        seen.about,
-        thinned_before=max(seen.about.thinned_before, plan.thinned_before),
-        dropped_before=cut.scan if cut is not None else seen.about.dropped_before,
-    )
     try:
         if cut is not None:
             kept = _roots(file, cut, codec)
+        about = replace(
+            seen.about,
+            thinned_before=max(seen.about.thinned_before, plan.thinned_before),
+            dropped_before=cut.scan if cut is not None else seen.about.dropped_before,
+            roots=len(kept) if cut is not None else seen.about.roots,
+        )
         made = rewrite(file, seen.end, part_of(file.path), about.packed(), keep)
     except (OSError, RunFileError, MemoryError):
         return None
@@ -97,6 +100,14 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
         made.abandon()
         return None
     return Smaller(made, about, kept, cut.entries if cut is not None else 0)
+
+
+STATES = (Kind.KEYFRAME, Kind.DELTA)
+
+
+def _states(seen: Seen) -> frozenset[int]:
+    """Where the states are that can be read; of a damaged file others may be left, whose keyframe or program is lost."""
+    return frozenset(block.offset for each in seen.checkpoints for block in (each.block, each.base))
 
 
 def _roots(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
@@ -118,8 +129,11 @@ class Ending:
 def write_copy(seen: Seen, path: Path, ending: Ending) -> None:
     """Writes a new run file with all that led to this state, and the state at its end; `OSError`, `RunFileError`."""
     refuse_existing(path)
+    states = _states(seen)
 
     def keep(block: Block, before: int) -> bool:
+        if block.kind in STATES and block.offset not in states:
+            return False
         if block.kind is Kind.ENTRY:
             return before < ending.entries
         if block.kind is Kind.MARK:  # how the original is driven

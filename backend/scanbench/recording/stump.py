@@ -20,13 +20,16 @@ def write_stump(reader: RunReader, to: Path, scan: int, by: str, codec: Codec) -
     entries = reader.entries[: bisect_right(reader.entries, scan, key=attrgetter("scan"))]
     resource = reader.at(scan)
     version, state = resource.version, resource.state
-    about = replace(reader.recording.about, created=iso(wall_time()), by=by, thinned_before=0, dropped_before=scan)
+    roots = journal_roots(entries, codec.folds)
+    about = replace(
+        reader.recording.about, created=iso(wall_time()), by=by, thinned_before=0, dropped_before=scan, roots=len(roots)
+    )
     file = RunFile.create(to)
     try:
         file.append(Kind.ABOUT, 0, about.packed())
         for kept in reader.recording.programs.values():
             file.append(Kind.PROGRAM, 0, kept.packed())
-        for index in journal_roots(entries, codec.folds):
+        for index in roots:
             file.append(Kind.ENTRY, entries[index].scan, codec.pack(entries[index]))
         file.append(Kind.KEYFRAME, scan, keyframe(version, state))
     except BaseException:

@@ -48,13 +48,13 @@ class WriteAreas(Command):
     def plan(self, view: View) -> Plan | Refusal:
         """Patches of the bits that change: none where all of it is there already, or is forced."""
         patches: list[Patch] = []
-        forced = forced_table(view)
+        forced, changes = forced_table(view), Changes(view.memory)
         for write in self.writes:
             place = self._place(view, write)
             if isinstance(place, Refusal):
                 return place
             free = bytes(mask & ~forced.get(at, (0, 0))[0] for at, mask in enumerate(write.mask, place))
-            patches += changed(view.memory, place, free, write.bits)
+            patches += changes.write(place, free, write.bits)
         shared = tuple(each for patch in patches for each in everywhere(view, patch))
         return Plan(shared, said(view, self.writes))
 
@@ -71,18 +71,28 @@ class WriteAreas(Command):
         return view.program.layout.areas[area.name] + write.byte
 
 
-def changed(memory: bytearray | bytes | memoryview, place: int, mask: bytes, data: bytes) -> Iterator[Patch]:
-    """Patches of the bytes from `place` on in which something changes, in stretches."""
-    begin = None
-    for at, (bits, value) in enumerate(zip(mask, data, strict=True)):
-        changes = (memory[place + at] ^ value) & bits
-        if changes and begin is None:
-            begin = at
-        if not changes and begin is not None:
-            yield Patch(place + begin, mask[begin:at], data[begin:at])
-            begin = None
-    if begin is not None:
-        yield Patch(place + begin, mask[begin:], data[begin:])
+class Changes:
+    """Patches of what changes, where each write finds what the ones before it have left."""
+
+    def __init__(self, memory: bytearray | bytes | memoryview) -> None:
+        self._memory = memory
+        self._bytes: dict[int, int] = {}
+        """What the bytes are that were written."""
+
+    def write(self, place: int, mask: bytes, data: bytes) -> Iterator[Patch]:
+        """Of the bytes from `place` on those in which something changes, in stretches."""
+        begin = None
+        for at, (bits, value) in enumerate(zip(mask, data, strict=True)):
+            now = self._bytes.get(place + at, self._memory[place + at])
+            changes = (now ^ value) & bits
+            if changes:
+                self._bytes[place + at] = now & ~bits | value & bits
+                begin = at if begin is None else begin
+            elif begin is not None:
+                yield Patch(place + begin, mask[begin:at], data[begin:at])
+                begin = None
+        if begin is not None:
+            yield Patch(place + begin, mask[begin:], data[begin:])
 
 
 def said(view: View, writes: Sequence[AreaWrite]) -> str:

@@ -7,7 +7,7 @@ from scanbench.program.types import BOOL, ArrayType, Elementary, Enumeration, Ki
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.target import everywhere, find, writable_place
-from scanbench.runtime.write_areas import changed
+from scanbench.runtime.write_areas import Changes
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.values import format_value
 
@@ -38,7 +38,7 @@ class WriteVariables(Command):
         """Patches of the bits that change: none where all of it is there already, or is forced."""
         patches: list[Patch] = []
         texts: list[str] = []
-        forced = forced_table(view)
+        forced, changes = forced_table(view), Changes(view.memory)
         for write in self.writes:
             symbol = find(view, write.path)
             if isinstance(symbol, Refusal):
@@ -55,7 +55,7 @@ class WriteVariables(Command):
             else:
                 mask, data = bytes((1 << bit,)), bytes(((write.data[0] != 0) << bit,))
             free = bytes(each & ~forced.get(at, (0, 0))[0] for at, each in enumerate(mask, offset))
-            patches += changed(view.memory, offset, free, data)
+            patches += changes.write(offset, free, data)
             texts.append(_said(symbol, write.data))
         more = len(texts) - _SHOWN
         said = "; ".join(texts[:_SHOWN]) + (f"; and {more} more" if more > 0 else "")

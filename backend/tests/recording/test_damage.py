@@ -9,9 +9,10 @@ import pytest
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.recording import checkpoints
-from scanbench.recording.format import Kind, RunFileError
+from scanbench.recording.format import Kind, RunFile, RunFileError
 from scanbench.recording.reader import RunReader, Unreadable, no_programs
 from scanbench.recording.replay_file import Replayed, replay_file
+from scanbench.recording.stump import write_stump
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
@@ -191,3 +192,32 @@ def test_a_file_of_format_1_ends_where_it_is_damaged(tmp_path: Path) -> None:
         assert reader.recording.lost
         assert "are lost, and with them" in reader.recording.damage
         assert not reader.recording.gaps
+
+
+def test_a_copy_leaves_out_states_whose_keyframe_is_lost(tmp_path: Path) -> None:
+    path = spoilt(tmp_path / "run", Kind.KEYFRAME, 1)
+    with RunReader(path, of_file, ENTRIES) as reader:
+        reader.follow()
+        assert not reader.recording.lost
+        reader.copy(tmp_path / "copy", reader.front(120), 120, "Bob")
+    replayed = replay_file(tmp_path / "copy", of_file, ENTRIES)
+    assert (replayed.lost, replayed.scan, replayed.scans) == (False, 120, 120)
+
+
+def test_a_file_that_begins_later_knows_when_what_it_kept_of_before_is_lost(tmp_path: Path) -> None:
+    path = tmp_path / "run"
+    path.write_bytes(whole().data)
+    with RunReader(path, of_file, ENTRIES) as reader:
+        reader.follow()
+        write_stump(reader, tmp_path / "stump", 100, "Bob", ENTRIES)
+    stump = RunFile.open(tmp_path / "stump", read_only=True)
+    roots = [block for block in stump.scan_blocks() if block.kind is Kind.ENTRY]
+    stump.close()
+    assert roots, "nothing is left of before"
+    assert not replay_file(tmp_path / "stump", of_file, ENTRIES).lost
+    data = bytearray((tmp_path / "stump").read_bytes())
+    data[roots[0].payload_offset] ^= 4
+    (tmp_path / "stump").write_bytes(data)
+    found = replay_file(tmp_path / "stump", of_file, ENTRIES)
+    assert found.lost
+    assert "Commands that were entered before scan 100 are lost" in found.damage

@@ -8,6 +8,7 @@ from scanbench.runtime.copy_areas import CopyAreas
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.resource import Resource
+from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 from scanbench.runtime.write_variables import VariableWrite, WriteVariables
 from scanbench.wire.variables import ReadVariables
 from tests.runtime.bench import plc, value
@@ -99,3 +100,17 @@ def test_a_copy_is_of_the_seam_in_which_it_is_written() -> None:
         refused = resource.submit(CopyAreas("FINS 127.0.0.1, node 1", source, 0, target, 800, size))
         assert isinstance(refused, Refusal)
         assert why in refused.message
+
+
+def test_of_two_writes_to_the_same_bytes_the_last_one_stays() -> None:
+    resource = plc(SOURCE)
+    assert write(resource, ("Main.level", "INT", b"\x05\0"), ("D100", "WORD", b"\0\0")) == ""
+    assert value(resource, "Main.level") == 0
+    assert (
+        write(resource, ("Main.numbers", "ARRAY[0..2] OF INT", b"\1\0\2\0\3\0"), ("Main.numbers[1]", "INT", b"\0\0"))
+        == ""
+    )
+    assert [value(resource, f"Main.numbers[{each}]") for each in range(3)] == [1, 0, 3]
+    area = (AreaWrite("D", 200, b"\x07\0"), AreaWrite("D", 200, b"\0\0"))
+    assert not isinstance(resource.submit(WriteAreas("FINS client", area)), Refusal)
+    assert read(resource, "D100")[1] == b"\0\0"

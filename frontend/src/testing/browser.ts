@@ -1,5 +1,6 @@
 /** Runs before the tests of panels: what jsdom lacks of a browser, as far as the page uses it. Nothing is laid out: each row is 24 pixels high, all else has room for many. */
-import { vi } from "vitest";
+import { cleanup } from "@testing-library/react";
+import { afterEach, vi } from "vitest";
 import { FakeSocket } from "./socket";
 
 const ROW = 24;
@@ -50,3 +51,6 @@ Object.assign(Element.prototype, { scrollTo: () => undefined, scrollIntoView: ()
 Object.assign(HTMLDialogElement.prototype, { showModal, close });
 vi.stubGlobal("CSS", { escape: (text: string) => text.replace(/[^\w-]/g, "\\$&") });
 Object.assign(URL, { createObjectURL: () => "blob:test", revokeObjectURL: () => undefined });
+
+// The files share one page: what a test has left there, the first test of the next file would find.
+afterEach(cleanup);
