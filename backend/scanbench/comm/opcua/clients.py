@@ -4,19 +4,22 @@ import hmac
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
-from typing import Any
+from typing import Any, cast
 
 from asyncua import ua
 from asyncua.crypto.permission_rules import USER_TYPES, SimpleRoleRuleset, User, UserRole
 from asyncua.server.internal_server import InternalServer
 from asyncua.server.internal_session import InternalSession
+from asyncua.server.monitored_item_service import MonitoredItemData
 from asyncua.server.user_managers import UserManager
 
 from scanbench.comm.opcua.forms import NoValue
 from scanbench.comm.opcua.ids import standard
+from scanbench.comm.opcua.items import refusal
 from scanbench.comm.opcua.link import Link, NotThere
 from scanbench.comm.opcua.space import READ, WRITE, Space, Variable
 from scanbench.comm.opcua.values import FASTEST_MS, SLOWEST_MS, Values
+from scanbench.runtime.clock import fresh_token
 from scanbench.runtime.command import Command
 from scanbench.runtime.write_variables import VariableWrite, WriteVariables
 from scanbench.wire.opcua import OpcUaClient, OpcUaStart
@@ -84,6 +87,11 @@ class ToPlc(InternalServer):
         """See asyncua."""
         return Session(self, self.aspace, self.subscription_service, name, user=user, external=external)
 
+    def register_external_session(self, session: InternalSession) -> None:
+        """Who knows the token of a session can ask for it on another connection: asyncua counts them, so nobody shall know that."""
+        session.auth_token = ua.NodeId(cast(ua.ByteString, fresh_token().encode()))
+        super().register_external_session(session)
+
 
 class Session(InternalSession):
     """One client."""
@@ -92,6 +100,8 @@ class Session(InternalSession):
     client = ""
     """Its name, as commands have it for their author; empty before it has said who it is."""
     application = ""
+    holder: object = None
+    """The connection that activated it last."""
 
     @property
     def _desk(self) -> Desk:
@@ -273,19 +283,41 @@ class Session(InternalSession):
             refused = ua.MonitoredItemCreateResult(_status(ua.StatusCodes.BadTooManyMonitoredItems))
             self._desk.link.asked(self.client, f"subscribe {len(asked)}", "BadTooManyMonitoredItems")
             return [refused] * len(asked)
-        wanted = {
-            each.ItemToMonitor.NodeId: found
-            for each in asked
-            if (found := self._variable(each.ItemToMonitor.NodeId, each.ItemToMonitor.AttributeId))
-        }
+        found = [self._variable(each.ItemToMonitor.NodeId, each.ItemToMonitor.AttributeId) for each in asked]
+        refusals = [refusal(*each) for each in zip(asked, found, strict=True)]
+        variables = [each for each in found if each is not None]
+        wanted = {each.id: each for each, why in zip(found, refusals, strict=True) if each is not None and not why}
         if wanted:
             await self._desk.values.refresh(list(wanted.values()))
-        results = await super().create_monitored_items(params)
-        if wanted:
-            self._desk.values.watch(wanted)
+        params.ItemsToCreate = [each for each, why in zip(asked, refusals, strict=True) if not why]
+        made = iter(await super().create_monitored_items(params))
+        results = [ua.MonitoredItemCreateResult(_status(why)) if why else next(made) for why in refusals]
+        self._desk.values.watch(wanted)
+        if variables:
             outcome = next((_why(each.StatusCode) for each in results if not each.StatusCode.is_good()), "")
-            self._note("subscribe", list(wanted.values()), outcome)
+            self._note("subscribe", variables, outcome)
         return results
+
+    async def modify_monitored_items(
+        self, params: ua.ModifyMonitoredItemsParameters
+    ) -> list[ua.MonitoredItemModifyResult]:
+        """Another filter is refused where a new item with it would be."""
+        subscription = self.subscription_service.subscriptions.get(params.SubscriptionId)
+        if subscription is None:
+            raise ua.uaerrors.BadSubscriptionIdInvalid
+        there = subscription.monitored_item_srv._monitored_items
+        asked = params.ItemsToModify or []
+        refusals = [self._refused_change(each, there.get(each.MonitoredItemId)) for each in asked]
+        params.ItemsToModify = [each for each, why in zip(asked, refusals, strict=True) if not why]
+        made = iter(await super().modify_monitored_items(params))
+        return [ua.MonitoredItemModifyResult(_status(why)) if why else next(made) for why in refusals]
+
+    def _refused_change(self, asked: ua.MonitoredItemModifyRequest, item: MonitoredItemData | None) -> int:
+        if item is None or item.read_value_id is None:
+            return int(ua.StatusCodes.BadMonitoredItemIdInvalid)
+        about = item.read_value_id
+        changed = ua.MonitoredItemCreateRequest(about, RequestedParameters=asked.RequestedParameters)
+        return refusal(changed, self._variable(about.NodeId, about.AttributeId))
 
     def _note(self, what: str, variables: Sequence[Variable], outcome: str) -> None:
         names = [each.path or str(each.id.Identifier) for each in variables]

@@ -11,11 +11,12 @@ from asyncua.server.event_generator import EventGenerator
 from asyncua.server.subscription_service import SubscriptionService
 
 from scanbench.comm.opcua.clients import Desk, ToPlc
+from scanbench.comm.opcua.connection import Line
 from scanbench.comm.opcua.errors import Errors
 from scanbench.comm.opcua.forms import Form
 from scanbench.comm.opcua.ids import INDEX, own, standard
 from scanbench.comm.opcua.link import Link
-from scanbench.comm.opcua.socket import Line, OpcUa
+from scanbench.comm.opcua.socket import OpcUa
 from scanbench.comm.opcua.space import NAMESPACE, Space, Variable
 from scanbench.comm.opcua.values import Values, bad, clock_of
 from scanbench.engines.cache import BlobCache

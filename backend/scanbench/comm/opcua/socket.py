@@ -1,11 +1,10 @@
-"""asyncua's server on its socket: endpoints, the certificate, and faults of the line to the clients."""
+"""asyncua's server on its socket: endpoints and the certificate."""
 
 import asyncio
 import os
 import socket
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, cast
 
 from asyncua import Server, ua
 from asyncua.common.connection import TransportLimits
@@ -14,20 +13,14 @@ from asyncua.server.binary_server_asyncio import BinaryServer, OPCUAProtocol
 from cryptography.x509.oid import ExtendedKeyUsageOID
 
 from scanbench import __version__
-from scanbench.comm.opcua.clients import Rights, Session, ToPlc
-from scanbench.wire.opcua import OpcUaFault, OpcUaStart
+from scanbench.comm.opcua.clients import Rights, ToPlc
+from scanbench.comm.opcua.connection import Connection, Line
+from scanbench.wire.opcua import OpcUaStart
 
 _CONNECTIONS = 64
 _LARGEST = 16 << 20
 _BUFFER = 65_535
 _POLICIES = [ua.SecurityPolicyType.NoSecurity, ua.SecurityPolicyType.Basic256Sha256_SignAndEncrypt]
-
-
-class Line:
-    """What is wrong with the line now."""
-
-    def __init__(self) -> None:
-        self.fault = OpcUaFault("none", 0)
 
 
 class OpcUa(Server):
@@ -100,56 +93,6 @@ class _Listener(BinaryServer):
         self._line = line
 
     def _make_protocol(self) -> OPCUAProtocol:
-        return _Connection(
+        return Connection(
             self._line, self.iserver, self._policies, self.clients, self.closing_tasks, self.limits
         )  # fmt: skip
-
-
-class _Connection(OPCUAProtocol):
-    """One connection of a client."""
-
-    def __init__(self, line: Line, *args: Any) -> None:
-        super().__init__(*args)
-        self._line = line
-
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """See asyncua."""
-        super().connection_made(cast(asyncio.BaseTransport, _OnTheWay(cast(asyncio.Transport, transport), self._line)))
-
-    def data_received(self, data: bytes) -> None:
-        """Where the line is cut, the connection ends before anything is done."""
-        if self._line.fault.kind == "cut":
-            if self.transport is not None:
-                self.transport.close()
-            return
-        super().data_received(data)
-
-    def connection_lost(self, ex: BaseException | None) -> None:
-        """The client is gone, also where its session waits for it to come again."""
-        session = self.processor.session if self.processor is not None else None
-        if isinstance(session, Session):
-            session.leave()
-        super().connection_lost(ex)
-
-
-class _OnTheWay:
-    """A transport that lets answers come late, or not at all."""
-
-    def __init__(self, transport: asyncio.Transport, line: Line) -> None:
-        self._transport, self._line = transport, line
-
-    def write(self, data: bytes) -> None:
-        """Sends, as the line lets it."""
-        fault = self._line.fault
-        if fault.kind == "late":
-            asyncio.get_running_loop().call_later(fault.late_ms / 1000, self._transport.write, data)
-        elif fault.kind != "silent":
-            self._transport.write(data)
-
-    def close(self) -> None:
-        """See asyncio."""
-        self._transport.close()
-
-    def get_extra_info(self, name: str, default: Any = None) -> Any:
-        """See asyncio."""
-        return self._transport.get_extra_info(name, default)
