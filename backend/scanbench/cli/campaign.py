@@ -86,15 +86,14 @@ def campaign(
     wanted = CampaignWanted(
         seed, count, -1 if first is None else first, -1 if last is None else last, window, kinds, tuple(alarm)
     )
-    done, whole, plc = _run(given, wanted, only or range(1, count + 1), record)
-    report = CampaignReport(path.resolve().stem, plc, done, require.value, whole)
+    numbers = only or range(1, count + 1)
+    done, plc = _run(given, wanted, numbers, record)
+    report = CampaignReport(path.resolve().stem, plc, done, len(numbers), require.value)
     _tell(report, as_json, bool(only), junit)
 
 
-def _run(
-    given: Given, wanted: CampaignWanted, numbers: list[int] | range, record: Path | None
-) -> tuple[Campaign, bool, str]:
-    """What came of it, whether it is all, and the name of the model."""
+def _run(given: Given, wanted: CampaignWanted, numbers: list[int] | range, record: Path | None) -> tuple[Campaign, str]:
+    """What came of it, and the name of the model."""
     with tempfile.TemporaryDirectory() as folder:
         run = given.path if is_run(given.path) else Path(folder, "base.run")
         if run is not given.path:
@@ -106,7 +105,7 @@ def _run(
                 last = max(first, reader.over - 1) if wanted.last < 0 else wanted.last
                 wanted = replace(wanted, first=first, last=last)
                 trials = Trials(reader, wanted, _bench(reader, Path(folder)))
-                done, whole = _tried(trials, numbers)
+                done = _tried(trials, numbers)
                 model = reader.recording.about.model
         except Unreadable as error:
             unusable_run(given.path, error)
@@ -114,7 +113,7 @@ def _run(
             usage(str(error))
         if record is not None and done:
             shutil.copy(trials.file, record)
-    return Campaign(wanted, tuple(done)), whole, model
+    return Campaign(wanted, tuple(done)), model
 
 
 def _bench(reader: RunReader, folder: Path) -> Bench:
@@ -127,8 +126,8 @@ def _bench(reader: RunReader, folder: Path) -> Bench:
     return Bench(folder, ENTRIES, make(reader.kept), make(reader.kept), agenda, texts_in)
 
 
-def _tried(trials: Trials, numbers: list[int] | range) -> tuple[list[Trial], bool]:
-    """Those that were tried, and whether all were: after Ctrl-C some are not."""
+def _tried(trials: Trials, numbers: list[int] | range) -> list[Trial]:
+    """Those that were tried: after Ctrl-C some are not."""
     done: list[Trial] = []
     of = len(numbers)
     try:
@@ -136,8 +135,8 @@ def _tried(trials: Trials, numbers: list[int] | range) -> tuple[list[Trial], boo
             for number in numbers:
                 done.append(trials.trial(number))
     except KeyboardInterrupt:
-        return done, False
-    return done, True
+        return done
+    return done
 
 
 def _tell(report: CampaignReport, as_json: bool, every: bool, junit: Path | None) -> NoReturn:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
-from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.blocks import KeptProgram, about_of
 from scanbench.recording.fingerprints import model_fingerprint
 from scanbench.recording.format import RunFileError
 from scanbench.recording.programs import Make, ProgramsOf, programs_of
@@ -98,6 +98,15 @@ def sources_in(kept: KeptProgram) -> Sources:
     if not isinstance(sources, Sources) or not _is_right(sources):
         raise RunFileError(f"program version {kept.version} of the run file has no sources")
     return sources
+
+
+def created(path: Path) -> str:
+    """When the run in this file was begun: another run of the same name has a different time. Empty where it cannot be read."""
+    try:
+        about = about_of(path)
+    except (OSError, RunFileError):
+        return ""
+    return about.created if about is not None else ""
 
 
 def texts_in(kept: KeptProgram) -> Mapping[str, str]:

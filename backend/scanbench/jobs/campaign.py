@@ -25,6 +25,8 @@ def run_campaign(
     """Each trial is told when it is done."""
     with tempfile.TemporaryDirectory() as folder, RunReader(Path(ask.run), programs_of, ENTRIES, texts_in) as reader:
         reader.follow(ask.until or None)
+        if ask.created and ask.created != reader.recording.about.created:
+            raise Refused("the run was replaced since: begin a campaign on the new one")
 
         def agenda() -> Joined:
             return Joined(Schedule(observed), DisturbanceSchedule())

@@ -17,6 +17,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from datetime import datetime
+from pathlib import Path
 from struct import Struct
 from typing import Protocol
 
@@ -183,6 +184,16 @@ def read_contents(file: RunFile, codec: Codec) -> "Reader":
         raise Damaged(f"{file.path.name} is damaged before its first checkpoint: nothing of the run can be recovered")
     _check_last(file, reader.found.checkpoints[-1])
     return reader
+
+
+def about_of(path: Path) -> About | None:
+    """What a run file begins with; of a whole file no more is read. None where that is damaged. `RunFileError`; `OSError`."""
+    file = RunFile.open(path, read_only=True)
+    try:
+        first = next(file.scan_blocks(), None)
+        return _read_about(file, first) if first is not None and first.kind is Kind.ABOUT else None
+    finally:
+        file.close()
 
 
 def _read_on_after(file: RunFile, codec: Codec, damage: Damage) -> "Reader | None":

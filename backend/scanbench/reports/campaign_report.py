@@ -29,9 +29,14 @@ class CampaignReport:
     project: str
     model: str
     campaign: Campaign
+    of: int
+    """So many were to be tried."""
     require: Require = "any"
-    whole: bool = True
-    """All that was wanted was tried."""
+
+    @property
+    def whole(self) -> bool:
+        """Whether all of them were."""
+        return len(self.campaign.trials) >= self.of
 
     @property
     def findings(self) -> tuple[Trial, ...]:
@@ -48,6 +53,8 @@ def campaign_text(report: CampaignReport) -> list[str]:
         f"{report.project} on {report.model}: {len(trials)} disturbances in scans {wanted.first} to {wanted.last}, seed {wanted.seed}, "
         f"{wanted.window} scans to notice each"
     ]
+    if not report.whole:
+        lines.append(f"  {_broken_off(report)}")
     lines += [f"  {report.campaign.count(each):>6}  {WORDS[each]}" for each in OUTCOMES if report.campaign.count(each)]
     silent = sum(each.silent for each in trials)
     lines.append(f"  {silent:>6}  made an output wrong, and the program did not notice it")
@@ -95,18 +102,21 @@ def _trial(trial: Trial) -> Json:
 
 
 def campaign_junit(report: CampaignReport) -> str:
-    """A test case for each disturbance: it fails where it is a finding, and is skipped where it did not come about."""
+    """A test case for each disturbance: it fails where it is a finding, and is skipped where it did not come about. One more
+    is an error where not all were tried."""
     trials, findings = report.campaign.trials, report.findings
     missed = [each for each in trials if each.outcome == "missed"]
-    numbers = {"tests": len(trials), "failures": len(findings), "skipped": len(missed), "errors": 0}
+    errors = int(not report.whole)
+    numbers = {"tests": len(trials) + errors, "failures": len(findings), "skipped": len(missed), "errors": errors}
     totals = {name: str(number) for name, number in numbers.items()}
     root = etree.Element("testsuites", totals)
     suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{report.project} on {report.model}"), **totals})
+    name = f"campaign.seed{report.campaign.wanted.seed}"
+    if errors:
+        case = etree.SubElement(suite, "testcase", {"classname": name, "name": "all disturbances are tried"})
+        etree.SubElement(case, "error", {"message": _broken_off(report), "type": "broken_off"})
     for each in trials:
-        about = {
-            "classname": f"campaign.seed{report.campaign.wanted.seed}",
-            "name": xml_text(f"{each.number}: {each.text}"),
-        }
+        about = {"classname": name, "name": xml_text(f"{each.number}: {each.text}")}
         case = etree.SubElement(suite, "testcase", about)
         told = "\n".join(trial_text(each))
         if each in findings:
@@ -117,6 +127,10 @@ def campaign_junit(report: CampaignReport) -> str:
         else:
             etree.SubElement(case, "system-out").text = xml_text(told)
     return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
+
+
+def _broken_off(report: CampaignReport) -> str:
+    return f"only {len(report.campaign.trials)} of {report.of} disturbances were tried"
 
 
 def _finding(trial: Trial) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from scanbench.history.campaign.contract import OUTCOMES, CampaignWanted, Trial
+from scanbench.host.run_files import created
 from scanbench.jobs.client import FAULT, alone
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.server.history import Open
@@ -30,6 +31,8 @@ class _Campaign:
     state: CampaignState
     run: str
     until: int
+    created: str
+    """When the run was begun."""
     trials: list[Trial] = field(default_factory=list)
     task: "asyncio.Task[None] | None" = None
     told: int = 0
@@ -67,8 +70,10 @@ class Campaigns:
         campaign = self._get(id)
         return campaign.state, tuple(campaign.trials)
 
-    def begin(self, session: Session, wanted: CampaignWanted, author: str) -> CampaignState:
+    async def begin(self, session: Session, wanted: CampaignWanted, author: str) -> CampaignState:
         """Begins one."""
+        run, until = session.instance.run_file, _until(session)
+        begun = await asyncio.to_thread(created, run)
         running = sum(not each.over for each in self._all.values())
         if running >= MOST:
             raise Refused(f"{running} campaigns go on already: wait for one, or cancel it")
@@ -77,7 +82,7 @@ class Campaigns:
             del self._all[id]
         id, self._next = self._next, self._next + 1
         state = CampaignState(id, session.id, author, wanted, of=wanted.count)
-        campaign = self._all[id] = _Campaign(session, state, str(session.instance.run_file), _until(session))
+        campaign = self._all[id] = _Campaign(session, state, str(run), until, begun)
         campaign.task = asyncio.get_running_loop().create_task(self._run(campaign))
         _tell(campaign)
         return campaign.state
@@ -103,7 +108,9 @@ class Campaigns:
         try:
             await alone(
                 self._cache,
-                lambda ref: RunCampaign(ref, campaign.run, wanted, campaign.until, (number,), str(to)),
+                lambda ref: RunCampaign(
+                    ref, campaign.run, wanted, campaign.until, campaign.created, (number,), str(to)
+                ),
                 CampaignDone,
                 on_part,
             )
@@ -123,7 +130,10 @@ class Campaigns:
 
         try:
             await alone(
-                self._cache, lambda ref: RunCampaign(ref, campaign.run, wanted, campaign.until), CampaignDone, on_part
+                self._cache,
+                lambda ref: RunCampaign(ref, campaign.run, wanted, campaign.until, campaign.created),
+                CampaignDone,
+                on_part,
             )
             _tell(campaign, over=True)
         except Refused as why:

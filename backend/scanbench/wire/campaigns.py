@@ -16,6 +16,8 @@ class RunCampaign:
     run: str
     wanted: CampaignWanted
     until: int
+    created: str
+    """When that run was begun: a new one has the same file. Empty: nobody knows."""
     only: tuple[int, ...] = ()
     """These numbers; empty: all."""
     to: str = ""

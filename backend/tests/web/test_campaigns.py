@@ -56,3 +56,19 @@ def test_a_campaign_is_told_kept_and_comes_again(server: Server) -> None:
     assert server.http.get("/api/campaigns/1").status_code == 404
     refused = tried(server, instance, {**WANTED, "alarms": ["Main.nowhere"]})
     assert "nowhere" in refused["state"]["message"]
+
+
+def test_a_trial_of_a_run_that_was_replaced_is_not_opened(server: Server) -> None:
+    instance = server.instance("replaced", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        paused(browser)
+        scans(browser, 30)
+    id = tried(server, instance, WANTED)["state"]["id"]
+    assert server.http.post(f"/api/campaigns/{id}/trials/1/open").status_code == 201
+    with server.browser(instance) as browser:
+        assert browser.ask(type="new_run")["ok"]
+        browser.wait(lambda: any(m["type"] == "timeline" and m["fresh"] for m in browser.messages))
+        scans(browser, 60)
+    refused = server.http.post(f"/api/campaigns/{id}/trials/1/open")
+    assert refused.status_code == 422, refused.text
+    assert "the run was replaced since" in refused.json()["message"]

@@ -32,7 +32,7 @@ async def on_campaigns(bench: Bench, instance: Id) -> list[CampaignState]:
 async def on_new_campaign(bench: Bench, request: Request, instance: Id, new: wire.NewCampaign) -> CampaignState:
     """Begins a campaign on the recorded run; the PLC goes on meanwhile. Progress comes by this instance's WebSocket."""
     session = bench.session(instance)
-    return bench.campaigns.begin(session, _wanted(session, new), user_of(request).name)
+    return await bench.campaigns.begin(session, _wanted(session, new), user_of(request).name)
 
 
 @router.get("/campaigns/{campaign}")
@@ -53,8 +53,8 @@ async def on_export(
         session.name,
         session.model.name,
         Campaign(state.wanted, trials),
+        state.of,
         require,
-        state.over and not state.message,
     )
     if format == "junit":
         return Response(campaign_junit(report), media_type="application/xml")
