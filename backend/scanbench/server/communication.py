@@ -286,6 +286,8 @@ def _seen(kind: ServerKind, running: _Running) -> ServerSeen:
     desk = running.desk
     if desk is None:
         return ServerSeen(kind, running.wanted, False, "", running.trouble, running.fault, 0.0, (), ())
+    away = running.server.trouble if isinstance(running.server, OpcUaServer) else ""
+    address, trouble = ("", f"It does not listen: {away}. It is tried again") if away else (_address(kind, running), "")
     return ServerSeen(
-        kind, running.wanted, True, _address(kind, running), "", running.fault, desk.per_second, desk.clients, desk.frames
+        kind, running.wanted, not away, address, trouble, running.fault, desk.per_second, desk.clients, desk.frames
     )  # fmt: skip

@@ -140,3 +140,29 @@ def test_a_deadband_is_for_numbers_and_ends_nothing(server: Server) -> None:
             await changes.until("Main.n", lambda value, _: value is not None and value > before)
 
     run(story())
+
+
+def test_a_connection_has_one_session_and_the_log_short_names(server: Server) -> None:
+    instance = server.instance("opc ua sessions", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+
+    async def story() -> None:
+        first = await channel(address, server.token)
+        await first.create_session()
+        early = token_of(first)
+        await first.create_session()
+        late = token_of(first)
+        other = await channel(address, server.token)
+        assert first.uaclient.protocol is not None
+        first.uaclient.protocol.authentication_token = early
+        with pytest.raises(ua.uaerrors.BadSessionIdInvalid):
+            await activate(other, first, server.token)
+        first.uaclient.protocol.authentication_token = late
+        await first.activate_session("Ada", server.token)
+        assert await write(first, "x\n" * 1000, 1, ua.VariantType.Int16) == "BadNodeIdUnknown"
+        await first.close_session()
+        for each in (first, other):
+            each.disconnect_socket()
+
+    run(story())
+    assert seen(server, instance, "opcua")["frames"][-1]["text"] == f"write {'x' * 80}"

@@ -28,6 +28,7 @@ Method = Callable[[str, Sequence[ua.Variant]], Command | None]
 """Makes a command of its author and arguments; None where they are wrong."""
 _PROTOCOL = "OPC UA"
 _NAME_LENGTH = 40
+_TEXT_LENGTH = 80
 _NAMED = 2
 """Variables that are named in the log, where many are asked for."""
 _MOST_ITEMS = 20_000
@@ -179,7 +180,7 @@ class Session(InternalSession):
         texts: list[str] = []
         for each in params.NodesToWrite or []:
             found = self._write_of(each)
-            texts.append(each.NodeId.Identifier if isinstance(each.NodeId.Identifier, str) else str(each.NodeId))
+            texts.append(_id_text(each.NodeId))
             if isinstance(found, VariableWrite):
                 writes.append(found)
                 results.append(None)
@@ -320,14 +321,19 @@ class Session(InternalSession):
         return refusal(changed, self._variable(about.NodeId, about.AttributeId))
 
     def _note(self, what: str, variables: Sequence[Variable], outcome: str) -> None:
-        names = [each.path or str(each.id.Identifier) for each in variables]
+        names = [plain(each.path, _TEXT_LENGTH) or _id_text(each.id) for each in variables]
         spans = [each.span for each in variables if each.span is not None]
         self._desk.link.asked(self.client, f"{what} {_listed(names)}", outcome, spans)
 
 
-def plain(text: str) -> str:
+def plain(text: str, length: int = _NAME_LENGTH) -> str:
     """A name that somebody gives, fit to be shown."""
-    return "".join(each for each in text if each.isprintable()).strip()[:_NAME_LENGTH]
+    return "".join(each for each in text if each.isprintable()).strip()[:length]
+
+
+def _id_text(id: ua.NodeId) -> str:
+    """What a client calls a node, as the log keeps it: a client may give any number of characters."""
+    return plain(id.Identifier if isinstance(id.Identifier, str) else str(id.Identifier), _TEXT_LENGTH)
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -34,6 +34,9 @@ PORT = 4840
 _START_S = 120.0
 SLOW = "its process does not answer"
 _UNREAD_BYTES = 64 << 20
+FIRST_PAUSE_S, LONGEST_PAUSE_S = 1.0, 30.0
+"""Before another process is started; each time that is twice as long, until one has served for longer than the longest."""
+_rest = asyncio.sleep
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +65,8 @@ class OpcUaServer:
         self._host = ""
         self.port = 0
         """0 while it is closed."""
+        self.trouble = ""
+        """Why it does not listen now, although it is open: its process is gone, and another one is tried again and again."""
 
     async def open(self, host: str, port: int) -> None:
         """Listens. `OSError`."""
@@ -73,6 +78,9 @@ class OpcUaServer:
         except (TimeoutError, OSError) as error:
             await self.close()
             raise OSError(str(error) or SLOW) from error
+        except BaseException:
+            await self.close()
+            raise
 
     async def close(self) -> None:
         """Nobody is served any more."""
@@ -91,33 +99,43 @@ class OpcUaServer:
     async def _live(self, port: int, ready: asyncio.Future[int]) -> None:
         """One process after the other; what goes wrong with the first is told by `ready`."""
         ignore = self._plc.listen(self._changed)
+        now, pause = asyncio.get_running_loop().time, FIRST_PAUSE_S
         try:
             while True:
-                await self._one(port, ready)
+                begun = now()
+                try:
+                    self.trouble = await self._one(port, ready)
+                except Exception:
+                    log.exception("the process of the OPC UA server of %s could not be served", self._plc.name)
+                    self.trouble = FAULT
                 if not ready.done():
-                    ready.set_exception(OSError(FAULT))
+                    ready.set_exception(OSError(self.trouble))
                 if ready.exception() is not None:
                     return
-                log.error("the process of the OPC UA server of %s died: it is started again", self._plc.name)
                 port = ready.result()
+                if now() - begun > LONGEST_PAUSE_S:
+                    pause = FIRST_PAUSE_S
+                log.error(
+                    "the OPC UA server of %s does not listen: %s. Another process is started in %d s",
+                    self._plc.name, self.trouble, pause,
+                )  # fmt: skip
+                await _rest(pause)
+                pause = min(2 * pause, LONGEST_PAUSE_S)
         finally:
             ignore()
 
-    async def _one(self, port: int, ready: asyncio.Future[int]) -> None:
+    async def _one(self, port: int, ready: asyncio.Future[int]) -> str:
+        """Serves until the process ends; why it did."""
         try:
             self._process, reader, writer = await connect(self._place.cache, OPC_UA)
-        except NoProcess as error:
-            if not ready.done():
-                ready.set_exception(OSError(str(error)))
-            return
+        except (NoProcess, OSError) as error:
+            return str(error)
         self._writer, self._told = writer, None
         try:
             self._say(self._start(port))
             async for message in messages(reader):
                 if isinstance(message, OpcUaFailed):
-                    if not ready.done():
-                        ready.set_exception(OSError(message.message))
-                    return
+                    return message.message
                 self._hear(message, ready)
         except BadMessage:
             log.exception("the process of an OPC UA server does not speak the protocol")
@@ -132,6 +150,7 @@ class OpcUaServer:
                     self._desk.leave(name)
             self._doors, self._times = {}, {}
             await asyncio.to_thread(self._process.wait)
+        return FAULT
 
     def _start(self, port: int) -> OpcUaStart:
         token = sha256(self._place.token.encode()).digest()
@@ -166,6 +185,7 @@ class OpcUaServer:
             case OpcUaReady(port):
                 self._changed()
                 self.break_line(self._desk.fault)
+                self.trouble = ""
                 if not ready.done():
                     ready.set_result(port)
             case OpcUaClient(name, there):

@@ -18,7 +18,7 @@ from scanbench.wire.variables import VariablesAre
 
 NAMESPACE = "urn:scanbench:plc"
 _ASKED = 10_000
-"""Nodes that are made because a client asked for their path."""
+"""Nodes that are made because a client asked for their path. Where there are more, those without a subscriber go."""
 _ORGANIZES, _HAS_COMPONENT, _HAS_TYPE, _HAS_SUBTYPE, _HAS_PROPERTY = (
     standard(each)
     for each in (
@@ -71,18 +71,20 @@ class Space(AddressSpace):
         self._lost: dict[ua.NodeId, Variable] = {}
         """What the program has no more, and somebody still subscribes to."""
         self._own: list[ua.NodeId] = []
-        self._asked = 0
+        self._asked: dict[ua.NodeId, None] = {}
         self._types: dict[str, ua.NodeId] = {}
 
     def delete_datachange_callback(self, handle: int) -> None:
         """As asyncua does; the node may be gone with the program that had it."""
-        place = self._handle_to_attribute_map.get(handle)
-        lost = None if place is None else self._lost.get(place[0])
-        if lost is None:
-            super().delete_datachange_callback(handle)
+        place = self._handle_to_attribute_map.pop(handle, None)
+        if place is None:
             return
-        del self._handle_to_attribute_map[handle]
-        lost.attribute.datachange_callbacks.pop(handle, None)
+        id, which = place
+        lost, node = self._lost.get(id), self._nodes.get(id)
+        attributes = (None if lost is None else lost.attribute, None if node is None else node.attributes.get(which))
+        for attribute in attributes:
+            if attribute is not None:
+                attribute.datachange_callbacks.pop(handle, None)
 
     # ---- nodes of a program ---------------------------------------------------------------------------------------
 
@@ -97,7 +99,7 @@ class Space(AddressSpace):
             references[:] = [
                 each for each in references if not (each.IsForward and each.NodeId.NamespaceIndex == INDEX)
             ]
-        self._program, self._own, self._asked, self._types = program, [], 0, {}
+        self._program, self._own, self._asked, self._types = program, [], {}, {}
         self.variables = {id: each for id, each in before.items() if not each.path}
         for item in items(program):
             folder = programs if item.symbol.section == "PROGRAM" else globals
@@ -107,18 +109,30 @@ class Space(AddressSpace):
             found = self._found(each.path)
             if found is not None and form_of(found.symbol.type) is not None:
                 self._add(found, None, before, each.id)
+                self._asked[each.id] = None
         self._lost = {each.id: each for each in watched if each.id not in self.variables}
         return list(self._lost.values())
 
     def ask(self, id: ua.NodeId) -> NodeData | None:
         """The node of a path that is not shown: an element, an address; None where the program has none."""
-        if id.NamespaceIndex != INDEX or not isinstance(id.Identifier, str) or self._asked >= _ASKED:
+        if id.NamespaceIndex != INDEX or not isinstance(id.Identifier, str):
             return None
         item = self._found(id.Identifier)
         if item is None or form_of(item.symbol.type) is None:
             return None
-        self._asked += 1
+        if len(self._asked) >= _ASKED:
+            self._drop_asked()
+        self._asked[id] = None
         return self._add(item, None, {}, id)
+
+    def _drop_asked(self) -> None:
+        """Takes away the nodes that were asked for and that nobody has subscribed to: they are made again when they are."""
+        dropped = {each for each in self._asked if not (each in self.variables and self.variables[each].watched)}
+        for id in dropped:
+            self._nodes.pop(id, None)
+            self.variables.pop(id, None)
+            del self._asked[id]
+        self._own = [each for each in self._own if each not in dropped]
 
     def _found(self, path: str) -> Item | None:
         if self._program is None:

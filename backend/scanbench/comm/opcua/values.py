@@ -58,6 +58,7 @@ class Values:
                 await self._introduce(paths)
                 answer = await self._link.read(paths)
             except NotThere:
+                self._known.clear()  # who is there next may know none of them
                 return bad(ua.StatusCodes.BadNoCommunication)
             if answer.version == self._version:
                 return answer, _pieces(variables, answer)
