@@ -14,7 +14,7 @@ from scanbench.check.life.whole import Whole
 from scanbench.plcmodel.model import Location, Model
 from scanbench.problems import Span
 from scanbench.program.copies import copies_of
-from scanbench.program.layout import Layout
+from scanbench.program.layout import Layout, align
 from scanbench.program.program import Base, Place, Pou, Program
 from scanbench.program.tasks import ProgramInstance, Task
 from scanbench.program.types import BOOL, Kind, Member, Record, Section
@@ -22,10 +22,6 @@ from scanbench.syntax import tree
 
 BUDGET = 10_000_000
 """Loop rounds a scan may take before it counts as endless: about 10 ms of native code at least."""
-
-
-def align(offset: int) -> int:
-    return -(-offset // 8) * 8
 
 
 def place_areas(model: Model) -> dict[str, int]:

@@ -23,6 +23,11 @@ FORCE_BEFORE, FORCE_AFTER_PROGRAM = 6, 7
 """Bytes of a force's entry: what its byte was when the force was applied in phase 2, and in phase 4, of the last scan."""
 
 
+def align(offset: int) -> int:
+    """The next byte from which on anything can be placed."""
+    return -(-offset // 8) * 8
+
+
 @dataclass(slots=True)
 class Layout:
     CLOCK: ClassVar[int] = 8

@@ -3,6 +3,7 @@
 from scanbench.check.body.allowed import used
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
+from scanbench.check.body.generic import KINDS
 from scanbench.check.body.places import VARIABLES, inside
 from scanbench.check.body.referring import refer
 from scanbench.check.dialect import Allowance
@@ -25,26 +26,18 @@ from scanbench.syntax import tree
 
 ANY = "__SYSTEM.ANYTYPE"
 """The structure that such an input is; those of ANY_NUM and the like extend it."""
-GROUPS: dict[str, tuple[Kind, ...]] = {
-    "ANY_BIT": (Kind.BOOL, Kind.BITS),
-    "ANY_DATE": (Kind.DATE,),
-    "ANY_INT": (Kind.INT, Kind.UINT),
-    "ANY_NUM": (Kind.INT, Kind.UINT, Kind.REAL),
-    "ANY_REAL": (Kind.REAL,),
-}
-"""What each of those takes."""
 CLASSES = {"DATE_AND_TIME": "DATEANDTIME", "TIME_OF_DAY": "TIMEOFDAY"}
 """Of elementary types with a different name there."""
 
 
 def is_any(type: Type) -> bool:
     """Whether an input has this type."""
-    return isinstance(type, Record) and (type.name.upper() == ANY or type.name.upper() in GROUPS)
+    return isinstance(type, Record) and (type.name.upper() == ANY or type.name.upper() in KINDS)
 
 
 def any_of(body: Body, node: tree.Expression, type: Record, what: str) -> Expr:
     """What the input `what` is given for this variable; one that is such an input itself is passed on."""
-    name = type.name.upper() if type.name.upper() in GROUPS else "ANY"
+    name = "ANY" if type.name.upper() == ANY else type.name.upper()
     if not isinstance(node, VARIABLES):
         raise body.report.reject("T005", f"{what} is {name} and needs a variable.", node.span)
     mark = body.report.mark()
@@ -70,7 +63,7 @@ def _told(
     class_, pointer, size = (type.members[key] for key in ("TYPECLASS", "PVALUE", "DISIZE"))
     assert isinstance(class_.type, Enumeration)
     number = class_.type.number(f"TYPE_{_class_of(given)}")
-    if name in GROUPS and given.kind not in GROUPS[name]:
+    if given.kind not in KINDS[name]:
         raise body.report.reject("T002", f"{what} is {name}, and this is {given}.", node.span)
     if _is_different(given):
         raise body.report.reject(

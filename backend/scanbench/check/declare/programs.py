@@ -7,6 +7,7 @@ from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
+from scanbench.program.layout import align
 from scanbench.program.origin import in_library
 from scanbench.program.types import Kind, Member, Record, Section
 
@@ -17,7 +18,7 @@ PROGRAMS = "PROGRAMS"
 def placed_programs(declarations: Declarations, variables: Record, is_plant: Callable[[Span], bool]) -> Record:
     """A member for each program, with the absolute offset of its instance, after the global variables; empty in other dialects."""
     record = Record(PROGRAMS, Kind.STRUCT)
-    record.size = _aligned(variables.size)
+    record.size = align(variables.size)
     if Allowance.PROGRAM_CALLS not in declarations.dialect.allows:
         return record
     for key, declaration in declarations.block_trees.items():
@@ -31,9 +32,5 @@ def placed_programs(declarations: Declarations, variables: Record, is_plant: Cal
                 record.members[key] = Member(
                     declaration.name, instance, Section.GLOBAL, declaration.span, offset=record.size
                 )
-                record.size = _aligned(record.size + instance.size)
+                record.size = align(record.size + instance.size)
     return record
-
-
-def _aligned(offset: int) -> int:
-    return -(-offset // 8) * 8

@@ -100,32 +100,9 @@ class Plc:
         ):  # fmt: skip
             space.put_object(id, name, folder, parent, events=id in (_PLC, _ERRORS))
         for number, (name, form, head) in enumerate(_HEADS, _FIRST_HEAD):
-            space.put_fixed(
-                Variable(
-                    own(number),
-                    "",
-                    name,
-                    form,
-                    AttributeValue(bad(ua.StatusCodes.BadWaitingForInitialData)),
-                    False,
-                    head,
-                ),
-                name,
-                _STATUS,
-            )
+            space.put_fixed(_waiting(number, name, form, head), name, _STATUS)
         for number, (name, form) in enumerate(_SHOWN, _FIRST_ERROR):
-            space.put_fixed(
-                Variable(
-                    own(number),
-                    "",
-                    name,
-                    form,
-                    AttributeValue(bad(ua.StatusCodes.BadWaitingForInitialData)),
-                    False,
-                ),
-                name,
-                _ERRORS,
-            )
+            space.put_fixed(_waiting(number, name, form), name, _ERRORS)
         for id, name, arguments, method in _METHODS:
             space.put_method(id, name, _PLC, arguments)
             desk.methods[id] = (name, method)
@@ -161,6 +138,12 @@ def _use(iserver: ToPlc, space: Space) -> None:
     iserver.node_mgt_service = NodeManagementService(space)
     iserver.subscription_service = SubscriptionService(space, iserver)
     iserver.isession.aspace, iserver.isession.subscription_service = space, iserver.subscription_service
+
+
+def _waiting(number: int, name: str, form: Form, head: Callable[[VariablesAre], Any] | None = None) -> Variable:
+    """A variable that is always there, before anything is known."""
+    value = AttributeValue(bad(ua.StatusCodes.BadWaitingForInitialData))
+    return Variable(own(number), "", name, form, value, False, head)
 
 
 def _set_mode(author: str, arguments: Sequence[ua.Variant]) -> Command | None:

@@ -37,3 +37,7 @@ def not_run(what: str) -> str:
 
 def unused(routine: str) -> str:
     return f"the routine {routine} runs at times that do not exist here (faults, prescan, postscan); nothing calls it"
+
+
+def too_deep(routine: str) -> str:
+    return f"the routine {routine} has calls within calls, too many to be read; it is left out"

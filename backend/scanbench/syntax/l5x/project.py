@@ -8,7 +8,7 @@ from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.l5x import notes
 from scanbench.syntax.l5x.declarations import data_type, dimensions_of, section, sections, types_of_data
 from scanbench.syntax.l5x.names import ELEMENTARY, name_of
-from scanbench.syntax.l5x.statements import Known, Parameter, statements
+from scanbench.syntax.l5x.statements import Known, Parameter, TooDeep, statements
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 from scanbench.syntax.xml_tree import Element, attribute, child, children, line_of, parse_xml, text_of
 
@@ -247,9 +247,13 @@ def _text(routine: Element, known: Known, read: Read) -> str:
     if read.refused:
         return ""
     if attribute(routine, "Type") == "ST":
-        lines = "\n".join(text_of(each) for each in children(child(routine, "STContent"), "Line"))
-        text = statements(lines, known, read.notes).strip("\n")
+        lines = [text_of(each) for each in children(child(routine, "STContent"), "Line")]
     else:
-        rungs = (text_of(child(each, "Text")) for each in children(child(routine, "RLLContent"), "Rung"))
-        text = "\n".join(statements(each.strip(), known, read.notes) for each in rungs)
+        lines = [text_of(child(each, "Text")).strip() for each in children(child(routine, "RLLContent"), "Rung")]
+    try:
+        text = statements("\n".join(lines), known, read.notes).strip("\n")
+    except TooDeep:
+        read.notes.append(notes.too_deep(attribute(routine, "Name")))
+        read.refused = True
+        return ""
     return f"{text}\n" if text.strip() else ""

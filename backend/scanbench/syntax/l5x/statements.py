@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from scanbench.syntax.l5x import notes
 from scanbench.syntax.l5x.names import INSTRUCTIONS, LIBRARY, name_of
+from scanbench.syntax.l5x.values import integer
 
 PIECE = re.compile(
     r"""
@@ -23,6 +24,7 @@ PIECE = re.compile(
     """,
     re.VERBOSE | re.DOTALL | re.IGNORECASE,
 )
+MAX_DEPTH = 100
 BLANK = ("comment", "space")
 
 
@@ -55,18 +57,24 @@ class _Piece:
     text: str
 
 
-def statements(text: str, known: Known, told: list[str]) -> str:
-    """The text of a routine; what is not as it was is added to `told`."""
-    return _Writer(text, known, told).write()
+class TooDeep(ValueError):
+    """More calls within calls than anybody writes."""
+
+
+def statements(text: str, known: Known, told: list[str], depth: int = 0) -> str:
+    """The text of a routine, or of a part `depth` levels deep; what is not as it was is added to `told`. `TooDeep`."""
+    return _Writer(text, known, told, depth).write()
 
 
 class _Writer:
     """Reads the pieces from the first to the last."""
 
-    def __init__(self, text: str, known: Known, told: list[str]) -> None:
+    def __init__(self, text: str, known: Known, told: list[str], depth: int) -> None:
         self._pieces = [_Piece(each.lastgroup or "", each[0]) for each in PIECE.finditer(text)]
         self._known, self._told = known, told
-        self._at = 0
+        self._at, self._depth = 0, depth
+        if depth > MAX_DEPTH:
+            raise TooDeep
 
     def write(self) -> str:
         made = ""
@@ -101,8 +109,7 @@ class _Writer:
         before = "".join(each.text for each in self._pieces[max(0, self._at - 3) : self._at - 1])
         if re.search(r"(?<!\.)\.$", before) and _DIGITS.fullmatch(written):  # a bit, and no range `1..5`
             return f"%X{written}"
-        bits = _BASED.fullmatch(written)
-        if bits is not None and 1 << 31 <= int(bits[2].replace("_", "") or "0", int(bits[1])) < 1 << 32:
+        if "#" in written and 1 << 31 <= (integer(written) or 0) < 1 << 32:
             return f"DWORD_TO_DINT({written})"  # in a DINT it is its bits
         return written
 
@@ -122,7 +129,7 @@ class _Writer:
         end = self._operand(power + 1)
         inner = "".join(each.text for each in self._pieces[self._at : end])
         self._at = end
-        return f"-({statements(inner, self._known, self._told)})"
+        return f"-({statements(inner, self._known, self._told, self._depth + 1)})"
 
     def _after_blanks(self, at: int) -> int | None:
         return next((i for i in range(at, len(self._pieces)) if self._pieces[i].kind not in BLANK), None)
@@ -132,8 +139,8 @@ class _Writer:
         start = self._after_blanks(at)
         if start is None:
             return len(self._pieces)
-        if self._pieces[start].text == "-":
-            return self._operand(start + 1)
+        while start < len(self._pieces) and (self._pieces[start].text == "-" or self._pieces[start].kind in BLANK):
+            start += 1
         i, depth = start, 0
         while i < len(self._pieces):
             piece = self._pieces[i]
@@ -147,7 +154,7 @@ class _Writer:
         target = self._known.aliases.get(written.upper())
         if target is not None:  # of one that is an alias itself, too, but never round in a circle
             rest = {name: text for name, text in self._known.aliases.items() if name != written.upper()}
-            return statements(target, Known(rest, types=self._known.types), self._told)
+            return statements(target, Known(rest, types=self._known.types), self._told, self._depth + 1)
         if written.upper() in KEYWORDS:
             return written
         return name_of(written.removeprefix("\\"))
@@ -219,6 +226,9 @@ class _Writer:
         while self._pieces[self._at].text != "(":
             self._at += 1
         self._at += 1
+        self._depth += 1
+        if self._depth > MAX_DEPTH:
+            raise TooDeep
         found, depth = [""], 0
         while self._at < len(self._pieces):
             piece = self._pieces[self._at]
@@ -233,6 +243,7 @@ class _Writer:
             if piece.kind in BLANK:
                 self._at += 1
             found[-1] += " " if piece.kind in BLANK else self._one()
+        self._depth -= 1
         return [each.strip() for each in found] if found != [""] else []
 
     def _next(self) -> str:
@@ -245,7 +256,6 @@ class _Writer:
 
 
 _DIGITS = re.compile(r"[0-9]{1,2}")
-_BASED = re.compile(r"(2|8|16)#([0-9A-Fa-f_]{1,80})")
 _TAG = re.compile(r"(\w+)(?:\[([^\[\],]+)\])?")
 _PACKED = ("BOOL", "BIT")
 """Types whose values share bytes there."""

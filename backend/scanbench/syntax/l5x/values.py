@@ -69,7 +69,7 @@ class _Reader:
 
     def _simple(self, type: str, written: str) -> str:
         written, upper = written.strip(), type.upper()
-        number = _integer(written)
+        number = integer(written)
         if number is None and upper in BITS and _PLAIN.fullmatch(written):
             # characters, the most significant byte first
             number = int.from_bytes(bytes(code & 0xFF for code in _codes(written[1:-1]))[-8:], "big")
@@ -110,7 +110,8 @@ class _Reader:
         return f"({said})" if said else ""
 
 
-def _integer(written: str) -> int | None:
+def integer(written: str) -> int | None:
+    """The number that is written, `-5` or `16#00FF`; None for what is none."""
     based = _BASED.fullmatch(written)
     if based is None:
         return int(written) if _NUMBER.fullmatch(written) else None

@@ -95,6 +95,8 @@ KNOWN = Known(
             "V[i, 2](Open := (a AND b), Moved => Done, Log := Logs);",
         ),
         ("TONR(t1); Other(1, 2);", "Logix.TONR(t1); Other(1, 2);"),
+        ("d := 2#19 + 8#9;", "d := 2#19 + 8#9;"),
+        ("d := ---- 2 ** 2;", "d := -(-(-(-( 2 ** 2))));"),
         ("COP(a[2], b, 4);", "Logix.COP(ADR(a[2]), ADR(b[0]), MIN(4, 4) * SIZEOF(b[0]));"),
         ("COP(a[0], b[i + 1], n);", "Logix.COP(ADR(a[0]), ADR(b[i + 1]), MIN(n, 4 - (i + 1)) * SIZEOF(b[i + 1]));"),
         ("CASE x OF 1..5: y := 10; 7: y := -x; END_CASE;", "CASE x OF 1..5: y := 10; 7: y := -x; END_CASE;"),
@@ -194,6 +196,13 @@ def test_what_does_not_run_there_does_not_run_here() -> None:
         "TASK T(INTERVAL := T#20ms, PRIORITY := 5);", "PROGRAM A_1 WITH T : A;",
     ]  # fmt: skip
     assert [note.split(" ")[0] for note in made.pous[-1].notes] == ["D", "E", "I"]
+
+
+def test_calls_within_calls_without_end_are_left_out_and_told() -> None:
+    made = read_project(controller("", program("P", f"x := {'JSR(' * 90}{'-' * 90}a ** 2;")))
+    assert [(each.refused, each.notes) for each in made.pous] == [
+        (True, ["the routine M has calls within calls, too many to be read; it is left out"])
+    ]
 
 
 def test_files_of_one_name_are_all_kept() -> None:

@@ -2,6 +2,7 @@ import type { FormEvent } from "react";
 import { KINDS } from "../../../logic/verify/campaign";
 import { beginCampaign, changeForm, useCampaigns } from "../../../store/verify/campaigns";
 import { t } from "../../../text";
+import { Field } from "../../../ui/Field";
 import { Icon } from "../../../ui/Icon";
 
 /** How many disturbances, of which kinds, in which scans; and what says that the program has noticed one. */
@@ -14,18 +15,14 @@ export function CampaignForm() {
   }
 
   const number = (name: "count" | "seed" | "first" | "last" | "window", hint = "") => (
-    <label className="field">
-      <span>{t(`campaign.${name}`)}</span>
-      <input
-        className="inp sm mono"
-        inputMode="numeric"
-        placeholder={hint}
-        value={form[name]}
-        spellCheck={false}
-        autoComplete="off"
-        onChange={(event) => changeForm({ [name]: event.target.value })}
-      />
-    </label>
+    <Field
+      label={t(`campaign.${name}`)}
+      look="sm"
+      mono
+      placeholder={hint}
+      value={form[name]}
+      onChange={(value) => changeForm({ [name]: value })}
+    />
   );
 
   return (
@@ -35,18 +32,15 @@ export function CampaignForm() {
       {number("first", t("campaign.first.hint"))}
       {number("last", t("campaign.last.hint"))}
       {number("window")}
-      <label className="field wide">
-        <span>{t("campaign.alarms")}</span>
-        <input
-          className="inp sm mono"
-          placeholder="Main.alarm"
-          title={t("campaign.alarms.about")}
-          value={form.alarms}
-          spellCheck={false}
-          autoComplete="off"
-          onChange={(event) => changeForm({ alarms: event.target.value })}
-        />
-      </label>
+      <Field
+        label={t("campaign.alarms")}
+        look="sm wide"
+        mono
+        placeholder="Main.alarm"
+        title={t("campaign.alarms.about")}
+        value={form.alarms}
+        onChange={(alarms) => changeForm({ alarms })}
+      />
       <fieldset className="campaignkinds">
         <legend>{t("campaign.kinds")}</legend>
         {KINDS.map((kind) => (

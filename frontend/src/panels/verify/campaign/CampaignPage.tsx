@@ -79,14 +79,7 @@ function Shown({ campaign }: { campaign: CampaignState }) {
         <span className="grow" />
         {over ? (
           <>
-            <a className="btn sm" href={`/api/campaigns/${id}/export?format=junit`} download={`campaign-${id}.xml`}>
-              <Icon name="export" small />
-              JUnit
-            </a>
-            <a className="btn sm" href={`/api/campaigns/${id}/export`} download={`campaign-${id}.json`}>
-              <Icon name="export" small />
-              JSON
-            </a>
+            {done > 0 && <Exports id={id} />}
             <IconButton icon="trash" small label={t("campaign.forget")} onClick={() => void forgetCampaign(id)} />
           </>
         ) : (
@@ -114,8 +107,27 @@ function Shown({ campaign }: { campaign: CampaignState }) {
           <span>{message}</span>
         </p>
       )}
-      <Outcomes campaign={campaign} />
-      <Trials campaign={id} />
+      {(done > 0 || !over) && (
+        <>
+          <Outcomes campaign={campaign} />
+          <Trials campaign={id} />
+        </>
+      )}
     </section>
+  );
+}
+
+function Exports({ id }: { id: number }) {
+  return (
+    <>
+      <a className="btn sm" href={`/api/campaigns/${id}/export?format=junit`} download={`campaign-${id}.xml`}>
+        <Icon name="export" small />
+        JUnit
+      </a>
+      <a className="btn sm" href={`/api/campaigns/${id}/export`} download={`campaign-${id}.json`}>
+        <Icon name="export" small />
+        JSON
+      </a>
+    </>
   );
 }
