@@ -41,7 +41,7 @@ help:
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make bench-ui  what opening the page costs: bytes, time to the first live value, frames"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
-	@echo "make features  write the pages of docs/ that are generated: features, standard library, REST API"
+	@echo "make features  write the pages of docs/ that are generated (features, standard library, REST API), and the shapes of the client"
 	@echo "make shots   take the README's screenshots again"
 	@echo "make wire    generate the browser's types from the backend's messages"
 	@echo "make lock    resolve the dependencies again and write the lock files"
@@ -84,7 +84,7 @@ fuzz: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.programs $(N) $(SEED)
 
 features: $(VENV)/.stamp-dev
-	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page && $(BIN)/python -m tests.api_page
+	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page && $(BIN)/python -m tests.api_page && $(BIN)/python -m tests.client_shapes
 
 shots: setup-test system-fonts
 	@cd e2e && $(NPM) run shots

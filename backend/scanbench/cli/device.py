@@ -11,7 +11,7 @@ from pathlib import Path
 import typer
 
 from scanbench.cli.inputs import unusable_run, usage
-from scanbench.client import Json, Plc, Refused, connect
+from scanbench.client import Plc, Refused, connect
 from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.faults.device import read_device
 from scanbench.host.run_files import programs_by
@@ -33,7 +33,7 @@ _SERVER = typer.Option(
 _RUN = typer.Option(None, metavar="FILE", help="A recorded run in place of a PLC.")
 _SCAN = typer.Option(None, min=0, metavar="N", help="With --run: as it was before scan N, else at the end.")
 _JSON = typer.Option(False, "--json", help="Print one JSON object.")
-Told = Mapping[str, Json]
+Told = Mapping[str, object]
 
 
 def present(
@@ -172,8 +172,7 @@ def _recorded(run: Path, scan: int | None) -> Told:
             raise Unreadable(f"it has scans {reader.first} to {reader.end}: scan {until} is none of them")
         entries = front([each for each in reader.entries if each.scan <= until], until)
         device = read_device(reader.at(until, entries).view, past=until < reader.end)
-    found: Json = json.loads(json.dumps(asdict(device)))
-    assert isinstance(found, dict)
+    found: dict[str, object] = json.loads(json.dumps(asdict(device)))
     return found
 
 

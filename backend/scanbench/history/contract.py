@@ -31,7 +31,7 @@ class Writer(Public):
     text: str
     """For people: `Main.st:31, Main.belt[3]: speed := LIMIT(...)`, `Write by Ada: Main.level := 7`."""
     value: Hex
-    """The value after the write."""
+    """The value after the write: its bytes in the image."""
     shown: str
     """The value as text."""
 
@@ -48,9 +48,13 @@ class Change(Public):
     size: int
     values: tuple[tuple[str, int], ...]
     before: Hex
+    """Its bytes in the image at the first moment."""
     after: Hex
+    """The same at the second."""
     before_shown: str
+    """As text."""
     after_shown: str
+    """As text."""
 
 
 @dataclass(frozen=True, slots=True)

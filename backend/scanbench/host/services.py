@@ -112,6 +112,7 @@ class Services:
                 self._link.post(protocol.Frame(frame, self._timeline.live_scan, message.to))
             case protocol.WantForces():
                 self._tell_in_effect()  # what holds is known by then, too
+                self._diagnose()
                 self._link.post(protocol.ForcesAre(forced_values(self._resource.view), message.ref))
             case protocol.WantDevice():
                 self._link.post(protocol.DeviceIs(self._read_device(), message.ref))

@@ -30,5 +30,7 @@ class CoveredSite(Public):
 
 @dataclass(frozen=True, slots=True)
 class CoveredFile(Public):
+    """A file of the program, and its places that can be reached."""
+
     file: str
     sites: tuple[CoveredSite, ...]

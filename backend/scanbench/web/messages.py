@@ -47,6 +47,8 @@ class Problem(Wire):
 
 
 class Project(Wire):
+    """A project: its files are built for a model."""
+
     id: int
     name: str
     model: str
@@ -226,6 +228,8 @@ class InstanceLimits(Wire):
 
 
 class Instance(Wire):
+    """A virtual PLC that runs the program of a project."""
+
     id: int
     name: str
     project: Project
@@ -236,6 +240,8 @@ class Instance(Wire):
 
 
 class ImportedInstance(Instance):
+    """A PLC that goes on with the run of a file."""
+
     damage: str = Field(description="what is damaged in the file, and what is lost; empty where all is well")
 
 
@@ -281,11 +287,15 @@ class Violation(Wire):
 
 
 class User(Wire):
+    """Somebody who is at a PLC."""
+
     name: str
     initials: str
 
 
 class AppInfo(Wire):
+    """What there is on a server."""
+
     version: str
     public_url: str = Field(description="what links that are passed on begin with; empty: the address of the page")
     you: User

@@ -78,8 +78,15 @@ class Breakpoints(Wire):
     breakpoints: list[BreakpointInfo]
 
 
-class SetCoverage(Wire):
+class ChangeCoverage(Wire):
+    """Whether it is noted what is reached."""
+
+    on: bool
+    reset: bool = Field(default=False, description="what was reached is forgotten first")
+
+
+class SetCoverage(ChangeCoverage):
+    """The same on the WebSocket."""
+
     type: Literal["set_coverage"] = "set_coverage"
     ref: int
-    on: bool
-    reset: bool = False

@@ -244,6 +244,8 @@ SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
 
 
 class SweepSummary(Wire):
+    """A sweep without its cells: what it tries, and how far it is."""
+
     id: int
     project: int
     instance_id: int | None = Field(description="null: that PLC is gone")
@@ -279,6 +281,8 @@ class Accepted(Wire):
 
 
 class SweepCell(Wire):
+    """What came of one error, raised from one state."""
+
     error: str
     state: str
     verdict: Verdict | None = Field(description="null: it could not be raised, `note` says why")
@@ -299,6 +303,8 @@ class SweepCell(Wire):
 
 
 class Sweep(SweepSummary):
+    """A sweep with all its cells."""
+
     errors: tuple[SweptError, ...]
     cells: list[SweepCell]
 

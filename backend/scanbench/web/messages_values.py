@@ -75,6 +75,15 @@ class Drive(Wire):
     until: str | None = Field(default=None, description="a BOOL expression over instance paths and addresses")
 
 
+class TravelTo(Wire):
+    """As `Travel` on the socket."""
+
+    scan: Scan | None = Field(description="shows the PLC as it was before this scan; null returns to live")
+    count: Scan = Field(
+        default=0, description="inside of the scan, before its statement of this count; 0: its beginning"
+    )
+
+
 class ChangeMode(Wire):
     """As `SetMode` on the socket."""
 

@@ -21,6 +21,8 @@ _NAMES = {
     ("POST", "instances/{instance}/force"): "force_value",
     ("POST", "instances/{instance}/release"): "release_forces",
     ("POST", "instances/{instance}/mode"): "set_instance_mode",
+    ("POST", "instances/{instance}/new-run"): "begin_instance_run",
+    ("POST", "instances/{instance}/roll-back"): "roll_back_instance",
     ("POST", "instances/{instance}/errors/log/clear"): "clear_instance_error_log",
     ("POST", "instances/{instance}/trace-check"): "check_trace_mapping",
     ("POST", "projects/{project}/git"): "begin_project_git",

@@ -8,6 +8,7 @@ from typing import Any
 import httpx
 
 from scanbench.web.openapi import document
+from tests import client_shapes
 from tests.api_page import PAGE, page
 from tests.web.server import PATIENCE_S, Server
 
@@ -102,6 +103,11 @@ def test_every_operation_has_a_readable_name_of_its_own() -> None:
     assert len(set(names)) == len(names) > 100
     assert [each for each in names if not re.fullmatch(r"[a-z]+(_[a-z]+)+", each)] == []
     assert all(each["summary"] and not each["summary"].startswith("On ") for each in operations)
+
+
+def test_the_shapes_of_the_client_are_up_to_date() -> None:
+    kept = {each.name: each.read_text("utf-8") for each in client_shapes.FOLDER.glob("*.py") if each.stem != "__init__"}
+    assert kept == client_shapes.files(), "scanbench/client/shapes is out of date: make features"
 
 
 def test_the_page_of_routes_is_up_to_date() -> None:

@@ -1,12 +1,14 @@
 """The Python client against a real server."""
 
 import re
+from collections.abc import Mapping
 from itertools import count
 from pathlib import Path
 
 import pytest
 
 from scanbench.client import Plc, Refused, connect
+from scanbench.web.openapi import document
 from tests.cli.calling import scanbench
 from tests.web.server import Server
 
@@ -54,14 +56,14 @@ def test_a_script_reads_writes_and_forces(plc: Plc) -> None:
     assert plc.read("Main.count") == "101"
 
 
-def test_what_is_wrong_says_what_is_right(plc: Plc) -> None:
+def test_what_is_wrong_says_what_is_right(plc: Plc, server: Server) -> None:
     with pytest.raises(Refused, match=r"0\.\.100"):
         plc.write("Main.valve.level", 101)
     with pytest.raises(Refused) as refused:
         plc.read("Main.cuont")
     assert "Main.count" in refused.value.near or "count" in str(refused.value)
     with pytest.raises(Refused, match="no instance"):
-        plc._server.plc("nowhere")
+        connect(server.address).plc("nowhere")
 
 
 def test_a_run_until_ends_where_the_condition_holds(plc: Plc) -> None:
@@ -114,14 +116,24 @@ def test_a_script_arms_faults_and_takes_them_back(server: Server) -> None:
         plc.arm("battery-error", start={"kind": "line", "file": "main.st", "line": 99})
 
 
-def test_the_example_of_the_docs_runs(tmp_path: Path) -> None:
+def test_the_examples_of_the_docs_run(tmp_path: Path) -> None:
     page = (Path(__file__).parents[3] / "docs" / "scripts.md").read_text("utf-8")
-    found = re.search(r"```python\n(.*?)```", page, re.DOTALL)
-    assert found is not None
+    examples = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     with Server(tmp_path) as server:  # it leaves the sample paused
         sample = connect(server.address).plc("line-1")
         sample.run(scans=3)
-        exec(found[1].replace("http://127.0.0.1:8700/?token=...", server.address), {})
+        names: dict[str, object] = {}
+        for each in examples:
+            exec(each.replace("http://127.0.0.1:8700/?token=...", server.address), names)
+
+
+def test_the_routes_of_the_docs_are_there() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "scripts.md").read_text("utf-8")
+    paths: Mapping[str, Mapping[str, object]] = document()["paths"]  # type: ignore[assignment]
+    there = {(method.upper(), re.sub(r"{\w+}", "1", path)) for path, methods in paths.items() for method in methods}
+    told = re.findall(r"^    (GET|POST|PATCH|PUT|DELETE) +(/api[^?\s]+)", page, re.MULTILINE)
+    assert told
+    assert [each for each in told if each not in there] == []
 
 
 SAYS = """\
@@ -163,10 +175,10 @@ def test_a_script_goes_through_a_fatal_error_a_restart_and_a_sweep(server: Serve
     with pytest.raises(Refused, match="will not clear"):
         plc.clear("all")
     plc.recover()
-    assert plc.state["mode"] == "PROGRAM"
+    assert _mode(plc) == "PROGRAM"
     plc.mode("RUN")
     plc.run(scans=2)
-    assert plc.state["mode"] == "RUN"
+    assert _mode(plc) == "RUN"
     plc.restart("power")
     plc.run(until="Main.n >= 3", speed=0)
     plc.arm("battery-error", shape={"kind": "for", "scans": 2})
@@ -177,9 +189,11 @@ def test_a_script_goes_through_a_fatal_error_a_restart_and_a_sweep(server: Serve
     state = plc.keep_state("after the way")
     found = plc.wait_for_sweep(plc.begin_sweep(["battery-error"], [state], window=5))
     assert found["status"] == "done"
-    cells = found["cells"]
-    assert isinstance(cells, list)
-    assert [each["verdict"] for each in cells if isinstance(each, dict)] == ["never_read"]
+    assert [each["verdict"] for each in found["cells"]] == ["never_read"]
+
+
+def _mode(plc: Plc) -> str:
+    return plc.state["mode"]
 
 
 def test_the_command_line_reads_and_clears_as_a_tool_does(server: Server) -> None:

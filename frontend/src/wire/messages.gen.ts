@@ -462,7 +462,11 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Notes which statements and branches are reached from now on, or no longer
+         * @description Notes which statements and branches are reached from now on, or no longer.
+         */
+        patch: operations["change_instance_coverage"];
         trace?: never;
     };
     "/api/instances/{instance}/coverage.lcov": {
@@ -477,6 +481,26 @@ export interface paths {
          * @description The same as LCOV, for genhtml and CI.
          */
         get: operations["get_instance_coverage_lcov"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/diagnostics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The values that left their subrange, since this was cleared last
+         * @description The values that left their subrange, since this was cleared last.
+         */
+        get: operations["get_instance_diagnostics"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1014,6 +1038,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/new-run": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Begins at scan 0, with an empty timeline; the old run file is kept aside on the server
+         * @description Begins at scan 0, with an empty timeline; the old run file is kept aside on the server.
+         */
+        post: operations["begin_instance_run"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/program": {
         parameters: {
             query?: never;
@@ -1149,6 +1193,26 @@ export interface paths {
          * @description Makes a retrospective trace: runs recorded scans again while the PLC runs; progress comes by the instance's WebSocket.
          */
         post: operations["create_instance_retrospective"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/roll-back": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Swaps the program back in that ran before the last change
+         * @description Swaps the program back in that ran before the last change.
+         */
+        post: operations["roll_back_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1439,6 +1503,26 @@ export interface paths {
          * @description Stops recording; what was recorded is kept.
          */
         post: operations["stop_instance_trace"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/travel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Shows everybody the PLC as it was before a scan, while it waits at its live one; or live again
+         * @description Shows everybody the PLC as it was before a scan, while it waits at its live one; or live again.
+         */
+        post: operations["travel_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2838,7 +2922,10 @@ export interface components {
              */
             type: "alive";
         };
-        /** AppInfo */
+        /**
+         * AppInfo
+         * @description What there is on a server.
+         */
         AppInfo: {
             /** Instances */
             instances: components["schemas"]["Instance"][];
@@ -3465,6 +3552,20 @@ export interface components {
             state: string;
         };
         /**
+         * ChangeCoverage
+         * @description Whether it is noted what is reached.
+         */
+        ChangeCoverage: {
+            /** On */
+            on: boolean;
+            /**
+             * Reset
+             * @description what was reached is forgotten first
+             * @default false
+             */
+            reset: boolean;
+        };
+        /**
          * ChangeInstance
          * @description Null leaves as it is.
          */
@@ -3946,7 +4047,7 @@ export interface components {
         };
         /**
          * CoveredFile
-         * @description CoveredFile(file: str, sites: tuple[scanbench.taps.covered.CoveredSite, ...])
+         * @description A file of the program, and its places that can be reached.
          */
         CoveredFile: {
             /** File */
@@ -5441,7 +5542,10 @@ export interface components {
             /** Version */
             version: number;
         };
-        /** ImportedInstance */
+        /**
+         * ImportedInstance
+         * @description A PLC that goes on with the run of a file.
+         */
         ImportedInstance: {
             /**
              * Damage
@@ -5464,7 +5568,10 @@ export interface components {
             info: components["schemas"]["RecordInfo"];
             record: components["schemas"]["TestRecord"];
         };
-        /** Instance */
+        /**
+         * Instance
+         * @description A virtual PLC that runs the program of a project.
+         */
         Instance: {
             /** Id */
             id: number;
@@ -5659,7 +5766,7 @@ export interface components {
             text: string;
             /**
              * Value
-             * @description The value after the write.
+             * @description The value after the write: its bytes in the image.
              */
             value: string;
         };
@@ -6561,7 +6668,10 @@ export interface components {
             /** Version */
             version: number;
         };
-        /** Project */
+        /**
+         * Project
+         * @description A project: its files are built for a model.
+         */
         Project: {
             /** Id */
             id: number;
@@ -7527,7 +7637,10 @@ export interface components {
             /** Cells */
             cells: components["schemas"]["SetCell"][];
         };
-        /** SetCoverage */
+        /**
+         * SetCoverage
+         * @description The same on the WebSocket.
+         */
         SetCoverage: {
             /** On */
             on: boolean;
@@ -7535,6 +7648,7 @@ export interface components {
             ref: number;
             /**
              * Reset
+             * @description what was reached is forgotten first
              * @default false
              */
             reset: boolean;
@@ -7575,7 +7689,10 @@ export interface components {
              */
             type: "state";
         };
-        /** Sweep */
+        /**
+         * Sweep
+         * @description A sweep with all its cells.
+         */
         Sweep: {
             /** At */
             at: string;
@@ -7636,7 +7753,10 @@ export interface components {
             /** Window */
             window: number;
         };
-        /** SweepCell */
+        /**
+         * SweepCell
+         * @description What came of one error, raised from one state.
+         */
         SweepCell: {
             /** @default null */
             accepted: components["schemas"]["Accepted"] | null;
@@ -7770,7 +7890,10 @@ export interface components {
              */
             type: "sweep";
         };
-        /** SweepSummary */
+        /**
+         * SweepSummary
+         * @description A sweep without its cells: what it tries, and how far it is.
+         */
         SweepSummary: {
             /** At */
             at: string;
@@ -8397,6 +8520,23 @@ export interface components {
             type: "travel";
         };
         /**
+         * TravelTo
+         * @description As `Travel` on the socket.
+         */
+        TravelTo: {
+            /**
+             * Count
+             * @description inside of the scan, before its statement of this count; 0: its beginning
+             * @default 0
+             */
+            count: number;
+            /**
+             * Scan
+             * @description shows the PLC as it was before this scan; null returns to live
+             */
+            scan: number | null;
+        };
+        /**
          * Unreached
          * @description A statement that would read the error, and was not executed in the window.
          */
@@ -8482,7 +8622,10 @@ export interface components {
              */
             sample: string[][];
         };
-        /** User */
+        /**
+         * User
+         * @description Somebody who is at a PLC.
+         */
         User: {
             /** Initials */
             initials: string;
@@ -8831,13 +8974,25 @@ export interface components {
          * @description A variable, or an address without one, whose value differs.
          */
         VariableChange: {
-            /** After */
+            /**
+             * After
+             * @description The same at the second.
+             */
             after: string;
-            /** After Shown */
+            /**
+             * After Shown
+             * @description As text.
+             */
             after_shown: string;
-            /** Before */
+            /**
+             * Before
+             * @description Its bytes in the image at the first moment.
+             */
             before: string;
-            /** Before Shown */
+            /**
+             * Before Shown
+             * @description As text.
+             */
             before_shown: string;
             /** Kind */
             kind: string;
@@ -10557,6 +10712,41 @@ export interface operations {
             };
         };
     };
+    change_instance_coverage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChangeCoverage"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
     get_instance_coverage_lcov: {
         parameters: {
             query?: never;
@@ -10584,6 +10774,37 @@ export interface operations {
                 };
                 content: {
                     "text/plain": string;
+                };
+            };
+        };
+    };
+    get_instance_diagnostics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Diagnostics"];
                 };
             };
         };
@@ -11518,6 +11739,37 @@ export interface operations {
             };
         };
     };
+    begin_instance_run: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
     get_instance_program: {
         parameters: {
             query: {
@@ -11753,6 +12005,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Retrospective"];
+                };
+            };
+        };
+    };
+    roll_back_instance: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
                 };
             };
         };
@@ -12292,6 +12575,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["TraceInfo"];
+                };
+            };
+        };
+    };
+    travel_instance: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TravelTo"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
                 };
             };
         };

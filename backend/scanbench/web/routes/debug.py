@@ -1,11 +1,17 @@
-"""REST: what a debugger shows of one PLC, for scripts and links: coverage."""
+"""REST: what a debugger shows of one PLC, for scripts and links: coverage, diagnostics."""
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 from fastapi.responses import PlainTextResponse
 
 from scanbench.taps.lcov import lcov
+from scanbench.web import translate
+from scanbench.web.auth import user_of
+from scanbench.web.messages import Diagnostics
 from scanbench.web.messages_base import Id
+from scanbench.web.messages_debug import ChangeCoverage
+from scanbench.web.messages_errors import CommandResult
 from scanbench.web.reach import Bench
+from scanbench.web.translate_errors import command_result
 from scanbench.wire.debugging import Coverage
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["debug"])
@@ -15,6 +21,21 @@ router = APIRouter(prefix="/api/instances/{instance}", tags=["debug"])
 async def on_coverage(bench: Bench, instance: Id) -> Coverage:
     """Statements and branches that were reached since coverage was switched on."""
     return await bench.session(instance).debugging.reached()
+
+
+@router.patch("/coverage")
+async def on_cover(bench: Bench, request: Request, instance: Id, wanted: ChangeCoverage) -> CommandResult:
+    """Notes which statements and branches are reached from now on, or no longer."""
+    debugging = bench.session(instance).debugging
+    return command_result(await debugging.cover(wanted.on, wanted.reset, user_of(request).name))
+
+
+@router.get("/diagnostics")
+async def on_diagnostics(bench: Bench, instance: Id) -> Diagnostics:
+    """The values that left their subrange, since this was cleared last."""
+    session = bench.session(instance)
+    await session.forces.now()  # before that is answered, what was counted is told
+    return translate.diagnostics(session.log.violations)
 
 
 @router.get("/coverage.lcov", response_class=PlainTextResponse)

@@ -75,6 +75,24 @@ async def on_run(bench: Bench, request: Request, instance: Id, wanted: messages_
     return command_result(await session.drive(wanted.action, wanted.speed, author, wanted.scans, wanted.until))
 
 
+@router.post("/travel")
+async def on_travel(bench: Bench, request: Request, instance: Id, to: messages_values.TravelTo) -> CommandResult:
+    """Shows everybody the PLC as it was before a scan, while it waits at its live one; or live again."""
+    return command_result(await bench.session(instance).travel(to.scan, user_of(request).name, to.count))
+
+
+@router.post("/new-run")
+async def on_new_run(bench: Bench, request: Request, instance: Id) -> CommandResult:
+    """Begins at scan 0, with an empty timeline; the old run file is kept aside on the server."""
+    return command_result(await bench.session(instance).new_run(user_of(request).name))
+
+
+@router.post("/roll-back")
+async def on_roll_back(bench: Bench, request: Request, instance: Id) -> CommandResult:
+    """Swaps the program back in that ran before the last change."""
+    return command_result(await bench.session(instance).roll_back(user_of(request).name))
+
+
 @router.post("/mode")
 async def on_mode(bench: Bench, request: Request, instance: Id, wanted: messages_values.ChangeMode) -> CommandResult:
     """Changes the mode. MONITOR and RUN are refused while a fatal error is present."""

@@ -1,0 +1,1 @@
+"""What can be asked, each request written once; see `scanbench.client.asking`."""

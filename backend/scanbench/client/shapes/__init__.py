@@ -1,0 +1,1 @@
+"""What the server answers, as typed dictionaries. All files here are made of the OpenAPI document."""
