@@ -31,6 +31,7 @@ from scanbench.check.declare.kept import declare_static, kept_of
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.programs import placed_programs
 from scanbench.check.declare.scopes import Pous, Scope, place_of
+from scanbench.check.declare.start_references import is_this, own_instance
 from scanbench.check.dialect import IEC, Allowance, Dialect, dialect_in
 from scanbench.check.folding import folded
 from scanbench.check.life.make import Life
@@ -250,6 +251,8 @@ class Checker:
 
     def _reference(self, owner: Record, node: tree.Expression, type: Reference) -> Expr:
         """What a reference starts with."""
+        if is_this(node):
+            return own_instance(self.declarations, owner, node, type)
         scope = Scope(owner.name, self.globals, constants=(owner,), space=self.declarations.names.space)
         body = body_of(self.report, self.declarations, self.pous, scope, None)
         return as_argument(body, node, type, "The start value")

@@ -46,6 +46,7 @@ class Allowance(Enum):
     INSTANCE_COPIES = auto()
     PROGRAM_CALLS = auto()
     HEAP = auto()
+    UNLINKED_ADDRESSES = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,9 +148,9 @@ RULES: dict[Allowance, Rule] = {
         "`VAR unit : Unit; END_VAR` in the block",
     ),
     Allowance.VENDOR_OPERATORS: Rule(
-        "`__POUNAME()`, `__QUERYINTERFACE`, `__QUERYPOINTER`, `XSIZEOF`, `SIZEOF(POINTER TO INT)`",
+        "`__POUNAME()`, `__QUERYINTERFACE`, `__QUERYPOINTER`, `XSIZEOF`, `SIZEOF(POINTER TO INT)`, `ANY_TO_INT`",
         "there are no such operators",
-        "`?=`, `SIZEOF(x)`",
+        "`?=`, `SIZEOF(x)`, `TO_INT(x)`",
     ),
     Allowance.VENDOR_TYPES: Rule(
         "XINT, UXINT, XWORD (with `__` before them or not) and PVOID, as types of 64 bits; BIT, of which eight share a byte",
@@ -182,7 +183,7 @@ RULES: dict[Allowance, Rule] = {
         "a VAR of the block, or a VAR_IN_OUT",
     ),
     Allowance.DIRECT_REFERENCES: Rule(
-        "a variable as the argument or start value of what has the type REFERENCE TO",
+        "a variable as the argument or start value of what has the type REFERENCE TO, an instance as that of an INTERFACE, THIS as that of a pointer",
         "a reference is made by name",
         "`unit(r := REF(level))`",
     ),
@@ -210,6 +211,11 @@ RULES: dict[Allowance, Rule] = {
         "`__NEW(type)`, `__NEW(type, count)`, `__DELETE(pointer)`, with the memory of the library `__HEAP`",
         "all memory is declared",
         "an ARRAY, and a number of how many of its elements are used",
+    ),
+    Allowance.UNLINKED_ADDRESSES: Rule(
+        "`AT %I*`, `AT %Q*` and `AT %M*` for inputs, outputs, members of structures and instances of blocks",
+        "only VAR and VAR_GLOBAL of elementary data wait for an address",
+        "the variable without AT, and an assignment from one that has an address",
     ),
 }
 

@@ -68,6 +68,7 @@ USES = [
     (Allowance.VENDOR_OPERATORS, "s := __POUNAME();", "'Main'"),
     (Allowance.VENDOR_OPERATORS, "i := XSIZEOF(d);", "SIZEOF(...)"),
     (Allowance.VENDOR_OPERATORS, "i := SIZEOF(POINTER TO INT);", "`8`"),
+    (Allowance.VENDOR_OPERATORS, "i := ANY_TO_INT(d);", "TO_INT(...)"),
     (Allowance.LABELS, "again: IF i < j THEN i := j; JMP again; END_IF", "IF and loops"),
     (Allowance.ROUNDING, "d := r;", "REAL_TO_DINT(...)"),
     (Allowance.ROUNDING, "d := 2.5;", "`2`"),
@@ -139,6 +140,7 @@ APART = {
     Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES, Allowance.VENDOR_TYPES,
     Allowance.FINAL_INTERFACES, Allowance.DINT_RESULTS, Allowance.LOCAL_ADDRESSES, Allowance.DIRECT_REFERENCES,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
+    Allowance.UNLINKED_ADDRESSES,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

@@ -11,7 +11,7 @@ from scanbench.check.body.dispatch import Dispatcher
 from scanbench.check.body.enabling import condition_of, enabling, given_enable, store_eno
 from scanbench.check.body.notes import note_of
 from scanbench.check.body.objects import named_itself, own
-from scanbench.check.body.receivers import Receiver, receiver_of
+from scanbench.check.body.receivers import Receiver, is_own_property, receiver_of
 from scanbench.check.body.subrange_checks import explicitly, keeping, noting
 from scanbench.check.body.targets import declared_target
 from scanbench.check.context import Rejected
@@ -31,6 +31,8 @@ def names_instance(body: Body, callee: tree.Expression) -> bool:
         return True
     if isinstance(callee, tree.Name):
         found = body.scope.find(callee.name)
+        if found is None and is_own_property(body, callee.name):
+            return True
         return found is not None and isinstance(found[0].type, Record | Reference)
     return True
 

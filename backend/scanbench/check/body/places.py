@@ -37,8 +37,22 @@ VARIABLES = tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree
 
 
 def place(body: Body, node: tree.Expression) -> Found:
-    """The variable; of a REFERENCE TO, what it refers to."""
+    """The variable; of a REFERENCE TO, what it refers to. So is a property that gives one."""
+    given = _of_property(body, node)
+    if given is not None:
+        return given, None
     return automatic(body, *raw_place(body, node), node)
+
+
+def _of_property(body: Body, node: tree.Expression) -> Place | None:
+    """What a property refers to, whose type is REFERENCE TO; None of what is no such property."""
+    properties = body.pous.classes.properties
+    if not isinstance(node, tree.Name | tree.MemberOf) or node.name.upper() not in properties:
+        return None
+    value = body.property_value(node)
+    if value is None or not isinstance(value.type, Reference) or not value.type.automatic:
+        return None
+    return target_of(body, value, node.span, shown(node))
 
 
 def automatic(body: Body, place: Place, member: Member | None, node: tree.Expression) -> Found:

@@ -46,7 +46,8 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
     method = receiver.owner.find(f"{node.name.upper()}{half}")
     if method is None:
         record = receiver.owner.record
-        if half or (record is not None and node.name.upper() in record.members):
+        gives = receiver.owner.find(f"{node.name.upper()}.GET") is not None
+        if half or gives or (record is not None and node.name.upper() in record.members):
             return None
         if record is not None and (record.open or is_broken(body, record, node.name)):
             raise Rejected
@@ -69,11 +70,12 @@ def is_qualified(body: Body, node: tree.MemberOf) -> bool:
         bool(path)
         and first.upper() not in ("THIS", "SUPER")
         and body.scope.find(first) is None
-        and (not _property_of_own(body, first))
+        and (not is_own_property(body, first))
     )
 
 
-def _property_of_own(body: Body, name: str) -> bool:
+def is_own_property(body: Body, name: str) -> bool:
+    """Whether the class that this is in has a property of this name that can be read."""
     owner = own_class(body)
     return owner is not None and owner.find(f"{name.upper()}.GET") is not None
 

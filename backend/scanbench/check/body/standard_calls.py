@@ -238,8 +238,17 @@ def _misspelt(body: Body, node: tree.Call, name: str) -> None:
             )
 
 
+def _without_any(body: Body, name: str, node: tree.Call) -> str:
+    """`TO_INT` for `ANY_TO_INT` and `ANY_NUM_TO_INT`, where the dialect has these."""
+    source, to, target = name.partition("_TO_")
+    return f"TO_{target}" if to and source in ("ANY", "ANY_NUM") and may(body, Allowance.VENDOR_OPERATORS) else name
+
+
 def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> Expr | None:
+    given, name = name, _without_any(body, name, node)
     parsed = conversions.parse_name(name, lambda part: _user_type(body, part, node))
+    if parsed is not None and given != name:
+        used(body, Allowance.VENDOR_OPERATORS, node.span, f"`{given}` converts a value of any type", f"`{name}(...)`")
     if parsed is None:
         _misspelt(body, node, name)
         return None

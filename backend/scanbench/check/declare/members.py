@@ -9,8 +9,9 @@ from scanbench.check.declare.addresses import is_relative, locate, place_relativ
 from scanbench.check.declare.creations import FB_INIT
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image
+from scanbench.check.declare.start_references import is_this
 from scanbench.check.declare.vendor_types import BIT, place_bit
-from scanbench.check.dialect import Allowance
+from scanbench.check.dialect import Allowance, said
 from scanbench.program.shown import shown
 from scanbench.program.types import (
     ELEMENTARY,
@@ -150,6 +151,11 @@ def _incomplete(
     """`AT %I*`: a reference that VAR_CONFIG fills for each instance, and memory for when it does not."""
     span = variable.address_span or variable.span
     if section not in (Section.VAR, Section.GLOBAL) or has_instance(made) or isinstance(made, OpenArray):
+        inside = section in (Section.MEMBER, Section.INPUT, Section.OUTPUT, Section.VAR, Section.GLOBAL)
+        if inside and Allowance.UNLINKED_ADDRESSES in declared.dialect.allows:
+            used = f"`{variable.name}` waits for an address, and is a variable like others until then"
+            declared.report.warn("W006", said(declared.dialect, Allowance.UNLINKED_ADDRESSES, used), span)
+            return _declare(declared, owner, replace(variable, address=None), section, False, False)
         declared.report.error("D005", "`AT %I*` is for elementary data in VAR and VAR_GLOBAL.", span)
         return None
     if variable.initial is not None:
@@ -165,17 +171,25 @@ def _incomplete(
 
 
 def _refers(declared: Declarations, type: Reference, initial: tree.Initial) -> bool:
-    """Whether a reference starts with a variable: `REF(x)`, or where the dialect has it so, `x`."""
-    if isinstance(initial, tree.Call):
+    """Whether a reference starts with a variable: `REF(x)`, or where the dialect has it so, `x` and `THIS`."""
+    if isinstance(initial, tree.Call) or is_this(initial):
         return True
-    direct = type.automatic and Allowance.DIRECT_REFERENCES in declared.dialect.allows
+    direct = (type.automatic or _is_interface(type)) and Allowance.DIRECT_REFERENCES in declared.dialect.allows
     return direct and isinstance(initial, tree.Name | tree.MemberOf | tree.IndexOf) and shown(initial).upper() != "NULL"
+
+
+def _is_interface(type: Type) -> bool:
+    return isinstance(type, Reference) and isinstance(type.target, Record) and type.target.kind is Kind.INTERFACE
 
 
 def _start_reference(declared: Declarations, owner: Record, member: Member, node: tree.Initial) -> None:
     assert not isinstance(node, tree.ArrayInit | tree.StructInit)
     if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
         raise declared.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
+    if _is_interface(member.type) and not isinstance(node, tree.Call):
+        used = f"`{member.name}` is an interface that starts with an instance"
+        instead = f"`{member.name} := {shown(node)};` in the body"
+        declared.report.warn("W006", said(declared.dialect, Allowance.DIRECT_REFERENCES, used, instead), node.span)
     declared.start_references.append((owner, member, node))
 
 

@@ -4,10 +4,14 @@ from collections.abc import Iterable, Iterator
 
 from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
+from scanbench.check.dialect import Allowance, said
 from scanbench.problems import Span
-from scanbench.program.program import Base, Place, RefOf
+from scanbench.program.program import Base, Expr, Place, RefOf
 from scanbench.program.tasks import ProgramInstance
-from scanbench.program.types import SLOT_BYTES, ArrayType, Record, Reference
+from scanbench.program.types import SLOT_BYTES, ArrayType, Kind, Record, Reference, is_derived
+from scanbench.syntax import tree
+
+STARTS_WITH = "A reference starts with NULL or REF(variable) of a variable that is found without running anything."
 
 
 def bind_start_references(
@@ -35,17 +39,44 @@ def bind_start_references(
             image[at : at + SLOT_BYTES] = reference.to_bytes(SLOT_BYTES, "little")
 
 
+def is_this(node: tree.Initial) -> bool:
+    """Whether a pointer starts with its own instance: `THIS`, `ADR(THIS^)`."""
+    if isinstance(node, tree.Call) and isinstance(node.callee, tree.Name) and node.callee.name.upper() == "ADR":
+        given = node.arguments[0].value if len(node.arguments) == 1 else None
+        return isinstance(given, tree.Dereference) and _names_this(given.reference)
+    return _names_this(node)
+
+
+def _names_this(node: object) -> bool:
+    return isinstance(node, tree.Name) and node.name.upper() == "THIS"
+
+
+def own_instance(declarations: Declarations, owner: Record, node: tree.Expression, type: Reference) -> Expr:
+    """The instance itself, as the start value of a pointer or reference to its block or to a base of it."""
+    wanted = type.target
+    if Allowance.DIRECT_REFERENCES not in declarations.dialect.allows:
+        raise declarations.report.reject("D004", STARTS_WITH, node.span)
+    if owner.kind is not Kind.BLOCK or not isinstance(wanted, Record) or not is_derived(owner, wanted):
+        raise declarations.report.reject(
+            "T002", f"The start value is {type}, but THIS is an instance of {owner.name}.", node.span
+        )
+    said_of = said(
+        declarations.dialect,
+        Allowance.DIRECT_REFERENCES,
+        "A pointer starts with its own instance",
+        "`p := THIS;` in the body",
+    )
+    declarations.report.warn("W006", said_of, node.span)
+    return RefOf(Place(owner, Base.SELF, 0), type)
+
+
 def _lasting(declarations: Declarations, expr: object, span: Span) -> Place:
     """The place, when it is found without running anything."""
     if isinstance(expr, RefOf):
         place = expr.place
         if place.slot is None and place.reference is None and not place.indices:
             return place
-    raise declarations.report.reject(
-        "D004",
-        "A reference starts with NULL or REF(variable) of a variable that is found without running anything.",
-        span,
-    )
+    raise declarations.report.reject("D004", STARTS_WITH, span)
 
 
 def _records(record: Record, base: int) -> Iterator[tuple[Record, int]]:
