@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
+from scanbench.syntax.conditions import conditions
 from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.foreign_files import parse_foreign
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
@@ -171,6 +172,8 @@ def _slice(tokens: Tokens, first: int, last: int, start: int, end: int) -> Token
 
 def _stretches(tokens: Tokens, length: int) -> list[tuple[int, int, bool]] | None:
     """Start and end of each chunk, and whether it is a POU; None for a file that does not fall into chunks."""
+    if tokens.pragmas and conditions(tokens):
+        return None  # a name that is defined in one is known in the next
     texts, made, at, index = tokens.texts, [], 0, 0
     marks = [number for number, text in enumerate(texts) if text in MARKS and text in KEYWORDS]
     while index < len(marks):
@@ -210,6 +213,8 @@ def _free(tokens: Tokens, stretches: list[tuple[int, int, bool]]) -> bool:
 
 
 def _is_one_pou(tokens: Tokens) -> bool:
+    if tokens.pragmas and conditions(tokens):
+        return False
     marks = [text for text in tokens.texts if text in MARKS]
     last = len(tokens.texts) - AHEAD - 1
     return len(marks) == 2 and tokens.texts[0] == marks[0] and tokens.texts[last] == ENDS.get(marks[0]) == marks[1]

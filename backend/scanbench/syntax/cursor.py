@@ -4,6 +4,7 @@ import sys
 from collections.abc import Collection
 
 from scanbench.problems import Problem, Span
+from scanbench.syntax.conditions import chosen
 from scanbench.syntax.lexer import AHEAD, DRAWN, Lex, Tokens, tokenize
 from scanbench.syntax.pragmas import in_out_pragmas
 from scanbench.syntax.source import Source, Stretch
@@ -38,6 +39,9 @@ class Cursor:
         self.problems: list[Problem] = []
         if tokens is None:
             tokens, self.problems = tokenize(source)
+        if tokens.pragmas:
+            tokens, wrong = chosen(source, tokens)
+            self.problems += wrong
         self.kinds, self.texts, self.starts, self.pragmas = tokens.kinds, tokens.texts, tokens.starts, tokens.pragmas
         self.in_out_pragmas = in_out_pragmas(self.pragmas)
         """Those that no FUNCTION_BLOCK has taken yet."""
