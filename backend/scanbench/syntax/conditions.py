@@ -155,6 +155,9 @@ def chosen(source: Source, tokens: Tokens) -> tuple[Tokens, list[Problem]]:
     count = len(tokens.starts) - AHEAD
     keep = [not any(first <= at < last for first, last in reader.dead) for at in tokens.starts[:count]]
     keep += [True] * AHEAD
-    columns = (list(compress(column, keep)) for column in (tokens.kinds, tokens.texts, tokens.starts))
-    kinds, texts, starts = columns
+    kinds, texts, starts = (
+        list(compress(tokens.kinds, keep)),
+        list(compress(tokens.texts, keep)),
+        list(compress(tokens.starts, keep)),
+    )
     return Tokens(kinds, texts, starts, tokens.pragmas), reader.problems
