@@ -47,6 +47,7 @@ class Allowance(Enum):
     PROGRAM_CALLS = auto()
     HEAP = auto()
     UNLINKED_ADDRESSES = auto()
+    TRY = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,6 +217,11 @@ RULES: dict[Allowance, Rule] = {
         "`AT %I*`, `AT %Q*` and `AT %M*` for inputs, outputs, members of structures and instances of blocks",
         "only VAR and VAR_GLOBAL of elementary data wait for an address",
         "the variable without AT, and an assignment from one that has an address",
+    ),
+    Allowance.TRY: Rule(
+        "`__TRY`, `__CATCH`, `__FINALLY`: a division by zero, an index outside and a pointer to nothing go on in the `__CATCH`",
+        "such an error stops the program",
+        "a condition before it, `IF divisor <> 0 THEN`",
     ),
 }
 

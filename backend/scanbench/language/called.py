@@ -109,6 +109,8 @@ def parts(statement: tree.Statement) -> tuple[list[tree.Expression], list[Sequen
             return [each for each in (variable, first, last, step) if each is not None], [body]
         case tree.WhileStatement(condition=condition, body=body) | tree.RepeatStatement(until=condition, body=body):
             return [condition], [body]
+        case tree.TryStatement(body=body, caught=caught, handler=handler, final=final):
+            return [caught] if caught is not None else [], [body, handler, final]
         case _:
             return [], []
 

@@ -19,8 +19,8 @@ OTHER = re.compile(r"`(.+)` is of another language; write (?:`(.+)`|([A-Z]+))\.$
 COMPARED = re.compile(r"An assignment is written `:=`")
 POINTS = re.compile(r"This is a reference; write `\^`|.* Dereference it with `\^`\.$")
 STRING = re.compile(r"This string never ends")
-STATEMENTS = ("END_IF", "END_CASE", "END_FOR", "END_WHILE", "END_REPEAT")
-GOES_ON = re.compile(r"(ELSE|ELSIF|UNTIL)\b", re.IGNORECASE)
+STATEMENTS = ("END_IF", "END_CASE", "END_FOR", "END_WHILE", "END_REPEAT", "__ENDTRY")
+GOES_ON = re.compile(r"(ELSE|ELSIF|UNTIL|__CATCH|__FINALLY)\b", re.IGNORECASE)
 OPENING = {"(*": "*)", "/*": "*/", "{": "}"}
 
 

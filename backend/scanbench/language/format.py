@@ -24,8 +24,8 @@ STEP = 2
 """Blanks a level."""
 DECLARING = ("VAR", "STRUCT", "UNION", "TYPE")
 QUALIFIERS = frozenset(("CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT"))
-MIDDLE = frozenset(("ELSE", "ELSIF", "UNTIL"))
-ENDING = frozenset((";", "THEN", "ELSE", "DO", "OF", "REPEAT", ":"))
+MIDDLE = frozenset(("ELSE", "ELSIF", "UNTIL", "__CATCH", "__FINALLY"))
+ENDING = frozenset((";", "THEN", "ELSE", "DO", "OF", "REPEAT", "__TRY", "__FINALLY", ":"))
 """After these a statement begins."""
 TIGHT_BEFORE = frozenset(", ; ) ] . ^ .. #".split())
 TIGHT_AFTER = frozenset("( [ . .. #".split())
@@ -223,6 +223,8 @@ def _closer(block: Block) -> int:
     """The length of what closes it."""
     if not block.closed:
         return 0
+    if block.keyword == "__TRY":
+        return len("__ENDTRY")
     return len("END_") + len("VAR" if block.keyword.startswith("VAR") else block.keyword)
 
 
@@ -234,7 +236,7 @@ def _level(line: Line, holding: list[Block], otherwise: set[int]) -> int:
     level = len(holding) - sum(outer.keyword in POUS and each.keyword.startswith("VAR") for outer, each in pairs)
     if inner in POUS and first.startswith(("VAR", "END_VAR")):
         level -= 1
-    if inner in ("IF", "CASE", "REPEAT") and first in MIDDLE:
+    if inner in ("IF", "CASE", "REPEAT", "__TRY") and first in MIDDLE:
         level -= 1
     # statements of a branch are a level deeper than its label, those after ELSE are at the level of the labels
     branches = [block for block in holding if block.keyword == "CASE" and block.start not in otherwise]
@@ -262,17 +264,19 @@ def _is_label(line: Line) -> bool:
 def _continues(line: Line) -> bool:
     """Whether a line that follows an unfinished one goes on with it, and does not begin or end a block."""
     first = next(item for item in line.items if item.kind is not None)
-    return not (first.kind is Lex.KEYWORD and (first.text.startswith(("END_", "VAR")) or first.text in MIDDLE))
+    return not (
+        first.kind is Lex.KEYWORD and (first.text.startswith(("END_", "VAR", "__ENDTRY")) or first.text in MIDDLE)
+    )
 
 
 def _ends(code: list[Item], holding: list[Block]) -> bool:
     """Whether a statement, declaration or head is over at the end of this line."""
     last = code[-1]
-    if last.text in ENDING or last.text.startswith("END_"):
+    if last.text in ENDING or last.text.startswith(("END_", "__ENDTRY")):
         return True
     first = code[0].text.upper()
     inner = holding[-1].keyword if holding else ""
-    if first.startswith("VAR") or first in ("STRUCT", "TYPE", "UNION", "REPEAT") or not holding:
+    if first.startswith("VAR") or first in ("STRUCT", "TYPE", "UNION", "REPEAT", "__CATCH") or not holding:
         return True
     heads = (*POUS, "NAMESPACE", "RESOURCE", "CONFIGURATION", "USING", "EXTENDS", "IMPLEMENTS", "GET", "SET")
     if first in heads or last.text.upper() in ("STRUCT", "UNION"):

@@ -9,7 +9,7 @@ from scanbench.language.outline import Block
 from scanbench.language.reading import Reading
 from scanbench.syntax.lexer import Tokens
 
-_BETWEEN = {"IF": ("ELSIF", "ELSE"), "CASE": ("ELSE",), "REPEAT": ("UNTIL",)}
+_BETWEEN = {"IF": ("ELSIF", "ELSE"), "CASE": ("ELSE",), "REPEAT": ("UNTIL",), "__TRY": ("__CATCH", "__FINALLY")}
 """Keywords of a block beside the first and the last."""
 
 

@@ -8,7 +8,7 @@ from scanbench.syntax.lexer import Lex, Tokens
 CLOSED = {
     "PROGRAM": "END_PROGRAM", "FUNCTION": "END_FUNCTION", "FUNCTION_BLOCK": "END_FUNCTION_BLOCK",
     "CONFIGURATION": "END_CONFIGURATION", "TYPE": "END_TYPE", "STRUCT": "END_STRUCT",
-    "IF": "END_IF", "CASE": "END_CASE", "FOR": "END_FOR", "WHILE": "END_WHILE", "REPEAT": "END_REPEAT",
+    "IF": "END_IF", "CASE": "END_CASE", "FOR": "END_FOR", "WHILE": "END_WHILE", "REPEAT": "END_REPEAT", "__TRY": "__ENDTRY",
     **{f"VAR{section}": "END_VAR" for section in (
         "", "_INPUT", "_OUTPUT", "_IN_OUT", "_TEMP", "_GLOBAL", "_EXTERNAL", "_ACCESS", "_CONFIG", "_STAT", "_INST",
     )},
@@ -21,7 +21,7 @@ NAMED = {
 """Words that begin a block where a name follows; elsewhere they are names themselves."""
 BARE = {"UNION": "END_UNION", "GET": "END_GET", "SET": "END_SET"}
 """Words that begin a block where nothing that continues an expression follows."""
-STATEMENTS = frozenset(("IF", "CASE", "FOR", "WHILE", "REPEAT"))
+STATEMENTS = frozenset(("IF", "CASE", "FOR", "WHILE", "REPEAT", "__TRY"))
 POUS = frozenset(("PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "CLASS", "INTERFACE", "METHOD", "PROPERTY", "ACTION"))
 _BETWEEN = frozenset("PUBLIC PRIVATE PROTECTED INTERNAL ABSTRACT FINAL OVERRIDE".split())
 ENDS = frozenset((*CLOSED.values(), *NAMED.values(), *BARE.values()))

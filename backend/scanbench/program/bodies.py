@@ -21,6 +21,7 @@ from scanbench.program.program import (
     Return,
     SetBytes,
     Stmt,
+    Try,
     While,
 )
 from scanbench.program.types import Kind
@@ -37,6 +38,8 @@ def bodies(statement: Stmt) -> tuple[tuple[Stmt, ...], ...]:
             return (statement.body,)
         case Blocks(blocks):
             return blocks
+        case Try():
+            return statement.body, statement.handler, statement.final
         case Assign() | SetBytes() | CallBlock() | Evaluate() | Exit() | Continue() | Return() | Jump() | Halt():
             return ()
         case _:

@@ -357,6 +357,23 @@ class Jump:
 
 
 @dataclass(frozen=True, slots=True)
+class Try:
+    """Runs `body`. A trap in it, also in what it calls, whose kind has a code (`sites.EXCEPTIONS`), ends the body
+    there: `Layout.DEPTH` becomes what it was at the beginning, the code is stored in `code`, and `handler` runs.
+
+    Then `final` runs, also where body or handler leave (EXIT, CONTINUE, RETURN, a jump) or the handler traps itself with such a
+    kind; after it what was interrupted goes on. Nothing leaves `final`. A trap without a code ends the scan at once.
+    """
+
+    body: tuple["Stmt", ...]
+    code: Place
+    """A temporary, UDINT."""
+    handler: tuple["Stmt", ...]
+    final: tuple["Stmt", ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Halt:
     """Traps, always."""
 
@@ -366,6 +383,7 @@ class Halt:
 
 Stmt = (
     Assign | SetBytes | CallBlock | Evaluate | If | Case | For | While | Repeat | Exit | Continue | Return | Blocks | Jump | Halt
+    | Try
 )  # fmt: skip
 
 

@@ -18,6 +18,18 @@ class TrapKind(StrEnum):
     """The program called an instruction that stops the PLC (FALS and the like): see `Layout.ASKED`."""
 
 
+EXCEPTIONS = {
+    TrapKind.BOUNDS: 0x101,
+    TrapKind.DIVISION: 0x102,
+    TrapKind.NULL: 0x51,
+    TrapKind.STRING: 0x101,
+    TrapKind.ABSTRACT: 0x51,
+}
+"""The traps that __TRY catches, with their number in `__SYSTEM.ExceptionCode`: RTSEXCPT_ARRAYBOUNDS, RTSEXCPT_DIVIDEBYZERO,
+RTSEXCPT_ACCESS_VIOLATION (https://infosys.beckhoff.com/content/1033/tc3_plc_intro/6753940235.html). Not a LOOP, which stands
+for the watchdog, and not what the program asked for itself."""
+
+
 @dataclass(frozen=True, slots=True)
 class TrapSite:
     """A place that can trap; engines name it by its index in `Program.traps` plus one."""

@@ -13,6 +13,7 @@ _NAMES: dict[type, str] = {
     tree.ForStatement: "FOR",
     tree.WhileStatement: "WHILE",
     tree.RepeatStatement: "REPEAT",
+    tree.TryStatement: "__TRY",
     tree.ExitStatement: "EXIT",
     tree.ContinueStatement: "CONTINUE",
     tree.ReturnStatement: "RETURN",

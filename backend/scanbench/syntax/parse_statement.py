@@ -8,10 +8,11 @@ from scanbench.syntax.lexer import Lex
 from scanbench.syntax.parse_expression import expression
 from scanbench.syntax.parse_type import POU_ENDS, POU_STARTS, SECTIONS
 
-BLOCK_ENDS = frozenset(("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT"))
+BLOCK_ENDS = frozenset(("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT",
+                        "__CATCH", "__FINALLY", "__ENDTRY"))  # fmt: skip
 STOPS = BLOCK_ENDS | POU_ENDS | POU_STARTS | SECTIONS | {"VAR_ACCESS", "VAR_CONFIG", "END_VAR", ""}
 """What a statement cannot begin with, and where a list of them therefore ends."""
-STARTS = frozenset(("IF", "CASE", "FOR", "WHILE", "REPEAT", "EXIT", "RETURN"))
+STARTS = frozenset(("IF", "CASE", "FOR", "WHILE", "REPEAT", "EXIT", "RETURN", "__TRY"))
 DECLARATIONS = frozenset(
     ("METHOD", "PROPERTY", "PROPERTY_GET", "PROPERTY_SET", "ACTION", "CLASS", "INTERFACE", "NAMESPACE", "USING")
 )
@@ -20,11 +21,7 @@ OPERATORS_WITH_NAME = ("S", "R", "REF")
 CHART = "a chart (SFC) is a body of its own, without statements beside it"
 REFUSED = {
     "GOTO": "use IF and loops",
-    "__TRY": "check before you compute; a trap stops the PLC",
     "TRY": "check before you compute; a trap stops the PLC",
-    "__CATCH": "check before you compute; a trap stops the PLC",
-    "__FINALLY": "check before you compute; a trap stops the PLC",
-    "__ENDTRY": "check before you compute; a trap stops the PLC",
     "REGION": "remove it, and its END_REGION",
     "END_REGION": "remove it, and its REGION",
     **dict.fromkeys(("INITIAL_STEP", "STEP", "END_STEP", "TRANSITION", "END_TRANSITION"), CHART),
@@ -279,6 +276,24 @@ def _repeat(c: Cursor) -> tree.Statement:
     return tree.RepeatStatement(body, until, span)
 
 
+def _try(c: Cursor) -> tree.Statement:
+    start = c.take()
+    span = c.span_of(start)
+    body = statements(c)
+    caught, at = None, c.at
+    if c.accept("__CATCH"):
+        if c.accept("(") and not c.accept(")"):
+            caught = expression(c)
+            c.close(")", "after the variable of the __CATCH")
+    else:
+        c.report("S003", f"`__CATCH` expected after the __TRY of line {c.line_of(start)}{c.found()}.", c.here())
+    catch = c.span_from(at) if c.at > at else span
+    handler = statements(c)
+    final = statements(c) if c.accept("__FINALLY") else ()
+    _close_block(c, "__ENDTRY", start)
+    return tree.TryStatement(body, caught, catch, handler, final, span)
+
+
 KEYWORDS: dict[str, Callable[[Cursor], tree.Statement]] = {
     "IF": _if,
     "CASE": _case,
@@ -287,4 +302,5 @@ KEYWORDS: dict[str, Callable[[Cursor], tree.Statement]] = {
     "REPEAT": _repeat,
     "EXIT": _exit,
     "RETURN": _exit,
+    "__TRY": _try,
 }

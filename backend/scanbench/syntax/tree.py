@@ -525,6 +525,19 @@ class ReturnStatement:
 
 
 @node
+class TryStatement:
+    """`__TRY body __CATCH(caught) handler __FINALLY final __ENDTRY`; `caught` is None where nothing is in parentheses.
+    `catch` is the place of `__CATCH`."""
+
+    body: tuple["Statement", ...]
+    caught: Expression | None
+    catch: Span
+    handler: tuple["Statement", ...]
+    final: tuple["Statement", ...]
+    span: Span
+
+
+@node
 class LabelStatement:
     """`name:`, where a jump leads to."""
 
@@ -543,4 +556,5 @@ class JumpStatement:
 Statement = (
     Assignment | ExpressionStatement | IfStatement | CaseStatement | ForStatement | WhileStatement
     | RepeatStatement | ExitStatement | ContinueStatement | ReturnStatement | LabelStatement | JumpStatement
+    | TryStatement
 )  # fmt: skip

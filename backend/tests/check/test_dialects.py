@@ -73,6 +73,7 @@ USES = [
     (Allowance.ROUNDING, "d := r;", "REAL_TO_DINT(...)"),
     (Allowance.ROUNDING, "d := 2.5;", "`2`"),
     (Allowance.BLOCK_VARIABLES, "i := unit.level;", "VAR_OUTPUT"),
+    (Allowance.TRY, "__TRY i := i / j; __CATCH() i := 0; __ENDTRY", "IF divisor <> 0 THEN"),
 ]
 """What the strict language refuses, and a dialect allows; and what the warning says to write."""
 DIFFERENT = [
@@ -94,6 +95,9 @@ REFUSED = [
     "state := 300.0;",
     "w := -w;",
     "d := MAX(dw, d);",  # a negative d
+    "__TRY i := 1; __CATCH() i := 2; __FINALLY RETURN; __ENDTRY",
+    "WHILE ok DO __TRY i := 1; __CATCH() i := 2; __FINALLY EXIT; __ENDTRY END_WHILE",
+    "__TRY i := 1; __CATCH(i) i := 2; __ENDTRY",
 ]
 """What no dialect allows, as no documentation says what it computes."""
 

@@ -127,6 +127,14 @@ def test_a_text_that_cannot_be_read_stays_as_it_is(text: str) -> None:
     assert formatted(FILE, text) is None
 
 
+def test_try_has_its_parts_at_its_own_level() -> None:
+    text = "PROGRAM p\n__try\na:=1;\nIF a=1 THEN\nb:=2;END_IF\n__catch ( e )\nb:=3;\n__finally\nc:=4;\n__endtry\nd:=5;\nEND_PROGRAM\n"
+    assert formatted("a.st", text) == (
+        "PROGRAM p\n  __TRY\n    a := 1;\n    IF a = 1 THEN\n      b := 2; END_IF\n  __CATCH (e)\n    b := 3;\n  __FINALLY\n"
+        "    c := 4;\n  __ENDTRY\n  d := 5;\nEND_PROGRAM\n"
+    )
+
+
 def test_il_keeps_its_columns() -> None:
     text = "PROGRAM Main\nVAR a,b : INT; END_VAR\n        LD    a\n  go:   ADD   b\n        ST    a\nEND_PROGRAM\n"
     assert formatted(FILE, text) == text.replace("a,b", "a, b")

@@ -36,6 +36,10 @@ def test_the_keywords_of_a_block_belong_together(before: str, after: str, expect
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
+        (
+            "PROGRAM p\n__TRY\na := 1;\n__CAT|CH(e)\n__FINALLY\n__ENDTRY\nEND_PROGRAM",
+            ["[__TRY]", "[__CATCH](e)", "[__FINALLY]", "[__ENDTRY]"],
+        ),
         ("PROGRAM p\n|VAR\na : INT;\nEND_VAR\nEND_PROGRAM", ["[VAR]", "[END_VAR]"]),
         (
             "PROGRAM p\nCASE a OF\n1: b := 1;\nELSE\nb := 2;\nEND_CA|SE;\nEND_PROGRAM",

@@ -69,6 +69,8 @@ def written(node: object, used: set[str]) -> Iterator[Span]:
         if isinstance(node, chart.Chart):
             yield from of_chart(node)
             return
+        if isinstance(node, tree.TryStatement):
+            yield from (node.span, node.catch) if node.caught is not None else (node.span,)
         if isinstance(node, STATEMENTS):
             yield node.span
         elif isinstance(node, tree.IlInstruction):

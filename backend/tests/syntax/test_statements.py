@@ -57,9 +57,11 @@ def test_what_is_refused_is_named(text: str, complaint: str) -> None:
     assert not any("4:1" in each for each in found[1:]), found
 
 
-def test_try_is_named_part_by_part() -> None:
-    found = complaints("PROGRAM p\n__TRY\nx := 1;\n__CATCH(e)\nx := 2;\n__FINALLY\nx := 3;\n__ENDTRY\nEND_PROGRAM")
-    assert [each[:8] for each in found] == ["X001 2:1", "X001 4:1", "X001 6:1", "X001 8:1"]
+def test_try_has_a_catch_and_an_end() -> None:
+    whole = "PROGRAM p\n__TRY\nx := 1;\n__CATCH(e)\nx := 2;\n__FINALLY\nx := 3;\n__ENDTRY\nEND_PROGRAM"
+    assert not complaints(whole)
+    assert [each[:8] for each in complaints(whole.replace("__CATCH(e)\nx := 2;\n", ""))] == ["S003 4:1"]
+    assert [each[:8] for each in complaints(whole.replace("__ENDTRY\n", ""))] == ["S003 8:1"]
 
 
 def test_each_bad_statement_is_one_problem() -> None:

@@ -22,6 +22,7 @@ from scanbench.program.program import (
     Repeat,
     Return,
     Stmt,
+    Try,
     While,
 )
 from scanbench.program.types import BOOL, Member, Record, actual_of
@@ -65,5 +66,10 @@ def _before_return(stmt: Stmt, back: tuple[Stmt, ...]) -> Stmt:
             return replace(stmt, body=_before_returns(stmt.body, back))
         case Blocks():
             return replace(stmt, blocks=tuple(_before_returns(block, back) for block in stmt.blocks))
+        case Try():
+            body, handler = _before_returns(stmt.body, back), _before_returns(stmt.handler, back)
+            # what `final` changes after a RETURN is copied as well
+            final = (*stmt.final, *back) if stmt.final and (body, handler) != (stmt.body, stmt.handler) else stmt.final
+            return replace(stmt, body=body, handler=handler, final=final)
         case _:
             return stmt

@@ -101,6 +101,8 @@ class Body:
     """Control variables of the FOR loops around."""
     loops: int = 0
     """Loops around."""
+    final: int | None = None
+    """Loops around where the innermost __FINALLY began; None outside of one."""
     labels: dict[str, int] = field(default_factory=dict)
     """Blocks of statements that begin with a label, by its name in upper case."""
     block: int = 0

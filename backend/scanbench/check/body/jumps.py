@@ -1,6 +1,7 @@
 """Labels and JMP in Structured Text, where the dialect has them: a jump leads to a label among the statements of the POU itself."""
 
 from scanbench.check.body.allowed import allowed
+from scanbench.check.body.catching import leaves
 from scanbench.check.body.context import Body
 from scanbench.check.dialect import Allowance
 from scanbench.program.program import Jump
@@ -36,9 +37,10 @@ def jump(body: Body, node: tree.LabelStatement | tree.JumpStatement) -> Jump:
     if isinstance(node, tree.LabelStatement):
         raise body.report.reject(
             "X001",
-            f"The label `{node.name}` is inside of an IF, CASE or loop, and no jump leads into one. Put it before or after that.",
+            f"The label `{node.name}` is inside of an IF, CASE, loop or __TRY, and no jump leads into one. Put it before or after that.",
             node.span,
         )
+    leaves(body, "JMP", node.span)
     target = body.labels.get(node.name.upper())
     if target is None:
         raise body.report.reject(

@@ -25,7 +25,7 @@ from scanbench.syntax.networks import NetworkBody
 
 def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart) -> tuple[Stmt, ...]:
     """The body of a POU, in the language in which it is written."""
-    body.counters, body.loops = [], 0
+    body.counters, body.loops, body.final = [], 0, None
     prologue, checks = _prologue(body), len(body.report.checks)
     if body.pou is not None and body.pou.kind != "function":
         prologue += edges(body.pou.instance)

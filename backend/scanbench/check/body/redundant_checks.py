@@ -33,6 +33,7 @@ from scanbench.program.program import (
     Sequence,
     SetBytes,
     Stmt,
+    Try,
     Unary,
     Violates,
     While,
@@ -94,13 +95,18 @@ class _Needless:
             case For() | While() | Repeat():
                 return self.loop(node)
             case Blocks(blocks):
-                made_blocks = []
-                for block in blocks:
-                    self.facts = {}
-                    made_blocks.append(self.block(block))
-                self.facts = {}
-                return replace(node, blocks=tuple(made_blocks))
+                return replace(node, blocks=tuple(self.alone(block) for block in blocks))
+            case Try(body, handler=handler, final=final):
+                body, handler, final = (self.alone(each) for each in (body, handler, final))
+                return replace(node, body=body, handler=handler, final=final)
         return node  # EXIT, CONTINUE, RETURN, a jump
+
+    def alone(self, body: tuple[Stmt, ...]) -> tuple[Stmt, ...]:
+        """Statements that are come to from anywhere, and left to anywhere."""
+        self.facts = {}
+        made = self.block(body)
+        self.facts = {}
+        return made
 
     def assign(self, node: Assign) -> Stmt:
         value, target = self.expr(node.value), self.place(node.target)

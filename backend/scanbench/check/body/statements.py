@@ -8,6 +8,7 @@ from scanbench.check.body.allowed import allowed
 from scanbench.check.body.assignments import assign, condition
 from scanbench.check.body.bare import bare_call
 from scanbench.check.body.calls import call_statement
+from scanbench.check.body.catching import leaves, try_statement
 from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
 from scanbench.check.body.jumps import jump
@@ -16,6 +17,7 @@ from scanbench.check.body.subrange_checks import into
 from scanbench.check.body.unreached import never_chosen, unreached
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
+from scanbench.program.bodies import bodies
 from scanbench.program.program import (
     Case,
     Const,
@@ -30,6 +32,7 @@ from scanbench.program.program import (
     Repeat,
     Return,
     Stmt,
+    Try,
     While,
 )
 from scanbench.program.shown import shown
@@ -77,21 +80,28 @@ def statement(body: Body, node: tree.Statement) -> Stmt | None:
             trap = body.trap(TrapKind.LOOP, node.span, "this REPEAT does not end")
             inner = _loop(body, node.body)
             return Repeat(inner, condition(body, node.until), trap, node.span)
-        case tree.ExitStatement(span):
-            if body.loops == 0:
-                raise body.report.reject("T009", "EXIT is in no loop; RETURN leaves the POU.", span)
-            return Exit(span)
-        case tree.ContinueStatement(span):
-            if body.loops == 0:
-                raise body.report.reject("T009", "CONTINUE is in no loop; RETURN leaves the POU.", span)
-            return Continue(span)
+        case tree.ExitStatement() | tree.ContinueStatement():
+            return _leave(body, node)
         case tree.ReturnStatement():
             return _return(body, node)
         case tree.LabelStatement() | tree.JumpStatement():
             return jump(body, node)
+        case tree.TryStatement():
+            return try_statement(body, node, block)
+
+
+def _leave(body: Body, node: tree.ExitStatement | tree.ContinueStatement) -> Stmt:
+    word, made = (
+        ("EXIT", Exit(node.span)) if isinstance(node, tree.ExitStatement) else ("CONTINUE", Continue(node.span))
+    )
+    if body.loops == 0:
+        raise body.report.reject("T009", f"{word} is in no loop; RETURN leaves the POU.", node.span)
+    leaves(body, word, node.span, body.loops)
+    return made
 
 
 def _return(body: Body, node: tree.ReturnStatement) -> Stmt:
+    leaves(body, "RETURN", node.span)
     if node.condition is None:
         return Return(node.span)
     test = condition(body, node.condition)
@@ -272,5 +282,8 @@ def _leaves(statements: tuple[Stmt, ...], outer: bool) -> bool:
                     return True
             case For(body=inner) | While(body=inner) | Repeat(body=inner):
                 if _leaves(inner, outer=False):
+                    return True
+            case Try():
+                if any(_leaves(inner, outer) for inner in bodies(each)):
                     return True
     return False

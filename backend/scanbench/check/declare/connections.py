@@ -8,7 +8,8 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
-from scanbench.program.program import Assign, CallBlock, Case, For, If, Load, Place, Repeat, Stmt, While
+from scanbench.program.bodies import bodies
+from scanbench.program.program import Assign, CallBlock, Load, Place, Stmt
 from scanbench.program.shown import shown
 from scanbench.program.tasks import ProgramInstance
 from scanbench.program.types import BOOL, Kind, Member, Record, Section
@@ -148,11 +149,7 @@ def calls_instance(body: tuple[Stmt, ...], offset: int) -> bool:
             case CallBlock(instance=place):
                 if place.slot is None and place.reference is None and place.offset == offset and not place.indices:
                     return True
-            case If(branches, orelse) | Case(_, branches, orelse):
-                bodies = [inner for _, inner in branches]
-                if any(calls_instance(inner, offset) for inner in [*bodies, orelse]):
-                    return True
-            case For(body=inner) | While(body=inner) | Repeat(body=inner):
-                if calls_instance(inner, offset):
+            case _:
+                if any(calls_instance(inner, offset) for inner in bodies(statement)):
                     return True
     return False

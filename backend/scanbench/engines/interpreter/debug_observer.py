@@ -124,6 +124,14 @@ class DebugObserver(ReferenceObserver):
 
         return marked
 
+    def tries(self) -> object:
+        return len(self._frames), self._site
+
+    def caught(self, known: object) -> None:
+        assert isinstance(known, tuple)
+        depth, self._site = known
+        del self._frames[depth:]
+
     def statement(self, node: Stmt, run: Run) -> Run:
         """The closure of a statement, before which it may halt."""
         site = self.sites.number(node)

@@ -26,6 +26,7 @@ from scanbench.program.program import (
     Load,
     Place,
     Pou,
+    Program,
     RefOf,
     Stmt,
     Unary,
@@ -43,6 +44,7 @@ class Bodies(Protocol):
 
     memory: bytearray
     state_size: int
+    program: Program
     record: Record
     observer: ReferenceObserver | None
     """Of observed code."""
@@ -236,7 +238,12 @@ class Expressions(ABC):
             kept = b"" if memory is None else bytes(memory[begin:end])
             for (put, at), argument in zip(fill, arguments, strict=True):
                 put(at, argument)
-            body(0)
+            try:
+                body(0)
+            except Trapped:  # what is in the frame may be in use by who catches that
+                if memory is not None:
+                    memory[begin:end] = kept
+                raise
             answer = result(0)
             returned = [read(0) for read, _ in outputs]
             if memory is not None:

@@ -51,6 +51,13 @@ class ReferenceObserver(Observer):
         """The closure of one way that a statement can go, see `Sites.outcome`."""
         return run
 
+    def tries(self) -> object:
+        """A __TRY begins; gives what `caught` needs to know."""
+        return None
+
+    def caught(self, known: object) -> None:
+        """A trap in this __TRY, or in what it called, is caught."""
+
     # ---- while the program runs -----------------------------------------------------------------------------
 
     @contextmanager

@@ -9,7 +9,7 @@ from dataclasses import replace
 from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.expressions import SLOT, Body, Expressions
 from scanbench.engines.interpreter.memory import putter
-from scanbench.engines.interpreter.places import Trapped
+from scanbench.engines.interpreter.places import Places, Trapped
 from scanbench.program.bodies import keeps_bits
 from scanbench.program.layout import Layout
 from scanbench.program.program import (
@@ -29,8 +29,10 @@ from scanbench.program.program import (
     Return,
     SetBytes,
     Stmt,
+    Try,
     While,
 )
+from scanbench.program.sites import EXCEPTIONS
 from scanbench.program.types import DWORD, LWORD, Elementary
 from scanbench.program.untyped import bounds
 
@@ -87,6 +89,8 @@ class Statements(Expressions):
                 return self._blocks(node)
             case Exit() | Continue() | Return() | Jump() | Halt():
                 return self._leave(node)
+            case Try():
+                return self._try(node)
 
     def _assign(self, node: Assign) -> Body:
         if keeps_bits(node) and isinstance(node.value, Load):
@@ -140,6 +144,41 @@ class Statements(Expressions):
             raise Trapped(trap)
 
         return halt
+
+    def _try(self, node: Try) -> Body:
+        body, handler, final = self.block(node.body), self.block(node.handler), self.block(node.final)
+        store, memory, observer = Places.write(self.places, node.code), self.memory, self.bodies.observer
+        traps, depth = self.bodies.program.traps, slice(Layout.DEPTH, Layout.DEPTH + 4)
+
+        def attempt(instance: int) -> int:
+            before, known = memory[depth], None if observer is None else observer.tries()
+
+            def caught(trapped: Trapped) -> int:
+                """Its code; raises it again if it has none."""
+                code = EXCEPTIONS.get(traps[trapped.trap - 1].kind, 0) if trapped.trap <= len(traps) else 0
+                if code == 0:
+                    raise trapped
+                memory[depth] = before
+                if observer is not None:
+                    observer.caught(known)
+                return code
+
+            again: Trapped | None = None
+            try:
+                end = body(instance)
+            except Trapped as trapped:
+                store(instance, caught(trapped))
+                try:
+                    end = handler(instance)
+                except Trapped as other:
+                    caught(other)
+                    end, again = GO_ON, other
+            final(instance)
+            if again is not None:
+                raise again
+            return end
+
+        return attempt
 
     # ---- calls --------------------------------------------------------------------------------------------------
 

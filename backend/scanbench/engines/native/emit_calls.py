@@ -2,7 +2,7 @@
 
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
-from scanbench.engines.native.emit_function import Value
+from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_memory import move
 from scanbench.engines.native.emit_places import address, reference
 from scanbench.engines.native.emit_strings import Piece, as_one, settled
@@ -81,7 +81,7 @@ def _call(body: Body, call: CallFunction) -> Held | None:
     body.unit.flavour.calls(body, call.pou)
     kept = _kept(body, call.pou)
     status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)}){body.swallow(call.pou)}")
-    body.text.check_status(status)
+    _pass_on(body, status, call.pou, kept)
     # all is read before the first is stored: finding out where may call this function again
     disturbed = bool(kept) or any(walk.address_disturbs(place) for _, _, place in outputs)
     values = [(read(body, pointer, each.member.type, disturbed), place) for each, pointer, place in outputs]
@@ -99,6 +99,20 @@ def _kept(body: Body, callee: Pou) -> str:
         return ""
     room = body.text.room(body.unit.symbol(callee), callee.frame.size)  # in use during one call at a time
     return move(body, room, body.text.address(body.image, callee.frame_offset), callee.frame.size)
+
+
+def _pass_on(body: Body, status: str, callee: Pou, kept: str) -> None:
+    """Passes on the trap of a callee; what is in its frame may be in use by who catches that."""
+    if not kept:
+        body.text.check_status(status)
+        return
+    text = body.text
+    failed, on = text.name("failed"), text.name("on")
+    text.choose(text.op(f"icmp ne i32 {status}, 0"), failed, on, UNLIKELY)
+    text.begin(failed)
+    move(body, text.address(body.image, callee.frame_offset), kept, callee.frame.size)
+    text.go(text.fail(status))
+    text.begin(on)
 
 
 def _room(body: Body, call: CallFunction, parameter: Parameter) -> str:

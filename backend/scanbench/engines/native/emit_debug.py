@@ -231,6 +231,13 @@ class Debugging(Observing):
         if body.site is not None:  # which may be after others inside of it have run
             body.text.do(f"store i32 {body.site}, ptr {body.text.address(body.frame, 4)}, align 4")
 
+    def tries(self, body: Body) -> str:
+        return body.text.op(f"load i32, ptr getelementptr (i8, ptr {STATE}, i64 {DEPTH}), align 8")
+
+    def caught(self, body: Body, known: str) -> None:
+        # the frames of what it called are left
+        body.text.do(f"store i32 {known}, ptr getelementptr (i8, ptr {STATE}, i64 {DEPTH}), align 8")
+
     @contextmanager
     def loop(self, body: Body, statement: Stmt) -> Iterator[None]:
         outer, body.idle = body.idle, body.text.alloca("i8")

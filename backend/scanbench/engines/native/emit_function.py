@@ -45,8 +45,9 @@ class FunctionText:
         self.lines: list[str] = []
         self.block = "start"
         self._count = 0
-        self._failures: dict[str, str] = {}
+        self._failures: dict[tuple[str, str, str], str] = {}
         self._trapping_to = ""
+        self._catching = "", ""
         self._rooms: dict[str, str] = {}
         self._addresses: dict[tuple[str, int], str] = {}
         """Those computed in this block."""
@@ -89,10 +90,19 @@ class FunctionText:
         """The block that leaves the function with this status: the number of a trap, a value, or less than 0."""
         if self._trapping_to:
             return self._trapping_to
-        label = self._failures.get(status)
+        where = ("", "") if status.startswith("-") else self._catching
+        label = self._failures.get((status, *where))
         if label is None:
-            label = self._failures[status] = self.name("fail")
+            label = self._failures[status, *where] = self.name("fail")
         return label
+
+    @contextmanager
+    def catching(self, label: str, status: str) -> Iterator[None]:
+        """Traps, also of callees, go on at a block meanwhile, with their status in a variable of the stack. So does a status of
+        a callee that is no trap."""
+        outer, self._catching = self._catching, (label, status)
+        yield
+        self._catching = outer
 
     @contextmanager
     def trapping_to(self, label: str) -> Iterator[None]:
@@ -167,13 +177,19 @@ class FunctionText:
 
     def text(self) -> str:
         """The function, ready to be parsed."""
-        failures = [line for status, label in self._failures.items() for line in (f"{label}:", *self._leaving(status))]
+        failures = [line for where, label in self._failures.items() for line in (f"{label}:", *self._leaving(*where))]
         parts = [f"{self.header} {{", "entry:", *self.entry, "  br label %start", "start:", *self.lines, *failures, "}"]
         return "\n".join(parts)
 
-    def _leaving(self, status: str) -> list[str]:
-        if not self.first_trap or status.startswith(("%", "-")):
-            return [f"  ret i32 {status}"]
-        first, trap = self.name(), self.name()
-        load = f"  %{first} = load i32, ptr {self.first_trap}, align 4"
-        return [load, f"  %{trap} = add i32 %{first}, {status}", f"  ret i32 %{trap}"]
+    def _leaving(self, status: str, to: str, variable: str) -> list[str]:
+        lines = []
+        if self.first_trap and not status.startswith(("%", "-")):
+            first, trap = self.name(), self.name()
+            lines = [
+                f"  %{first} = load i32, ptr {self.first_trap}, align 4",
+                f"  %{trap} = add i32 %{first}, {status}",
+            ]
+            status = f"%{trap}"
+        if to:
+            return [*lines, f"  store i32 {status}, ptr {variable}, align 4", f"  br label %{to}"]
+        return [*lines, f"  ret i32 {status}"]

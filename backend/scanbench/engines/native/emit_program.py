@@ -12,9 +12,11 @@ from scanbench.engines.native import emit_pou, emit_scan, inlining
 from scanbench.engines.native.effects import Effects
 from scanbench.engines.native.emit_body import Unit
 from scanbench.engines.native.emit_checks import LIST
+from scanbench.engines.native.emit_try import CODES
 from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature
 from scanbench.program.program import Pou, Program
+from scanbench.program.sites import EXCEPTIONS
 
 
 class Emitter:
@@ -106,7 +108,15 @@ class Emitter:
             unit.module.add(f"{first_trap(name)} = {linkage}constant i32 {pou.first_trap}")
             unit.module.add(f"{first_check(name)} = {linkage}constant i32 {pou.first_check}")
         unit.module.add(f"{LIST} = {linkage}constant i64 {self._program.layout.violations}")
+        unit.module.define(CODES, f"{linkage}constant {_codes(self._program)}, align 2")
         self._flavour.declare(unit)
+
+
+def _codes(program: Program) -> str:
+    """What __TRY says of each trap; 0 for what it does not catch. The first one has number 1."""
+    codes = (0, *(EXCEPTIONS.get(each.kind, 0) for each in program.traps))
+    text = "".join(f"\\{code & 0xFF:02X}\\{code >> 8:02X}" for code in codes)
+    return f'[{2 * len(codes)} x i8] c"{text}"'
 
 
 def emit_program(program: Program, flavour: Flavour = RUN) -> str:

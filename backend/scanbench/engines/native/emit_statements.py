@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import assert_never
 
-from scanbench.engines.native import emit_calls, emit_loops, emit_pieces, walk
+from scanbench.engines.native import emit_calls, emit_loops, emit_pieces, emit_try, walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import canonical, load_at, move, put
@@ -29,6 +29,7 @@ from scanbench.program.program import (
     Return,
     SetBytes,
     Stmt,
+    Try,
     While,
 )
 from scanbench.program.types import Elementary, Kind
@@ -84,6 +85,8 @@ def one(body: Body, statement: Stmt) -> None:
             blocks(body, inner)
         case Exit() | Continue() | Return() | Jump() | Halt():
             leave(body, statement)
+        case Try():
+            emit_try.run(body, statement)
         case _:
             assert_never(statement)
 

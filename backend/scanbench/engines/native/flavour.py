@@ -71,6 +71,13 @@ class Flavour:
     def calls(self, body: "Body", callee: Pou) -> None:
         """The statement is about to call."""
 
+    def tries(self, body: "Body") -> str:
+        """A __TRY begins; gives what `caught` needs to know."""
+        return ""
+
+    def caught(self, body: "Body", known: str) -> None:
+        """A trap in a __TRY of this body, or in what it called, is caught."""
+
     def loop(self, body: "Body", statement: Stmt) -> AbstractContextManager[None]:
         """Around a FOR or WHILE."""
         return _NOTHING

@@ -38,6 +38,7 @@ from scanbench.program.program import (
     Sequence,
     SetBytes,
     Stmt,
+    Try,
     Unary,
     Violates,
     While,
@@ -114,7 +115,19 @@ def _statements(statements: Iterable[Stmt], seen: list[Seen]) -> None:
 
 
 def _rarer(
-    statement: SetBytes | Evaluate | Case | For | While | Repeat | Exit | Continue | Return | Blocks | Jump | Halt,
+    statement: SetBytes
+    | Evaluate
+    | Case
+    | For
+    | While
+    | Repeat
+    | Exit
+    | Continue
+    | Return
+    | Blocks
+    | Jump
+    | Halt
+    | Try,
     seen: list[Seen],
 ) -> None:
     """What the statement touches, without those inside of it."""
@@ -133,6 +146,8 @@ def _rarer(
             _expression(condition, seen)
         case Repeat(_, until):
             _expression(until, seen)
+        case Try():
+            _place(statement.code, Use.WRITE, seen)
         case Exit() | Continue() | Return() | Blocks() | Jump() | Halt():
             return
         case _:

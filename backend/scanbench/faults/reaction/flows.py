@@ -41,6 +41,7 @@ from scanbench.program.program import (
     Return,
     SetBytes,
     Stmt,
+    Try,
     While,
 )
 from scanbench.program.types import Reference, Type
@@ -133,6 +134,20 @@ class Flows:
                 if written:
                     yield Flow(deciding, controls, written)
                 yield from self._inside(stmt, controls, controls | deciding, leaves)
+            case Try():
+                deciding = self._trapping(stmt.body)
+                yield Flow(deciding, controls, (ref_of(stmt.code),))
+                yield from self._inside(stmt, controls, controls | deciding, leaves)
+
+    def _trapping(self, body: Iterable[Stmt]) -> frozenset[Ref]:
+        """All that may decide whether one of these statements traps: what they read, and what the blocks read that they call."""
+        found: set[Ref] = set()
+        for flow in self.of_statements(body):
+            found |= flow.reads | flow.controls
+            if flow.call is not None:
+                inner = self._trapping(flow.call.pou.body)
+                found |= {flow.call.instance, *(each for each in inner if each.base in (Base.IMAGE, None))}
+        return frozenset(found)
 
     def _inside(
         self, stmt: Stmt, controls: frozenset[Ref], inner: frozenset[Ref], leaves: set[Ref]
