@@ -1,12 +1,13 @@
 """The debugger of one PLC: breakpoints, halts, steps, forward and back. In the thread that runs the scans."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 from scanbench.debug.assign import Assign, Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.breakpoints import Breakpoints
-from scanbench.debug.goals import Goal
+from scanbench.debug.goals import Goal, Within
 from scanbench.debug.halt import Found, Halt, halt_of
 from scanbench.debug.listener import Actions, Listener, Position
 from scanbench.debug.past import Past
@@ -23,7 +24,7 @@ from scanbench.runtime.command import Command, Entry, Plan, Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 
-STEPS = ("continue", "in", "over", "out", "statement", "scan", "to", "pause", "entry")
+STEPS = ("continue", "in", "within", "over", "out", "statement", "scan", "to", "pause", "entry")
 
 MOST_ASSIGNED = 1_000
 """In one scan: each time is an entry of the journal, and nobody is served meanwhile."""
@@ -219,7 +220,9 @@ class Debugger:
         else:
             self._halted(Found(halt.reason, f"{halt.text}; the scan ran to its end", halt.by, halt.breakpoints))
 
-    def step(self, action: str, author: str, file: str = "", line: int = 0, path: str = "") -> Refusal | None:
+    def step(
+        self, action: str, author: str, file: str = "", line: int = 0, path: str = "", within: Within | None = None
+    ) -> Refusal | None:  # fmt: skip
         """Begins a step, which is over when `halt` has a new number. Steps back are completed at once."""
         if action in ("back", "reverse"):
             return self._back(action, author, path)
@@ -228,6 +231,8 @@ class Debugger:
         goal = _goal_of(self.resource, self.placing, action, author, file, line)
         if isinstance(goal, Refusal):
             return goal
+        if within is not None:
+            goal = replace(goal, within=within)
         if self._timeline.past:
             self._past_halt = None
             self._past.begin(goal)

@@ -2,10 +2,22 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from scanbench.engines.debug import Frame
 
 Frames = Callable[[], tuple[Frame, ...]]
+
+
+class Within(Protocol):
+    """A range of the program."""
+
+    @property
+    def sites(self) -> frozenset[int]:
+        """Its statements."""
+
+    def holds(self, frames: tuple[Frame, ...]) -> bool:
+        """Whether the statement that is next, or a call that leads to it, is one of them. `frames`: innermost first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,10 +32,13 @@ class Goal:
     """`to`: the statements of the line."""
     minor: frozenset[int] = field(default_factory=frozenset)
     """`over`: the contacts, which it does not end at."""
+    within: Within | None = None
+    """`within`: what it ends at."""
 
-    @property
-    def listens(self) -> frozenset[int] | None:
-        """The statements at which it may end; None: at any."""
+    def listens(self, scan: int) -> frozenset[int] | None:
+        """The statements at which it may end in a scan; None: at any."""
+        if self.within is not None:  # it can be inside of its calls only where it began there
+            return None if scan == self.scan and self.within.holds(self.frames) else self.within.sites
         return self.sites if self.action == "to" else None
 
     def reached(self, site: int, count: int, depth: int, frames: Frames, scan: int) -> bool:
@@ -33,6 +48,8 @@ class Goal:
                 return False
             case "to":
                 return site in self.sites
+            case "within":
+                return self.within is not None and self.within.holds(frames())
             case "scan":
                 return scan > self.scan
             case "entry":
@@ -66,6 +83,6 @@ class Goal:
     def words(self) -> str:
         """For people."""
         return {
-            "in": "step in", "over": "step over", "out": "step out", "statement": "single statement",
+            "in": "step in", "within": "step in the range", "over": "step over", "out": "step out", "statement": "single statement",
             "scan": "single scan", "to": "run to line", "pause": "pause", "entry": "entry", "continue": "continue",
         }.get(self.action, self.action) + f" by {self.author}"  # fmt: skip

@@ -85,10 +85,11 @@ class Listener:
     def _tell(self, in_scan: bool = False) -> None:
         """`in_scan`: its first statement has begun."""
         goal, end = self.goal, self.passed.end
-        listens = goal.listens if goal is not None and goal.action != "continue" else frozenset[int]()
+        scan = self._resource.header.scan
+        listens = goal.listens(scan) if goal is not None and goal.action != "continue" else frozenset[int]()
         every = self.pending is not None or bool(self._violations or self._due) or listens is None
         count = 1 if end is not None or self._watching.bytes or self._first or self._scans else 0
-        if in_scan and end is not None and end[0] == self._resource.header.scan:
+        if in_scan and end is not None and end[0] == scan:
             count = end[1]  # the last scan that is kept: it ends in the middle
         sites = frozenset(self._at) | self._first | (listens or frozenset())
         self._resource.listening.listen(Listen(sites, every, count, self._watching.bytes))

@@ -13,6 +13,8 @@ from scanbench.program.program import Program
 from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.resource import Resource, not_kept
+from scanbench.verify.contract import BadRange
+from scanbench.verify.ranges import resolve_range
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import BadMessage, pack_body, unpack_kept
@@ -199,7 +201,12 @@ class Driving:
         elif runs and action in ("over", "out", "scan"):
             action = "in"
         program = self._resource.program
-        refusal = debugger.step(action, step.author, step.file, step.line, step.path)
+        try:
+            within = None if step.range is None else resolve_range(program, debugger.placing.sites, step.range)
+        except BadRange as bad:  # a different program runs by now
+            self._answers.answer(step.ref, Refusal(str(bad), bad.near), action)
+            return
+        refusal = debugger.step(action, step.author, step.file, step.line, step.path, within)
         if refusal is None and not self._timeline.past:
             pacer.go()
         self._shown_moved(program)

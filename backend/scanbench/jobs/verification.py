@@ -74,7 +74,7 @@ class VerifyJob:
             case VerifyStep():
                 verifier = self._begun()
                 verifier.follow(request.until)
-                step = verifier.step(request.scan, request.count)
+                step = verifier.step(request.scan, request.after, request.count)
                 return _told(ScansDone, request.ref, [step], whole=False)
             case SetInputs():
                 rows = self._begun().set_inputs(request.edits)

@@ -73,7 +73,7 @@ def _row(row: Row, columns: dict[str, Column]) -> Json:
 
     return {
         "kind": row.kind, "scan": row.scan, "call": row.call, "count": row.count, "instance": row.instance,
-        "place": _place(row.place), "compared": row.compared, "differs": row.differs,
+        "place": _place(row.place), "next": _place(row.next), "compared": row.compared, "differs": row.differs,
         "outputs": {
             name: {"control": text(name, each.control), "monitor": text(name, each.monitor), "set": text(name, each.set)}
             for name, each in row.outputs.items() if name in columns
@@ -83,6 +83,7 @@ def _row(row: Row, columns: dict[str, Column]) -> Json:
             for name, each in row.inputs.items() if name in columns
         },
         "disturbances": list(row.disturbances), "used": row.used, "note": row.note or None,
+        "consequences": [each.message for each in row.consequences],
     }  # fmt: skip
 
 

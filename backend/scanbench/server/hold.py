@@ -4,6 +4,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from scanbench.session.session import Session
+from scanbench.verify.contract import Range
 from scanbench.wire.debugging import Step
 from scanbench.wire.events import VerifyPace
 from scanbench.wire.host import Ack
@@ -38,11 +39,11 @@ class Hold:
                 await session.drive("continue", None, author)
         self.held = False
 
-    async def advance(self, pace: VerifyPace, author: str) -> None:
-        """One scan or statement further; `Refused`."""
+    async def advance(self, pace: VerifyPace, author: str, range: Range) -> None:
+        """One scan further, or to the next statement of the range; `Refused`."""
         if pace == "scan":
             ack = await self._session.drive("scan", None, author)
         else:
-            ack = await self._session.debug(lambda ref: Step(ref, "in", author), Ack)
+            ack = await self._session.debug(lambda ref: Step(ref, "within", author, range=range), Ack)
         if not ack.ok:
             raise Refused(ack.message, ack.near)

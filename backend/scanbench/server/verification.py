@@ -16,7 +16,7 @@ from scanbench.server.hold import Hold
 from scanbench.server.verify_rows import Rows
 from scanbench.server.verify_status import begun, verified, with_stretches
 from scanbench.session.session import Session
-from scanbench.verify.contract import Memory
+from scanbench.verify.contract import AT_END, Memory
 from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
@@ -86,10 +86,10 @@ class Verification:
         """A request for scans is under way."""
         self._next = 0
         """The scan that is to be verified next."""
-        self._count = 0
-        """Of a stretch of the past that is gone through step by step: the statement that is next."""
-        self._stepping = 0
-        """The statement of the step that is under way; -1: it is the seam; 0: whole scans are."""
+        self._at = (-1, 0)
+        """Scan and count of the statement where the last step ended; the next one is about it. Count 0: of none."""
+        self._stepping = False
+        """A step is under way, not whole scans."""
         self._until = 0
         """Scans before this one were over as scans were asked for."""
         self._halt = 0
@@ -267,32 +267,44 @@ class Verification:
             if status.pace == "scan":
                 self._scans(self._next, self._next, until)
             else:
-                self._count += 1
-                self._step(self._next, self._count, until)
+                self._step(self._next, 0, until)
         elif status.state != "waiting":
             self._change(state="waiting")
 
     def _poke_halt(self, live: int) -> None:
         halt = self.session.state.halt
-        if halt is None and self._next < self._live_end and self._live_end > live:  # the last step was a run-time error
+        trapped = (
+            halt is None and self._next < self._live_end and self._live_end > live
+        )  # the last step was a run-time error
+        moved = halt is not None and not halt.past and halt.number != self._halt
+        if not trapped and not moved:
+            return
+        if self._at[1] and (halt is None or halt.scan > self._at[0]) and self._at[0] == self._next:
+            self._step(
+                self._at[0], AT_END, live
+            )  # the last statement of that scan, before the scan is compared as a whole
+        elif halt is None:
             self._scans(self._next, live, live)
-            return
-        if halt is None or halt.past or halt.number == self._halt:
-            return
-        if self._next < halt.scan:  # those that are over by now are compared as a whole
+        elif self._next < halt.scan:  # those that are over by now are compared as a whole
             if halt.scan - self._next > MOST_LAG:
                 self._skip(halt.scan - CAUGHT_UP)
             self._scans(self._next, halt.scan - 1, live)
-            return
-        self._halt = halt.number
-        self._step(halt.scan, halt.count, live)
+        else:
+            self._halt = halt.number
+            if halt.count:
+                self._step(halt.scan, halt.count, live)
+            else:
+                self._change(state="waiting")
 
     def _step(self, scan: int, count: int, until: int) -> None:
-        self._stepping = count or -1
-        self._verify(lambda ref: VerifyStep(ref, scan, count, until))
+        """From where the last one ended, where that was in this scan; `count` as in `Verifier.step`."""
+        after = self._at[1] if self._at[0] == scan and (not count or self._at[1] < count) else 0
+        self._at, self._stepping = (-1, 0), True
+        self._verify(lambda ref: VerifyStep(ref, scan, after, count, until))
+        self._change(state="verifying", message="")
 
     def _scans(self, first: int, last: int, until: int) -> None:
-        self._stepping, self._until = 0, until
+        self._stepping, self._until = False, until
         last = min(last, first + AT_ONCE - 1)
         self._verify(lambda ref: VerifyScans(ref, first, last, until))
         if self.status.state != "verifying":
@@ -320,7 +332,7 @@ class Verification:
         if self._live_end > self._live_scan:
             raise Refused(_TRAPPED)
         try:
-            await self.hold.advance(status.pace, author)
+            await self.hold.advance(status.pace, author, status.wanted.range)
         except Refused as refused:
             self._change(auto=False, message=refused.message)
             raise
@@ -374,9 +386,11 @@ class Verification:
         done, failed = isinstance(came, ScansDone), came.failed if isinstance(came, ScansDone) else ""
         came = self._without_known(came)
         self.rows.add(came)
-        over = not self._stepping or (self._stepping > 0 and bool(came.rows) and came.rows[-1].count == 0)
-        if over:
-            self._next, self._count = max(self._next, came.scan + 1), 0
+        ended = bool(came.rows) and came.rows[-1].count == 0
+        if self._stepping and came.rows and not ended:
+            self._at = came.scan, came.rows[-1].count
+        if not self._stepping or (ended and status.source != "live"):
+            self._next = max(self._next, came.scan + 1)
         if done:
             self._busy = False
         going = status.state in ("verifying", "waiting", "starting")
@@ -389,10 +403,10 @@ class Verification:
         )  # fmt: skip
         if done and not failed:
             # whole scans that are compared on the way to a halt are no step: the halt is compared next
-            stepped = status.pace == "scan" or status.source != "live" or self._stepping != 0
-            if status.auto and status.pace != "free" and going and stepped:
-                self._soon()
+            stepped = status.pace == "scan" or status.source != "live" or self._stepping
             self._poke()
+            if status.auto and status.pace != "free" and going and stepped and not self._busy:
+                self._soon()
 
     def _without_known(self, came: ScansVerified) -> ScansVerified:
         """Of a scan that a run-time error ended, and in which the program was restarted, the rows that are new."""

@@ -13,6 +13,8 @@ from scanbench.public import Hex, Public
 
 Memory = Literal["recorded", "set"]
 """What the monitor runs on: the inputs of the control device, or a copy of them that somebody has edited."""
+AT_END = 1 << 62
+"""As the count of a statement: the end of the scan."""
 RowKind = Literal["pass", "scan", "step", "none"]
 """A run through the range; a whole scan; one statement (pace step by step); the range did not run in this scan."""
 Cause = Literal["logic", "input", "order", "trap", "outside", "recorded"]
@@ -147,10 +149,10 @@ class Row(Public):
     call: int = 0
     """Which run through the range it is in this scan, from 1; 0 where that means nothing."""
     count: int = 0
-    """Of a step: the count of the statement that is next (`engines.debug`)."""
+    """Of a step: the count of the statement that is next (`engines.debug`); 0 at the end of the scan."""
     instance: str = ""
     place: Place | None = None
-    """Of a step: its statement."""
+    """Of a step: the statement that ran; None where it ran up to the first one only."""
     outputs: Mapping[str, Output] = field(default_factory=dict)
     inputs: Mapping[str, Input] = field(default_factory=dict)
     """By the names of columns, both in the order of use."""
@@ -166,6 +168,10 @@ class Row(Public):
     """Whether anything was: not where the program stood still, nor where a trace has no value, or is believed."""
     index: int = 0
     """Of all rows, from 0, said where they are told; those that were forgotten keep theirs."""
+    next: Place | None = None
+    """Of a step: the statement that is next."""
+    consequences: tuple[Mismatch, ...] = ()
+    """Of a step: what its statement got wrong because it read what was different before it. These are no differences of the row."""
 
     @property
     def differs(self) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
+from scanbench.engines.debug import Frame
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import Pou, Program
 from scanbench.symbols.instances import instances_of, owner_of
@@ -42,6 +43,12 @@ class Resolved:
     def whole(self) -> bool:
         """Whether it is the whole scan."""
         return not self.pous
+
+    def holds(self, frames: tuple[Frame, ...]) -> bool:
+        """Whether the statement that is next, or one of the calls that lead to it, is of the range. `frames`: innermost first."""
+        return self.whole or any(
+            each.site in self.sites and (self.only is None or each.instance == self.only) for each in frames
+        )
 
 
 def parse_range(text: str) -> Range:

@@ -101,13 +101,13 @@ class RunSubject:
 
         return self._guarded(scan, run)
 
-    def step(self, scan: int, count: int) -> Row:
+    def step(self, scan: int, after: int, count: int) -> Row:
         """See `Subject`."""
 
         def step() -> Row:
             both = self._sides()
             both.goto(scan)
-            return step_row(both, scan, count, self._view)
+            return step_row(both, scan, (after, count), self._view)
 
         return self._guarded(scan, step)
 

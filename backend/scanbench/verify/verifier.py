@@ -51,8 +51,8 @@ class Subject(Protocol):
     def run(self, scan: int) -> tuple[Row, ...]:
         """The rows of a scan that is over; in any order, consecutive ones are fastest."""
 
-    def step(self, scan: int, count: int) -> Row:
-        """Both sides before the statement of this count, compared there; 0: before the scan."""
+    def step(self, scan: int, after: int, count: int) -> Row:
+        """See `Verifier.step`."""
 
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
         """The used-variable record of one pass. `BadEdit` when there is none."""
@@ -124,9 +124,10 @@ class Verifier:
         """The rows of one scan. `Unreadable` says why not."""
         return self._verified(scan, self._rows(scan))
 
-    def step(self, scan: int, count: int) -> ScanVerified:
-        """Both sides before the statement of this count, compared there; 0: before the scan. `Unreadable`."""
-        return self._verified(scan, (self._subject.step(scan, count),))
+    def step(self, scan: int, after: int, count: int = 0) -> ScanVerified:
+        """Both sides run the statement of the count `after` (0: they run up to the first one of the range), and halt before that of
+        `count` (0: the next one of the range), compared there. A row with the count 0 is at the end of the scan. `Unreadable`."""
+        return self._verified(scan, (self._subject.step(scan, after, count),))
 
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
         """The used-variable record of one pass. `BadEdit` when there is none; `Unreadable`."""

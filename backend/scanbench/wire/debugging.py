@@ -11,11 +11,14 @@ from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.shown import FrameInfo, ScopeInfo, VariableInfo
 from scanbench.public import Public
 from scanbench.taps.covered import CoveredFile
+from scanbench.verify.contract import Range
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
 
-StepAction = Literal["continue", "pause", "in", "over", "out", "statement", "scan", "to", "back", "reverse", "entry"]
-"""`in`: to the next statement anywhere, into calls. `over`: to the next statement of this frame or one further out. `out`:
+StepAction = Literal[
+    "continue", "pause", "in", "within", "over", "out", "statement", "scan", "to", "back", "reverse", "entry"
+]
+"""`in`: to the next statement anywhere, into calls. `within`: to the next statement of a range, into its calls. `over`: to the next statement of this frame or one further out. `out`:
 to the next statement of the frame that called. `statement`: as `in`. `scan`: to the first statement of the next scan.
 `to`: to a line. `back`: to the statement before. `reverse`: back to where a breakpoint would have halted last (or the
 first scan that is kept). `entry`: to the first statement of the next scan, from a run that goes on. After the last statement of a scan the next scan begins at
@@ -46,6 +49,8 @@ class Step:
     line: int = 0
     path: str = ""
     """`reverse` to the last write of this variable, whatever breakpoints there are."""
+    range: Range | None = None
+    """Of `within`."""
 
 
 @dataclass(frozen=True, slots=True)

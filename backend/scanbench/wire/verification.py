@@ -61,11 +61,12 @@ class VerifyScans:
 
 @dataclass(frozen=True, slots=True)
 class VerifyStep:
-    """Both sides at the statement of this count of a scan (0: the end of the scan before it), compared there. Answered
-    with `ScansDone`, one row of kind `step`."""
+    """Both sides run one step of a scan, and are compared; see `Verifier.step`. Answered with `ScansDone`, one row of kind
+    `step`."""
 
     ref: int
     scan: int
+    after: int
     count: int
     until: int
 

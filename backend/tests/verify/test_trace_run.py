@@ -16,7 +16,7 @@ from scanbench.runtime.write import Write
 from scanbench.server.samples import Sample, samples
 from scanbench.symbols.symbols import resolve
 from scanbench.symbols.values import format_value
-from scanbench.verify.contract import BadRange, Mismatch, Row
+from scanbench.verify.contract import AT_END, BadRange, Mismatch, Row
 from scanbench.verify.edits import BadEdit
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.trace.mapping import BadMapping, Gaps, TraceMapping
@@ -241,9 +241,9 @@ def test_a_plant_does_not_get_in_the_way_of_recorded_inputs() -> None:
     text = "scan,0.00,Main.seen\n0,0,0\n1,1,1\n2,1,2\n3,0,2\n"
     assert found(verified(opened(text, program))) == []
     assert found(verified(opened(text.replace("2,1,2", "2,0,2"), program))) == [(2, "logic", "Main.seen")]
-    step = opened(text, program).step(2, 1).rows[0]
-    assert (step.kind, step.count) == ("step", 1)
-    assert step.place is not None
+    step = opened(text, program).step(2, 0).rows[0]
+    assert (step.kind, step.count, step.place) == ("step", 1, None)
+    assert step.next is not None
 
 
 def test_a_run_time_error_of_the_reference_is_a_difference_and_the_trace_goes_on() -> None:
@@ -369,12 +369,13 @@ def test_uses_are_in_order_with_both_sides_where_the_trace_has_any() -> None:
 def test_step_by_step() -> None:
     text = with_cell(conveyor_csv(), 100, "lamp", "1")
     verifier = opened(text, conveyor())
-    seam = verifier.step(100, 0).rows[0]
-    assert (seam.kind, seam.place) == ("step", None)
+    begin = verifier.step(100, 0).rows[0]
+    assert (begin.kind, begin.place, begin.count) == ("step", None, 1)
     first = verifier.step(100, 1).rows[0]
     assert first.place is not None
+    assert (first.next and first.next.line, first.count) == (15, 2)
     assert (first.place.file, first.place.line) == ("Main.st", 14)
-    end = verifier.step(100, 10_000).rows[0]
+    end = verifier.step(100, 2, AT_END).rows[0]
     assert end.note == "end of the scan"
     assert found([end]) == [(100, "logic", "lamp")]
     assert found(verifier.verify(100).rows) == [(100, "logic", "lamp")]

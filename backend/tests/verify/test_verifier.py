@@ -27,8 +27,8 @@ from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.server.samples import Sample, samples
-from scanbench.verify.contract import Range
-from scanbench.verify.verifier import BadEdit
+from scanbench.verify.contract import ENDED, Range, Row
+from scanbench.verify.verifier import BadEdit, Verifier
 from scanbench.wire.codec import ENTRIES
 from tests.caseformat import MODELS
 from tests.programs import INGREDIENTS, generate
@@ -275,7 +275,7 @@ def test_a_stuck_input_is_an_input_difference_while_it_differs(tmp_path: Path) -
     assert {row.scan: row.disturbances for row in found if row.disturbances} == dict.fromkeys(
         range(5, 10), ("Input start stuck",)
     )
-    assert verifier(path, program(BELTS), "Main").step(8, 2).rows[0].disturbances == ("Input start stuck",)
+    assert verifier(path, program(BELTS), "Main").step(8, 1).rows[0].disturbances == ("Input start stuck",)
     # the same when one goes there at once
     assert verifier(path, program(BELTS), "Main").verify(8).rows == (wrong[1],)
 
@@ -426,9 +426,12 @@ def test_a_run_time_error_on_one_side_is_the_difference(range: str, others: list
 def test_a_run_time_error_on_one_side_is_the_difference_of_its_step(tmp_path: Path) -> None:
     wanted = Disturbance("result", site="main.st:3", bit=4, scan=7)
     verified = verifier(disturbed(tmp_path, wanted, source=INDEXED), program(INDEXED))
-    (row,) = verified.step(7, 3).rows
-    assert (row.differences[0].cause, row.differences[0].message) == ("trap", _TRAP)
-    assert {each.name for each in row.differences} == {"run-time error", "Main.ix"}
+    wrong = [row for row in stepped(verified, 7) if row.differs]
+    assert [(row.place and row.place.line, [each.name for each in row.differences]) for row in wrong] == [
+        (3, ["Main.ix"]), (4, ["run-time error"]),
+    ]  # fmt: skip
+    assert (wrong[1].differences[0].cause, wrong[1].differences[0].message) == ("trap", _TRAP)
+    assert wrong[1].note.startswith(ENDED)
 
 
 def test_scans_in_which_the_program_does_not_run_are_not_compared(tmp_path: Path) -> None:
@@ -458,37 +461,84 @@ END_PROGRAM
 
 @pytest.mark.parametrize("source", [BELTS, IL], ids=("ST", "IL"))
 @pytest.mark.parametrize("make", [on(flavours()), reference], ids=("native", "reference"))
-def test_step_by_step(source: str, make: object, tmp_path: Path) -> None:
+def stepped(verified: Verifier, scan: int) -> list[Row]:
+    """All steps of a scan."""
+    found, count = list[Row](), 0
+    while not found or count:
+        found += verified.step(scan, count).rows
+        count = found[-1].count
+    return found
+
+
+@pytest.mark.parametrize("source", [BELTS, IL], ids=("ST", "IL"))
+@pytest.mark.parametrize("make", [on(flavours()), reference], ids=("native", "reference"))
+def test_a_step_is_about_the_statement_that_ran(source: str, make: object, tmp_path: Path) -> None:
     record(tmp_path / "run", program(source), 4)
     verified = verifier(tmp_path / "run", program(source), make=make)  # type: ignore[arg-type]
-    (row,) = verified.step(2, 0).rows
-    assert (row.kind, row.count, row.place) == ("step", 0, None)
-    count, lines, written = 0, list[int](), list[str]()
-    while True:
-        count += 1
-        (row,) = verified.step(2, count).rows
-        assert row.differences == ()
-        if row.place is None:
-            break
-        assert row.count == count
-        lines.append(row.place.line)
-        written += row.outputs
-    assert row.note == "end of the scan"
-    assert len(lines) == count - 1
+    first, *found = stepped(verified, 0 if source is IL else 2)
+    assert (first.kind, first.count, first.place, first.outputs) == ("step", 1, None, {})
+    assert all(row.differences == () for row in found)
+    assert [row.count for row in found] == [*range(2, len(found) + 1), 0]
+    assert found[-1].note == "end of the scan"
+    lines = [row.place.line for row in found if row.place is not None]
+    following = [row.next.line for row in (first, *found) if row.next is not None]
+    assert lines == following
+    written = {(row.place.line, name) for row in found if row.place is not None for name in row.outputs}
     if source is IL:
-        assert lines == sorted(lines)
-        assert "Main.a" in written
+        assert lines == [3, 4, 5, 6, 7, 8, 9, 10, 11]
+        assert {(5, "Main.a"), (9, "Main.b"), (11, "Main.a")} <= written
     else:
         assert lines[:4] == [21, 22, 8, 12]
-        assert {"Main.n", "Main.belt[2].pos", "Main.copy.b"} <= {*written, *row.outputs}
+        assert {(21, "Main.n"), (4, "Main.belt[2].pos"), (25, "Main.copy.b")} <= written
 
 
-def test_a_step_shows_the_difference_where_it_comes_about(tmp_path: Path) -> None:
-    path = disturbed(tmp_path, Disturbance("result", site="main.st:21", bit=1, scan=7))
+def test_the_current_result_of_il_is_shown_after_each_instruction(tmp_path: Path) -> None:
+    record(tmp_path / "run", program(IL), 4)
+    verified = verifier(tmp_path / "run", program(IL))
+    found = stepped(verified, 0)[1:]
+    results = [
+        (row.place and row.place.line, name, value(each.control), value(each.monitor))
+        for row in found
+        for name, each in row.outputs.items()
+        if name.startswith("CR")
+    ]
+    assert results == [(3, "CR (INT)", 0, 0), (4, "CR (INT)", 1, 1), (6, "CR (BOOL)", 0, 0), (8, "CR (DINT)", 5, 5), (10, "CR (INT)", 5, 5)]  # fmt: skip
+    assert list(found[4].inputs) == ["CR (BOOL)"]
+
+
+def test_only_the_first_statement_that_differs_is_the_cause(tmp_path: Path) -> None:
+    path = disturbed(tmp_path, Disturbance("result", site="main.st:10", bit=1, scan=7))  # total of the blocks
     verified = verifier(path, program(BELTS))
-    assert verified.step(7, 1).rows[0].differences == ()
-    (difference,) = verified.step(7, 2).rows[0].differences
-    assert (difference.name, difference.cause) == ("Main.n", "logic")
+    found = stepped(verified, 7)
+    (cause,) = [row for row in found if row.differs]
+    assert cause.place is not None
+    assert (cause.place.line, cause.place.instance) == (10, "Main.belt[2]")
+    assert [(each.name, each.cause) for each in cause.differences] == [("Main.total", "logic")]
+    later = found[found.index(cause) + 1 :]
+    assert all("still different: Main.total" in row.note for row in later if not row.consequences)
+    (consequence,) = [row for row in later if row.consequences]
+    assert consequence.place is not None
+    assert (consequence.place.line, consequence.place.instance) == (10, "Main.belt[3]")
+    assert [(each.name, each.cause) for each in consequence.consequences] == [("Main.total", "input")]
+
+
+@pytest.mark.parametrize("make", [on(flavours()), reference], ids=("native", "reference"))
+def test_a_step_stays_in_the_range_and_goes_into_its_calls(make: object, tmp_path: Path) -> None:
+    record(tmp_path / "run", program(BELTS), 4)
+    verified = verifier(tmp_path / "run", program(BELTS), "Belt:8-10@Main.belt[2]", make=make)  # type: ignore[arg-type]
+    found = stepped(verified, 2)
+    places = [row.place and (row.place.line, row.place.instance) for row in found]
+    assert places == [None, (8, "Main.belt[2]"), (9, "Main.belt[2]"), (4, "Twice"), (10, "Main.belt[2]")]
+    assert [list(row.outputs) for row in found] == [[], [], [], ["Twice.Twice", "Main.belt[2].pos"], ["total"]]
+    assert [row.note for row in found] == ["", "", "", "with the rest of main.st:9", "end of the scan"]
+
+
+def test_a_statement_outside_of_the_range_that_differs_is_told_once(tmp_path: Path) -> None:
+    path = disturbed(tmp_path, Disturbance("result", site="main.st:21", bit=1, scan=7))
+    found = stepped(verifier(path, program(BELTS), "Belt:12-13"), 7)
+    assert [[(each.name, each.cause) for each in row.differences] for row in found if row.differs] == [
+        [("Main.n", "outside")]
+    ]
 
 
 # ---- files that grow, and code that was not the same --------------------------------------------------------------

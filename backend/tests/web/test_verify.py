@@ -173,8 +173,26 @@ def test_step_by_step_both_sides_stop(server: Server) -> None:
             browser.wait(lambda want=step: info(server, instance, begun["id"])["rows"] == want, 30)  # type: ignore[misc]
         found = rows(server, begun["id"])["rows"]
         assert [row["kind"] for row in found] == ["step"] * 4
-        assert [row["place"]["line"] for row in found] == [5, 6, 7, 16]
+        assert [row["place"] and row["place"]["line"] for row in found] == [None, 5, 6, 7]
+        assert [row["next"]["line"] for row in found] == [5, 6, 7, 16]
         assert not any(row["differences"] for row in found)
+
+
+def test_step_by_step_both_sides_stop_in_the_range_only(server: Server) -> None:
+    instance = server.instance("by step in a range", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        paused(browser)
+        begun = begin(server, instance, pace="step", range={"pou": "Main", "first": 7, "last": 7})
+        for step in range(3):
+            reply = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "go_on"})
+            assert reply.status_code == 200, reply.text
+            browser.wait(lambda want=step: info(server, instance, begun["id"])["rows"] > want, 30)  # type: ignore[misc]
+            browser.wait(lambda: info(server, instance, begun["id"])["state"] == "waiting")
+        found = rows(server, begun["id"])["rows"]
+        steps = [row for row in found if row["kind"] == "step"]
+        places = [(row["place"] and row["place"]["line"], row["next"] and row["next"]["line"]) for row in steps]
+        assert places == [(None, 7), (7, 16), (16, None), (None, 7)]
+        assert [row["kind"] for row in found] == ["step", "step", "step", "pass", "step"]
 
 
 def test_kept_and_exported(server: Server) -> None:

@@ -9417,8 +9417,13 @@ export interface components {
              */
             compared: boolean;
             /**
+             * Consequences
+             * @description Of a step: what its statement got wrong because it read what was different before it. These are no differences of the row.
+             */
+            consequences: components["schemas"]["VerifyDifference"][];
+            /**
              * Count
-             * @description Of a step: the count of the statement that is next (`engines.debug`).
+             * @description Of a step: the count of the statement that is next (`engines.debug`); 0 at the end of the scan.
              */
             count: number;
             /** Differences */
@@ -9447,6 +9452,8 @@ export interface components {
              * @enum {string}
              */
             kind: "pass" | "scan" | "step" | "none";
+            /** @description Of a step: the statement that is next. */
+            next: components["schemas"]["VerifyPlace"] | null;
             /**
              * Note
              * @description `record full: 4,096 of 5,120 uses kept`, `not run in this scan`, `ended by a run-time error: ...`.
@@ -9456,7 +9463,7 @@ export interface components {
             outputs: {
                 [key: string]: components["schemas"]["VerifyOutput"];
             };
-            /** @description Of a step: its statement. */
+            /** @description Of a step: the statement that ran; None where it ran up to the first one only. */
             place: components["schemas"]["VerifyPlace"] | null;
             /** Scan */
             scan: number;

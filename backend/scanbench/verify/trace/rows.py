@@ -114,36 +114,35 @@ class TraceRows:
 
     # ---- inside of a scan ---------------------------------------------------------------------------------------------
 
-    def step(self, monitor: TraceMonitor, scan: int, count: int, range: Resolved) -> Row:
-        """The row of the monitor before the statement with this count; after the last one the results are compared. Before and
-        after this call the monitor is in the seam before the scan."""
-        hook = _Halt(count, monitor)
-        ran = monitor.run_with(hook, Listen(count=1, every=True)) if count else None
-        place = None
-        if ran is not None and hook.frames:
-            place = self._reader.places.of(hook.frames[0].site, hook.frames)
-        over = ran is not None and not hook.frames
-        results = ran.results if ran is not None and over else monitor.results(monitor.recorded(scan))
+    def step(self, monitor: TraceMonitor, scan: int, span: tuple[int, int], range: Resolved) -> Row:
+        """The row of one step of the monitor; `span` as in `verify.steps.step_row`. After the last one the results are compared.
+        Before and after this call the monitor is in the seam before the scan."""
+        hook = _Halt(span, range, monitor)
+        ran = monitor.run_with(hook, Listen(count=1, every=True))
+        place, following = (
+            self._reader.places.of(each[0].site, each) if each else None for each in (hook.before, hook.frames)
+        )
+        over = not hook.frames
+        results = ran.results if over else monitor.results(monitor.recorded(scan))
         names = self._reader.names.within(ANYWHERE)
         outputs, differences = {}, []
         for each in results:
             leaf = _leaf(names, each.signal)
             if self._reader.columns.used(leaf, True):
                 outputs[leaf.name] = Output(each.recorded if over else None, each.found)
-            if over and ran is not None and not ran.recorded.taken_over and not each.same:
+            if over and not ran.recorded.taken_over and not each.same:
                 differences.append(_mismatch(leaf.name, each, None, scan))
-        if ran is not None:
-            monitor.back(ran)
+        monitor.back(ran)
         note = "end of the scan" if over else "a trace has values at the ends of scans only"
-        if ran is not None and over and ran.recorded.taken_over:
+        if over and ran.recorded.taken_over:
             note = f"{note}; {_TAKEN_OVER}"
-        told = over and ran is not None and not ran.recorded.taken_over
+        told = over and not ran.recorded.taken_over
         compared = told and any(None not in (each.control, each.monitor) for each in outputs.values())
         row = Row(
-            "step", scan, 0, count, "" if place is None else place.instance, place, outputs, {}, tuple(differences), note=note,
-            compared=compared,
+            "step", scan, 0, hook.count, "" if place is None else place.instance, place, outputs, {}, tuple(differences),
+            note=note, compared=compared, next=following,
         )  # fmt: skip
-        return self._trapped(row, ran) if ran is not None and ran.trap else row
+        return self._trapped(row, ran) if ran.trap else row
 
     def uses(self, made: Pass, ran: Ran, passes: Sequence[Pass]) -> tuple[Use, ...]:
         """Every use of a pass. The trace has values of inputs as they were read, and of outputs as they were written last."""
@@ -189,20 +188,31 @@ class TraceRows:
 
 
 class _Halt:
-    """Halts before the statement of one count."""
+    """Halts at the end of a step."""
 
-    def __init__(self, count: int, monitor: TraceMonitor) -> None:
-        self._count, self._monitor = count, monitor
+    def __init__(self, span: tuple[int, int], range: Resolved, monitor: TraceMonitor) -> None:
+        self._after, self._until = span
+        self._range, self._monitor = range, monitor
+        self.before: tuple[Frame, ...] = ()
+        """The open calls where it begins."""
         self.frames: tuple[Frame, ...] = ()
+        """And where it ends; none at the end of the scan."""
+        self.count = 0
         self._patches = monitor.inputs(monitor.scan)
 
     def statement(self, site: int, count: int, depth: int) -> bool:
         """See `Hook`."""
         if count == 1:
             put(self._monitor.side.memory, self._patches)
-        if count != self._count:
+        if count < self._after:
             return False
-        self.frames = self._monitor.side.resource.loaded.debugged().frames()
+        frames = self._monitor.side.resource.loaded.debugged().frames()
+        if self._after and count == self._after:
+            self.before = frames
+            return False
+        if count < self._until or not (self._until or self._range.holds(frames)):
+            return False
+        self.frames, self.count = frames, count
         return True
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:

@@ -137,12 +137,12 @@ class TraceSubject:
         self._tally.add(ran, self._rows.shown(recorder.passes, ran, self._range))
         return rows
 
-    def step(self, scan: int, count: int) -> Row:
-        """The monitor before a statement: the trace says nothing of what was inside of a scan."""
+    def step(self, scan: int, after: int, count: int) -> Row:
+        """The monitor after a statement: the trace says nothing of what was inside of a scan."""
         if self._recorded(scan).skipped:
             return self._rows.skipped(scan)
         self._monitor.goto(scan)
-        return self._rows.step(self._monitor, scan, count, self._range)
+        return self._rows.step(self._monitor, scan, (after, count), self._range)
 
     def uses(self, scan: int, call: int) -> tuple[Use, ...]:
         """What the trace has no value of is None on its side."""

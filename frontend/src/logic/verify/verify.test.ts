@@ -39,6 +39,8 @@ const row = (part: Partial<VerifyRow>): VerifyRow => ({
   outputs: {},
   inputs: {},
   differences: [],
+  consequences: [],
+  next: null,
   disturbances: [],
   used: 1,
   note: "",

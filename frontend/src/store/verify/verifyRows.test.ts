@@ -58,6 +58,8 @@ const rowAt = (index: number): VerifyRow => ({
   outputs: { a: { control: value, monitor: value, set: null } },
   inputs: {},
   differences: [],
+  consequences: [],
+  next: null,
   disturbances: [],
   used: 1,
   note: "",

@@ -25,6 +25,9 @@ export const verify = {
   "verify.columns.later": "Move {name} back",
   "verify.columns.none": "There are no columns until the first row is compared.",
   "verify.columns.reset": "Reset",
+  "verify.consequence": "Consequence",
+  "verify.consequences": "Wrong because of an earlier difference",
+  "verify.consequences.about": "The statement read something that was different before it. The first difference of the scan is the cause.",
   "verify.coverage": "What was compared",
   "verify.coverage.about":
     "Of {name}, up to now: the number of values of each output, and what nothing can be said of.",
@@ -132,6 +135,7 @@ export const verify = {
   "verify.new.when": "Scans",
   "verify.new": "New verification…",
   "verify.next.short": "Next",
+  "verify.next.statement": "Next: {file}:{line} in {instance}",
   "verify.next": "Next difference",
   "verify.nodifference": "No difference in {count} scans.",
   "verify.none.about": "Runs the program twice and compares the results",

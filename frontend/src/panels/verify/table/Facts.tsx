@@ -39,7 +39,7 @@ export function Facts({ shown, row, difference, at, onChoose }: Props) {
         ) : (
           <span className={`st ${row.compared ? "running" : "stopped"}`}>
             <Icon name={row.compared && row.kind !== "none" ? "check" : "minus"} />
-            <b>{t(!row.compared ? "verify.notcompared" : row.kind === "none" ? "verify.notrun" : "verify.same")}</b>
+            <b>{t(headOf(row))}</b>
           </span>
         )}
         <span className="faint cut">{whereOf(row, difference)}</span>
@@ -73,7 +73,17 @@ export function Facts({ shown, row, difference, at, onChoose }: Props) {
           </span>
         </p>
       )}
+      {row.consequences.map(({ name, message }) => (
+        <p key={name} className="muted">
+          <b>{t("verify.consequence")}</b>: {message}
+        </p>
+      ))}
       {row.note && <p className="st halted">{row.note}</p>}
+      {row.next && (
+        <p className="faint">
+          {t("verify.next.statement", { file: row.next.file, line: row.next.line, instance: row.next.instance })}
+        </p>
+      )}
       <Deeds shown={shown} row={row} difference={difference} uses={uses} onUses={() => showUses(!uses)} />
       {uses && <Uses row={row} />}
     </div>
@@ -90,7 +100,14 @@ const whereOf = (row: VerifyRow, difference: VerifyDifference | null) =>
     .filter(Boolean)
     .join(", ");
 
+function headOf({ compared, kind, consequences }: VerifyRow) {
+  if (!compared) return "verify.notcompared";
+  if (kind === "none") return "verify.notrun";
+  return consequences.length > 0 ? "verify.consequences" : "verify.same";
+}
+
 function sayOf(row: VerifyRow): string {
+  if (row.consequences.length > 0) return t("verify.consequences.about");
   if (!row.compared) return t("verify.notcompared.about");
   if (row.kind === "none") return t("verify.notrun.about");
   return t(isEdited(row) ? "verify.same.edited" : "verify.same.about");

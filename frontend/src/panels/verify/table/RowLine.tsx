@@ -90,6 +90,12 @@ function cellOf(row: VerifyRow, track: Track, how: How): Cell {
           shown: <Icon name="minus" small />,
           title: row.note || t("verify.notcompared"),
         };
+      if (row.differences.length === 0 && row.consequences.length > 0)
+        return {
+          look: "gut faint",
+          shown: <Icon name="step-in" small />,
+          title: `${t("verify.consequence")}: ${row.consequences[0]?.message}`,
+        };
       return {
         look: "gut",
         shown: row.differences.length > 0 && <Icon name="differs" className="diffc" />,

@@ -47,6 +47,8 @@ const rowOf = (scan: number, set: string | null): VerifyRow => ({
   used: 2,
   disturbances: [],
   differences: scan === WRONG ? [DIFFERENCE] : [],
+  consequences: [],
+  next: null,
   inputs: { position: { recorded: "2c01", expected: null, set: scan === WRONG ? set : null } },
   outputs: {
     barrier: {
