@@ -27,7 +27,8 @@ export const verify = {
   "verify.columns.reset": "Reset",
   "verify.consequence": "Consequence",
   "verify.consequences": "Wrong because of an earlier difference",
-  "verify.consequences.about": "The statement read something that was different before it. The first difference of the scan is the cause.",
+  "verify.consequences.about":
+    "The statement read something that was different before it. The first difference of the scan is the cause.",
   "verify.coverage": "What was compared",
   "verify.coverage.about":
     "Of {name}, up to now: the number of values of each output, and what nothing can be said of.",
