@@ -165,9 +165,9 @@ class _Step:
         place = _place(self.view, control.before)
         names = self._names()
         outputs: dict[str, Output] = {}
-        for log, mine in ((control.log, True), (monitor.log, False)):
-            for leaf, value in self._written(names, log):
-                known = outputs.get(leaf.name, Output(None, None))
+        for side, mine in ((control, True), (monitor, False)):
+            for leaf in self._written(names, side.log):
+                known, value = outputs.get(leaf.name, Output(None, None)), leaf.cut(side.memory, 0)
                 outputs[leaf.name] = Output(value, known.monitor) if mine else Output(known.control, value)
         inputs = {
             leaf.name: Input(leaf.cut(access.value, access.offset))
@@ -224,12 +224,11 @@ class _Step:
                     return Leaf(f"CR ({member.type.name})", member.type, access.offset, None)
         return None
 
-    def _written(self, names: NamesInside, log: list[Access]) -> Iterator[tuple[Leaf, bytes]]:
+    def _written(self, names: NamesInside, log: list[Access]) -> Iterator[Leaf]:
+        """Their values are those at the end of the step: a disturbed result is not what was written."""
         for access in log:
             if access.written:
-                for leaf in self._leaves(names, access):
-                    if self.view.reader.columns.used(leaf, True):
-                        yield leaf, leaf.cut(access.value, access.offset)
+                yield from (leaf for leaf in self._leaves(names, access) if self.view.reader.columns.used(leaf, True))
 
     # ---- what is different ----------------------------------------------------------------------------------------
 

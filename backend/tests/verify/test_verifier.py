@@ -27,7 +27,7 @@ from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.server.samples import Sample, samples
-from scanbench.verify.contract import ENDED, Range, Row
+from scanbench.verify.contract import ENDED, Output, Range, Row
 from scanbench.verify.verifier import BadEdit, Verifier
 from scanbench.wire.codec import ENTRIES
 from tests.caseformat import MODELS
@@ -514,6 +514,7 @@ def test_only_the_first_statement_that_differs_is_the_cause(tmp_path: Path) -> N
     assert cause.place is not None
     assert (cause.place.line, cause.place.instance) == (10, "Main.belt[2]")
     assert [(each.name, each.cause) for each in cause.differences] == [("Main.total", "logic")]
+    assert cause.outputs["Main.total"] == Output(cause.differences[0].control, cause.differences[0].monitor)
     later = found[found.index(cause) + 1 :]
     assert all("still different: Main.total" in row.note for row in later if not row.consequences)
     (consequence,) = [row for row in later if row.consequences]

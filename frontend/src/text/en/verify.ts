@@ -4,6 +4,7 @@ export const verify = {
   "verify.again": "Verify this range again…",
   "verify.auto.about": "Continues without waiting for Go on",
   "verify.auto": "Auto",
+  "verify.before": "before line {line}",
   "verify.begin": "Verify",
   "verify.bits.one": "one bit differs",
   "verify.bits": "{count} bits differ",

@@ -6,6 +6,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.again": "この範囲をもう一度検証…",
   "verify.auto.about": "「次へ」を待たずに続けます",
   "verify.auto": "自動",
+  "verify.before": "{line} 行の前",
   "verify.begin": "検証",
   "verify.bits.one": "1 ビットが異なる",
   "verify.bits": "{count} ビットが異なる",

@@ -110,7 +110,9 @@ function cellOf(row: VerifyRow, track: Track, how: How): Cell {
     case "place":
       return {
         look: "mono muted",
-        shown: row.place && `${row.place.line}: ${row.place.text}`,
+        shown: row.place
+          ? `${row.place.line}: ${row.place.text}`
+          : row.next && t("verify.before", { line: row.next.line }),
         title: row.place ? `${row.place.file}:${row.place.line}, ${row.place.instance}` : undefined,
       };
     case "control":
