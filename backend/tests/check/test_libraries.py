@@ -191,3 +191,19 @@ def test_a_name_of_a_library_that_the_project_does_not_have_is_told_with_the_lib
 def test_a_prefix_does_not_reach_a_variable_of_the_pou() -> None:
     found = check("PROGRAM Main VAR lr, a : LREAL; END_VAR a := Tc2_Math.lr + Tc2_Math.FRAC(2.5); END_PROGRAM")
     assert [each[:4] for each in said(found)] == ["T001"]
+
+
+def test_what_the_vendors_controller_sets_is_told() -> None:
+    text = """PROGRAM Main
+        VAR count : UDINT; name : STRING[63]; END_VAR
+        count := _TaskInfo[1].CycleCount + TwinCAT_SystemInfoVarList._TaskInfo[2].CycleCount;
+        name := TwinCAT_SystemInfoVarList._AppInfo.ProjectName;
+        END_PROGRAM"""
+    assert [each[:15] for each in said(check(text))] == ["W008 `_TaskInfo", "W008 `_AppInfo`"]
+
+
+def test_the_name_of_a_library_before_what_the_standard_has_adds_the_library() -> None:
+    text = "PROGRAM Main VAR s : STRING; END_VAR s := Tc2_Utilities.CONCAT(s, 'x'); END_PROGRAM"
+    assert said(check(text)) == []
+    assert [each.name for each in used_libraries({"a.st": text}, "twincat")][:1] == ["Tc2_Utilities"]
+    assert used_libraries({"a.st": text.replace("Tc2_Utilities.", "")}, "twincat") == []

@@ -24,16 +24,24 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "__SYSTEM": ("codesys", "twincat"),
     "CAA": ("codesys",),
     "FILE": ("codesys",),
+    "IBaseLibrary": ("twincat",),
     "Logix": ("rockwell",),
     "Standard64": ("codesys", "twincat"),
+    "Tc2_EtherCAT": ("twincat",),
     "Tc2_MC2": ("twincat",),
     "Tc2_Math": ("twincat",),
     "Tc2_System": ("twincat",),
     "Tc2_TcpIp": ("twincat",),
     "Tc2_Utilities": ("twincat",),
+    "Tc3_EventLogger": ("twincat",),
+    "Tc3_JsonXml": ("twincat",),
+    "Tc3_Module": ("twincat",),
+    "TwinCAT_SystemInfoVarList": ("twincat",),
     "Util": ("codesys", "twincat"),
 }
 """Each name, and the dialects that it is written in."""
+UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
+"""Global variables of libraries that the vendor's controller sets, and nothing here: whoever uses one is told."""
 NEEDED_BY = {"__HEAP": frozenset({"__NEW", "__DELETE"})}
 """Operators that use a library whose name they do not say."""
 _WORD = re.compile(r"\b[A-Z_]\w*")
@@ -57,6 +65,13 @@ class Library:
     """All that it declares, in upper case; what is in a namespace with its name in front."""
     words: frozenset[str]
     """All words of its text, in upper case, and all that have a name in front."""
+
+    @property
+    def named_by(self) -> frozenset[str]:
+        """What a program writes that uses it: its names, or its own name before another, also before one of the standard."""
+        before = f"{self.name.upper()}."
+        inside = any(name.startswith(before) for name in self.names)
+        return self.names if inside else self.names | {before}
 
     @property
     def path(self) -> str:
@@ -100,10 +115,11 @@ def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Lib
     own = {name for path, text in texts.items() for name in _names(parse_file(Source(path, text))[0])}
     have = {library.lower() for path in texts if (library := library_of_file(path))}
     wanted = {word for text in texts.values() for word in _words(text)} - own
+    wanted |= {f"{word.partition('.')[0]}." for word in wanted if "." in word}
     found: list[Library] = []
     grown = True
     while grown:
-        fresh = [each for each in possible if each not in found and not wanted.isdisjoint(each.names)]
+        fresh = [each for each in possible if each not in found and not wanted.isdisjoint(each.named_by)]
         found += fresh
         wanted |= {word for each in fresh for word in each.words}
         grown = bool(fresh)
