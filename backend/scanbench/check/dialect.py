@@ -48,6 +48,16 @@ class Allowance(Enum):
     HEAP = auto()
     UNLINKED_ADDRESSES = auto()
     TRY = auto()
+    SIGNED_BITS = auto()
+    BITS_AS_REALS = auto()
+    WRAPPED_REALS = auto()
+    TIME_NUMBERS = auto()
+    CHAR_NUMBERS = auto()
+    CHAINED_APART = auto()
+    BIT_SUMS = auto()
+    INSTRUCTION_CALLS = auto()
+    INSTRUCTION_TYPES = auto()
+    SIGNED_TEXTS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,9 +89,34 @@ RULES: dict[Allowance, Rule] = {
         "`i := DINT_TO_INT(d)`",
     ),
     Allowance.REAL_CONVERSION: Rule(
-        "an LREAL, or a large integer, where a REAL is wanted, and a DWORD or LWORD as a number: the nearest value is taken",
+        "an LREAL, or a large integer, where a REAL is wanted: the nearest value is taken",
         "only what loses nothing is converted without a name",
         "`r := LREAL_TO_REAL(l)`",
+    ),
+    Allowance.BITS_AS_REALS: Rule(
+        "a bit string where a REAL or LREAL is wanted: the nearest value of its number is taken",
+        "bit strings and numbers are converted by name",
+        "`r := UDINT_TO_REAL(DWORD_TO_UDINT(d))`",
+    ),
+    Allowance.SIGNED_BITS: Rule(
+        "a signed integer where a larger bit string is wanted: it is extended by its sign",
+        "bit strings and integers are converted by name",
+        "`d := INT_TO_DWORD(i)`",
+    ),
+    Allowance.WRAPPED_REALS: Rule(
+        "a REAL or LREAL beyond the limits of the integer that is wanted loses its upper bits",
+        "only what loses nothing is converted without a name",
+        "`i := DINT_TO_INT(REAL_TO_DINT(r))`",
+    ),
+    Allowance.TIME_NUMBERS: Rule(
+        "a DINT, UDINT or DWORD as a TIME or TIME_OF_DAY of so many milliseconds, and the other way round",
+        "a duration is no number",
+        "`t := DINT_TO_TIME(d)`",
+    ),
+    Allowance.CHAR_NUMBERS: Rule(
+        "a CHAR where a bit string or an integer is wanted, and a BYTE, WORD or integer where a CHAR is: its code is taken",
+        "a character is no number",
+        "`b := CHAR_TO_BYTE(c)`",
     ),
     Allowance.INTEGER_BITS: Rule(
         "AND, OR, XOR, NOT, SHL, ROL and ROR on integers, and SHR on unsigned ones",
@@ -117,6 +152,31 @@ RULES: dict[Allowance, Rule] = {
         "several assignments in one, `a := b := c`",
         "an assignment has one variable",
         "`b := c; a := b;`",
+    ),
+    Allowance.CHAINED_APART: Rule(
+        "variables of different types in several assignments in one, and an index that is assigned as well",
+        "an assignment has one variable",
+        "`b := c; a := b;`",
+    ),
+    Allowance.BIT_SUMS: Rule(
+        "a sum, difference or product of bit strings where one of no more bits is wanted",
+        "a bit string is no number",
+        "`UDINT_TO_DWORD(DWORD_TO_UDINT(d) + 1)`",
+    ),
+    Allowance.INSTRUCTION_CALLS: Rule(
+        "an instance of a timer or counter that is called by the name of its instruction, `timer.TON(...)`",
+        "an instance is called by its own name",
+        "`timer(IN := start, PT := T#1s)`",
+    ),
+    Allowance.INSTRUCTION_TYPES: Rule(
+        "an instruction whose type is found by those of its arguments: NORM_X, SCALE_X, SWAP",
+        "a function has the type that it is declared with",
+        "`NORM_X_REAL(MIN := low, VALUE := x, MAX := high)`",
+    ),
+    Allowance.SIGNED_TEXTS: Rule(
+        "`INT_TO_STRING` and the like begin with the sign, also with `+`",
+        "a positive number has no sign in a text",
+        "`CONCAT('+', INT_TO_STRING(i))`",
     ),
     Allowance.RETURN_CONDITION: Rule(
         "a condition after RETURN, `RETURN(done)`",
@@ -238,19 +298,32 @@ class Dialect:
 
 
 _LOGIX = frozenset({Allowance.ROUNDING, Allowance.DINT_RESULTS})
-"""What CODESYS does not have."""
-_CODESYS = frozenset(Allowance) - _LOGIX
+_SIEMENS = frozenset(
+    {
+        *(Allowance.ROUNDING, Allowance.WRAPPED_REALS, Allowance.TIME_NUMBERS, Allowance.CHAR_NUMBERS),
+        *(Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_CALLS),
+        *(Allowance.INSTRUCTION_TYPES, Allowance.SIGNED_TEXTS),
+    }
+)
+_CODESYS = frozenset(Allowance) - _LOGIX - _SIEMENS
+"""All but what only the others have."""
 DIALECTS: dict[DialectName, Dialect] = {
     each.name: each
     for each in (
         Dialect("iec", "IEC 61131-3"),
         Dialect("codesys", "CODESYS", _CODESYS, frozenset({"STANDARD"})),
         Dialect("twincat", "TwinCAT", _CODESYS, frozenset({"TC2_STANDARD", "STANDARD"})),
-        Dialect("siemens", "Siemens SCL", frozenset({Allowance.CHAINED_ASSIGNMENT})),
+        Dialect(
+            "siemens",
+            "Siemens SCL",
+            _SIEMENS
+            | {Allowance.CHAINED_ASSIGNMENT, Allowance.LABELS, Allowance.BLOCK_VARIABLES}
+            | {Allowance.BIT_CONVERSION, Allowance.NARROWING, Allowance.REAL_CONVERSION},
+        ),
         Dialect(
             "rockwell",
             "Rockwell Logix",
-            _LOGIX | {Allowance.INTEGER_BITS, Allowance.NARROWING, Allowance.REAL_CONVERSION},
+            _LOGIX | {Allowance.INTEGER_BITS, Allowance.NARROWING, Allowance.REAL_CONVERSION, Allowance.BITS_AS_REALS},
         ),
         Dialect("omron", "Omron Sysmac"),
     )

@@ -49,6 +49,8 @@ class Cursor:
         self.depth = 0
         self.wires: set[str] | None = None
         """In a function block diagram: the wires that were read, in upper case. Elsewhere `#x` is a variable of one vendor."""
+        self.parts = False
+        """Whether a start value may name parts at any depth, `(a.b := 1, c[2] := 3)`: in the texts of one vendor."""
         self.list_name = ""
         """Of the variables that a vendor keeps in a list of its own."""
         self.namespace = ""

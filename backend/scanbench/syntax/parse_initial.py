@@ -13,7 +13,7 @@ def initial(c: Cursor) -> tree.Initial:
     try:
         if c.accept("["):
             return _array_initial(c, start)
-        if c.is_("(") and c.kinds[start + 1] is NAME and c.texts[start + 2] == ":=":
+        if c.is_("(") and c.kinds[start + 1] is NAME and (c.texts[start + 2] == ":=" or _names_part(c)):
             return _struct_initial(c)
         return parse_expression.expression(c)
     finally:
@@ -65,6 +65,8 @@ def _count_follows(c: Cursor) -> bool:
 def _struct_initial(c: Cursor) -> tree.StructInit:
     start = c.expect("(", "before the members")
     members = []
+    if c.parts:
+        return _parts(c, start)
     while not c.is_(")"):
         name = c.name("the name of a member")
         c.expect(":=", "after the name of the member")
@@ -73,3 +75,20 @@ def _struct_initial(c: Cursor) -> tree.StructInit:
             break
     c.expect(")", "to close the initial values")
     return tree.StructInit(tuple(members), c.span_from(start))
+
+
+def _names_part(c: Cursor) -> bool:
+    return c.parts and c.texts[c.at + 2] in (".", "[")
+
+
+def _parts(c: Cursor, start: int) -> tree.StructInit:
+    parts = []
+    while not c.is_(")"):
+        name = c.name("the name of a member")
+        target = parse_expression.postfix(c, tree.Name(c.texts[name], c.span_of(name)), calls=False)
+        c.expect(":=", "after the name of the member")
+        parts.append((target, initial(c)))
+        if not c.accept(","):
+            break
+    c.expect(")", "to close the initial values")
+    return tree.StructInit((), c.span_from(start), tuple(parts))

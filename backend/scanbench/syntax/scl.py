@@ -19,8 +19,10 @@ _SETTINGS = frozenset(("AUTHOR", "FAMILY", "KNOW_HOW_PROTECT", "NAME", "NON_RETA
 _OPENS = frozenset(("FUNCTION", "FUNCTION_BLOCK", "ORGANIZATION_BLOCK", "DATA_BLOCK", "TYPE"))
 _BLOCKS = {"ORGANIZATION_BLOCK": "PROGRAM", "END_ORGANIZATION_BLOCK": "END_PROGRAM"}
 _PREFIXES = {"B": "BYTE", "W": "WORD", "DW": "DWORD", "LW": "LWORD", "L": "DINT"}
-_INSTRUCTIONS = frozenset(("TON", "TOF", "TP", "CTU", "CTD", "CTUD"))
-"""Called as `#timer.TON(...)`, where the instance itself is called."""
+_JOINED = frozenset("+-*/")
+"""Operators of combined assignments, `+=` and the like."""
+_OF_SECTIONS = frozenset(("DB_SPECIFIC", "NON_RETAIN"))
+"""Words after VAR that say nothing here."""
 _CYCLIC = frozenset(("MAIN", "OB1", "MAIN_OB1"))
 """Names of the organization block that runs in every cycle; its TITLE says the same."""
 _CYCLE = "(Cycle)"
@@ -38,6 +40,7 @@ def parse_scl(source: Source) -> tuple[tree.File, list[Problem]]:
     writer = _Writer(source, tokens)
     cursor = Cursor(source, writer.write())
     cursor.problems += [*problems, *writer.problems]
+    cursor.parts = True
     return whole(cursor)
 
 
@@ -61,6 +64,8 @@ class _Writer:
         """Names in quotes in its statements, and where."""
         self._declares = False
         """Between VAR and END_VAR."""
+        self._combining = False
+        """In the value of `x += value`."""
 
     def write(self) -> Tokens:
         """All of them, closed."""
@@ -83,10 +88,58 @@ class _Writer:
             self._skip_line()
         elif word == "BEGIN" and self._word(1) not in (":=", ".", "[", "("):
             self._at += 1
-        elif word == "." and self._word(1) in _INSTRUCTIONS and self._word(2) == "(":
-            self._at += 2
+        elif word == "GOTO":
+            self._put(Lex.NAME, "JMP", self._in.starts[self._at])
+            self._at += 1
+        elif word in _OF_SECTIONS and self._word(-1).startswith("VAR"):
+            self._at += 1
+        elif word in _JOINED and self._word(1) == "=" and self._touches():
+            self._combined(word)
+        elif word == ";":
+            self._close()
+            self._copy()
         else:
             self._copy()
+
+    def _touches(self) -> bool:
+        return self._in.starts[self._at] + 1 == self._in.starts[self._at + 1]
+
+    def _combined(self, operator: str) -> None:
+        """`a += b` is `a := a + (b)`."""
+        at, first = self._in.starts[self._at], self._target()
+        if self._combining:
+            self._refuse("Several combined assignments in one are not read. Write one assignment for each.", at)
+            while not self._ended() and self._word() != ";":
+                self._at += 1
+            return
+        self._at += 2
+        tokens = zip(self._out.kinds[first:], self._out.texts[first:], self._out.starts[first:], strict=True)
+        target = list(tokens)
+        self._put(Lex.OPERATOR, ":=", at)
+        for each in target:
+            self._put(*each)
+        self._put(Lex.OPERATOR, operator, at)
+        self._put(Lex.OPERATOR, "(", at)
+        self._combining = True
+
+    def _target(self) -> int:
+        """Where in what was written the variable begins that ends there: names with points, indices and `^`."""
+        texts = self._out.texts
+        at, depth = len(texts) - 1, 0
+        while at > 0:
+            depth += {"]": 1, "[": -1}.get(texts[at], 0)
+            if depth == 0 and texts[at] not in ("[", "^", "."):
+                if texts[at - 1] != ".":
+                    break
+                at -= 1
+            at -= 1
+        return max(at, 0)
+
+    def _close(self) -> None:
+        """The parenthesis after what is assigned by a combined assignment."""
+        if self._combining:
+            self._put(Lex.OPERATOR, ")", self._in.starts[self._at])
+            self._combining = False
 
     def _block(self, word: str) -> None:
         """The head of a block or type, up to its declarations."""
@@ -165,19 +218,11 @@ class _Writer:
                 return
 
     def _start_values(self) -> None:
-        """`x := 5;` and so on, as the start value of the whole; what is inside of a member has no such form."""
+        """`x := 5; y[2].z := 6;` and so on, as the start value of the whole."""
         first = True
         while not self._ended() and self._word() != "END_DATA_BLOCK":
             if self._word() == ";":
                 self._at += 1
-                continue
-            if self._word(1) != ":=":
-                self._refuse(
-                    "A start value of a DATA_BLOCK is read as `member := value;`. Write others where the member is declared.",
-                    self._in.starts[self._at],
-                )
-                while not self._ended() and self._word() not in (";", "END_DATA_BLOCK"):
-                    self._at += 1
                 continue
             at = self._in.starts[self._at]
             if first:
@@ -196,6 +241,9 @@ class _Writer:
         self._at += 1
         if text == "#":
             self._locals.add(name_of(self._in.texts[self._at].strip('"')).upper())
+            if self._in.kinds[self._at] is Lex.KEYWORD:
+                self._put(Lex.NAME, self._in.texts[self._at], self._in.starts[self._at])
+                self._at += 1
             return
         if kind is Lex.KEYWORD and text.startswith(("VAR", "END_VAR")):
             self._declares = text != "END_VAR"
@@ -236,7 +284,7 @@ class _Writer:
         self._out.starts.append(at)
 
     def _word(self, ahead: int = 0) -> str:
-        at = min(self._at + ahead, len(self._in.texts) - 1)
+        at = max(0, min(self._at + ahead, len(self._in.texts) - 1))
         return "" if self._in.kinds[at] is Lex.STRING else self._in.texts[at].upper()
 
     def _ended(self) -> bool:

@@ -232,10 +232,11 @@ class ArrayInit:
 
 @node
 class StructInit:
-    """`(a := 1, b := 2)`."""
+    """`(a := 1, b := 2)`; of the data blocks of one vendor also values of `parts` at any depth, `(c.d := 3, e[4] := 5)`."""
 
     members: tuple[tuple[str, "Initial", Span], ...]
     span: Span
+    parts: tuple[tuple[Expression, "Initial"], ...] = ()
 
 
 Initial = Expression | ArrayInit | StructInit
@@ -251,8 +252,7 @@ class Variable:
     address_span: Span | None = None
     arguments: tuple["Argument", ...] = ()
     """`inst : FB(a := 1)` of vendors: initial values of an instance."""
-    edge: str = ""
-    """R or F for an input that is declared with R_EDGE or F_EDGE, else empty."""
+    edge: str = ""  # R or F for an input that is declared with R_EDGE or F_EDGE
     elements: tuple[tuple["Argument", ...], ...] = ()
     """`inst : ARRAY[1..2] OF FB[(a := 1), (a := 2)]` of vendors: the arguments of each element, in the order of memory."""
 

@@ -36,27 +36,34 @@ END_FUNCTION_BLOCK
 PROGRAM Main
 VAR
   b : BYTE; w : WORD; dw : DWORD; i, j : INT; u : UINT; d : DINT; r : REAL; l : LREAL; s : STRING; ok : BOOL; state : State; t : TIME;
+  c : CHAR; timer : TON;
   unit : Unit; numbers : ARRAY[1..3] OF INT;
 END_VAR
 """
 LINE = HEAD.count("\n") + 1
 
 USES = [
-    (Allowance.BIT_NUMBERS, "w := w + 1;", "WORD_TO_UINT"),
     (Allowance.BIT_NUMBERS, "ok := b > u;", "BYTE_TO_USINT"),
     (Allowance.BIT_NUMBERS, "i := numbers[b];", "BYTE_TO_USINT"),
     (Allowance.BIT_NUMBERS, "s := LEFT(s, b);", "BYTE_TO_USINT"),
     (Allowance.BIT_NUMBERS, "FOR b := 1 TO 3 DO i := i + 1; END_FOR", "b : USINT"),
-    (Allowance.BIT_CONVERSION, "d := MAX(w, d);", "WORD_TO_DINT"),
     (Allowance.BIT_NUMBERS, "t := t * w;", "WORD_TO_UINT"),
-    (Allowance.STRING_FROM_ZERO, "b := s[i];", "i + 1"),
+    (Allowance.STRING_FROM_ZERO, "ok := s[i] = 65;", "i + 1"),
     (Allowance.BIT_CONVERSION, "i := w;", "WORD_TO_INT(...)"),
-    (Allowance.BIT_CONVERSION, "dw := i;", "INT_TO_DWORD(...)"),
+    (Allowance.BIT_CONVERSION, "w := i;", "INT_TO_WORD(...)"),
+    (Allowance.SIGNED_BITS, "dw := i;", "INT_TO_DWORD(...)"),
     (Allowance.NARROWING, "i := d;", "DINT_TO_INT(...)"),
     (Allowance.NARROWING, "u := i;", "INT_TO_UINT(...)"),
     (Allowance.NARROWING, "b := w;", "WORD_TO_BYTE(...)"),
     (Allowance.REAL_CONVERSION, "r := l;", "LREAL_TO_REAL(...)"),
     (Allowance.REAL_CONVERSION, "r := d;", "DINT_TO_REAL(...)"),
+    (Allowance.BITS_AS_REALS, "r := dw;", "UDINT_TO_REAL(DWORD_TO_UDINT(...))"),
+    (Allowance.TIME_NUMBERS, "t := d;", "DINT_TO_TIME(...)"),
+    (Allowance.TIME_NUMBERS, "dw := t;", "TIME_TO_DWORD(...)"),
+    (Allowance.TIME_NUMBERS, "t := t + i;", "DINT_TO_TIME"),
+    (Allowance.CHAR_NUMBERS, "i := c;", "CHAR_TO_INT(...)"),
+    (Allowance.CHAR_NUMBERS, "c := b;", "BYTE_TO_CHAR(...)"),
+    (Allowance.INSTRUCTION_CALLS, "timer.TON(IN := ok, PT := t);", "timer(...)"),
     (Allowance.INTEGER_BITS, "i := i AND j;", "INT_TO_WORD(...)"),
     (Allowance.INTEGER_BITS, "i := NOT i;", "WORD_TO_INT(NOT INT_TO_WORD(...))"),
     (Allowance.INTEGER_BITS, "u := SHR(u, 2);", "WORD_TO_UINT(SHR(UINT_TO_WORD(...), ...))"),
@@ -89,8 +96,6 @@ REFUSED = [
     "ok := dw > d;",  # a negative d
     "dw := dw / d;",
     "i := i AND u;",  # a negative i
-    "i := u := 5;",  # of different types
-    "i := numbers[i] := 2;",  # before or after i is assigned?
     "unit.level := 3;",
     "state := 300.0;",
     "w := -w;",
@@ -133,6 +138,43 @@ def test_what_no_documentation_tells_stays_refused(body: str) -> None:
         assert all(each.span.line == LINE for each in found.problems)
 
 
+@pytest.mark.parametrize("body", ["i := u := 5;", "i := numbers[i] := 2;"])
+def test_several_assignments_of_different_types_are_those_that_tia_documents(body: str) -> None:
+    for dialect in DIALECTS.values():
+        allows = Allowance.CHAINED_APART in dialect.allows
+        assert (checked(body, dialect.name).program is not None) is allows, dialect.name
+
+
+def test_a_sum_of_bit_strings_is_one_where_no_more_bits_are_wanted() -> None:
+    for body, runs in (
+        ("w := w + 1;", True),
+        ("b := w - b;", True),
+        ("dw := w + 1;", False),
+        ("ok := w + 1 > 5;", False),
+    ):
+        assert (checked(body, "siemens").program is not None) is runs, body
+
+
+def test_the_type_of_an_instruction_that_nothing_tells_is_asked_for() -> None:
+    for body, told in (
+        ("r := SCALE_X(MIN := 0, VALUE := r, MAX := 27648);", "T004"),
+        ("r := SCALE_X(MIN := 0.0, VALUE := r, MAX := 100.0);", "T001"),  # without the library
+    ):
+        found = [each for each in checked(body, "siemens").problems if each.severity is Severity.ERROR]
+        assert [each.code for each in found] == [told]
+        assert "SCALE_X_REAL" in found[0].message
+
+
+def test_how_a_real_is_written_is_not_documented() -> None:
+    assert [each.code for each in checked("s := REAL_TO_STRING(r);", "siemens").problems] == ["T002"]
+
+
+def test_a_bit_string_and_a_number_have_the_type_of_both_as_arguments() -> None:
+    found = checked("d := MAX(w, d);", "codesys").problems
+    assert [each.code for each in found] == ["W006"]
+    assert "WORD_TO_DINT" in found[0].message
+
+
 def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refused() -> None:
     for body, code in (("s[0] := 65;", "T003"), ("p := ADR(s);", "T013")):
         text = HEAD.replace("ok : BOOL;", "ok : BOOL; p : POINTER TO BYTE;")
@@ -143,6 +185,8 @@ def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refuse
 APART = {
     Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES, Allowance.VENDOR_TYPES,
     Allowance.FINAL_INTERFACES, Allowance.DINT_RESULTS, Allowance.LOCAL_ADDRESSES, Allowance.DIRECT_REFERENCES,
+    Allowance.WRAPPED_REALS, Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_TYPES,
+    Allowance.SIGNED_TEXTS,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
     Allowance.UNLINKED_ADDRESSES,
 }  # fmt: skip

@@ -39,16 +39,21 @@ def test_every_library_checks_with_those_that_it_uses(library: Library) -> None:
         assert found.program is not None
 
 
-def test_no_name_is_declared_by_two_libraries() -> None:
-    seen: dict[str, str] = {}
+def test_no_name_is_declared_by_two_libraries_of_a_dialect() -> None:
+    seen: dict[tuple[str, str], str] = {}
     for library in catalogue():
-        assert {name: seen[name] for name in library.names if name in seen} == {}
-        seen |= dict.fromkeys(library.names, library.name)
+        names = {(dialect, name) for dialect in library.dialects for name in library.names}
+        assert {each: seen[each] for each in names if each in seen} == {}
+        seen |= dict.fromkeys(names, library.name)
 
 
 def test_every_pou_that_is_no_stub_has_a_case() -> None:
-    cases = (Path(__file__).parents[1] / "cases" / "libraries.case").read_text("utf-8")
-    tried = set(re.findall(r"\w+", cases))
+    cases = Path(__file__).parents[1] / "cases"
+    tried = {
+        word
+        for name in ("libraries.case", "scl.case")
+        for word in re.findall(r"\w+", (cases / name).read_text("utf-8"))
+    }
     for library in catalogue():
         real = {each.name for each in library.declared if isinstance(each, PouDeclaration) and not each.stub}
         assert real - tried - HELPERS - ARGUMENTS == set()

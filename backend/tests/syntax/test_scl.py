@@ -25,9 +25,29 @@ def test_places_are_those_of_the_text() -> None:
     assert [each[:9] for each in problems(text)] == ["6:4 W001 ", "6:10 T001"]
 
 
-def test_a_start_value_inside_of_a_member_is_refused_and_not_dropped() -> None:
-    text = 'DATA_BLOCK "D"\nSTRUCT\n  a : Array[0..1] of Int;\n  b : Int;\nEND_STRUCT;\nBEGIN\n  a[0] := 1;\n  b := 2;\nEND_DATA_BLOCK\n'
-    assert [each[:8] for each in problems(text)] == ["7:3 X001"]
+@pytest.mark.parametrize(
+    ("value", "told"),
+    [
+        ("a[2] := 1;", "The index 2 is outside of 0..1."),
+        ("a[0, 1] := 1;", "ARRAY[0..1] OF INT has no element of 2 indices."),
+        ("b.x := 1;", "INT has no members; `x` is not among them."),
+        ("c := 1;", "has no `c` to initialise."),
+        ("s.d := 1;", "has no `d` to initialise."),
+    ],
+)
+def test_a_start_value_of_what_is_not_there_is_told_at_its_place(value: str, told: str) -> None:
+    text = f'DATA_BLOCK "D"\nSTRUCT\n  a : Array[0..1] of Int;\n  b : Int;\n  s : Struct\n c : Int;\nEND_STRUCT;\nEND_STRUCT;\nBEGIN\n  b := 2;\n  {value}\nEND_DATA_BLOCK\n'
+    found = problems(text)
+    assert [each.split()[1] for each in found] == ["D004"]
+    assert found[0].startswith("11:")
+    assert told in found[0]
+
+
+def test_combined_assignments_are_read_one_at_a_time() -> None:
+    text = 'FUNCTION "F" : Void\nVAR_TEMP\n  x : Int;\n  y : Array[0..2] of Int;\nEND_VAR\nBEGIN\n  {}\nEND_FUNCTION\n'
+    for line in ("#x += 1;", "#y[#y[#x] + 1] -= #x * 2;", "IF #x = 1 THEN #x *= 2; ELSE #x /= 2; END_IF;"):
+        assert problems(text.format(line)) == [], line
+    assert [each[:9] for each in problems(text.format("#x += #x -= 2;"))] == ["7:12 X001"]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import re
 from contextlib import suppress
 from dataclasses import replace
 
-from scanbench.check.body.allowed import allowed
+from scanbench.check.body.allowed import allowed, may
 from scanbench.check.body.arguments import together
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body, Found
@@ -80,7 +80,8 @@ def _chained(body: Body, node: tree.Assignment) -> Stmt:
         raise body.report.reject("X001", message, node.span)
     names = {re.split(r"\W", shown(each).upper())[0] for each in targets}
     types = {_target(body, replace(node, target=each))[0].type for each in targets}
-    if len(types) > 1 or any(_indexed_by(each, names) for each in targets):
+    documented = may(body, Allowance.CHAINED_APART)
+    if not documented and (len(types) > 1 or any(_indexed_by(each, names) for each in targets)):
         raise body.report.reject(
             "T002",
             f"In several assignments in one, all variables are of one type, and none is an index of the others: what "

@@ -6,6 +6,7 @@ from scanbench.check.body.callees import callee_of, invoked, standard_function
 from scanbench.check.body.context import Body
 from scanbench.check.body.enabling import enabled, enabling
 from scanbench.check.body.forms import form
+from scanbench.check.body.instructions import instructed
 from scanbench.program.program import Assign, CallFunction, Evaluate, Expr, Sequence, Stmt, Violates
 from scanbench.program.types import BOOL, Type
 from scanbench.syntax import tree
@@ -13,6 +14,7 @@ from scanbench.syntax import tree
 
 def call(body: Body, node: tree.Call, wanted: Type | None = None) -> Expr:
     """A call for its value."""
+    node = instructed(body, node)
     apart = enabling(node)
     if apart.en is not None or apart.eno is not None:
         statements, value = enabled(body, apart, wanted)
@@ -27,6 +29,7 @@ def call(body: Body, node: tree.Call, wanted: Type | None = None) -> Expr:
 
 def call_statement(body: Body, node: tree.Call) -> Stmt | None:
     """A call as a statement: of an instance, or of a function or method whose result is dropped."""
+    node = instructed(body, node)
     apart = enabling(node)
     callee = callee_of(body, node.callee, apart.call)
     if callee is None and names_instance(body, node.callee):

@@ -40,7 +40,7 @@ def instantiated(body: Body, declaration: tree.PouDeclaration, node: tree.Call) 
     """The POU for the types of these arguments; those of one generic type have a common type."""
     types: dict[str, Elementary | StringType] = {}
     arguments = [
-        (_generic_name(variable.type), variable.name, value, _tried(body, value))
+        (_generic_name(variable.type), variable.name, value, tried(body, value))
         for variable, value in _generic_arguments(declaration, node)
     ]
     for generic, name, value, expr in sorted(arguments, key=lambda each: is_untyped(each[3])):
@@ -93,7 +93,7 @@ def _take(
     types[generic] = both
 
 
-def _tried(body: Body, value: tree.Expression) -> Expr:
+def tried(body: Body, value: tree.Expression) -> Expr:
     """The argument, only to see its type: it is checked once more when it is bound."""
     mark = body.report.mark()
     expr = body.expression(value)

@@ -14,7 +14,9 @@ from scanbench.program.shown import OPERATORS
 from scanbench.program.types import (
     DINT,
     ELEMENTARY,
+    LINT,
     REAL,
+    TIME,
     ULINT,
     Elementary,
     Enumeration,
@@ -29,6 +31,10 @@ from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_unty
 INTEGRAL = (*WHOLE, Kind.BITS)
 CALCULATIONS = ("add", "sub", "mul", "div", "mod")
 LOGIC = ("and", "or", "xor")
+MILLISECONDS = (DINT, ELEMENTARY["UDINT"], ELEMENTARY["DWORD"])
+"""Types that TIA has TIME as, of so many milliseconds."""
+MILLISECOND_NS = 1_000_000
+TIME_OF_DAY = ELEMENTARY["TIME_OF_DAY"]
 NUMBERS = {1: "USINT", 2: "UINT", 4: "UDINT", 8: "ULINT"}
 BITS = {1: "BYTE", 2: "WORD", 4: "DWORD", 8: "LWORD"}
 
@@ -63,6 +69,23 @@ def counted(body: Body, op: str, left: Expr, right: Expr, span: Span) -> tuple[E
     fits = (len(bits) == 2 or literal) and ANY_REAL not in types
     largest = max(bits, key=lambda each: each.size)
     return _as_number(body, left), _as_number(body, right), largest if fits else None
+
+
+def bit_sum(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None) -> Expr | None:
+    """A sum of bit strings where one of no more bits is wanted, which is the same whatever sign they have; None of all else."""
+    bits = [each.type for each in (left, right) if isinstance(each.type, Elementary) and each.type.kind is Kind.BITS]
+    literal = left.type == ANY_INT or right.type == ANY_INT
+    if op not in wide.WIDENING or len(bits) + literal != 2 or not may(body, Allowance.BIT_SUMS):
+        return None
+    largest = max(bits, key=lambda each: each.size)
+    if not isinstance(wanted, Elementary) or wanted.kind not in INTEGRAL or wanted.size > largest.size:
+        return None
+    name = unsigned(largest).name
+    instead = f"`{name}_TO_{largest}({largest}_TO_{name}(...) {OPERATORS[op]} ...)`"
+    used(body, Allowance.BIT_SUMS, span, f"`{OPERATORS[op]}` joins bit strings", instead)
+    whole = unsigned(largest)
+    made = fold.binary(op, whole, fold.convert(whole, left), fold.convert(whole, right))
+    return fold.convert(largest, made)
 
 
 def _is_bits(expr: Expr) -> bool:
@@ -248,10 +271,18 @@ def coerced(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr |
     if allowance is None or is_untyped(expr):
         return None
     name = base_of(source).name
-    if not allowed(body, allowance, span, f"{what} is {type}, and this is {source}", f"`{name}_TO_{type}(...)`"):
+    instead = f"`{name}_TO_{type}(...)`"
+    if allowance is Allowance.BITS_AS_REALS:
+        number = unsigned(base_of(source))
+        instead = f"`{number}_TO_{type}({name}_TO_{number}(...))`"
+    if not allowed(body, allowance, span, f"{what} is {type}, and this is {source}", instead):
         return None
     if type.kind is Kind.REAL and base_of(source).kind is Kind.BITS:
         return fold.convert(type, _as_number(body, expr))
+    if allowance is Allowance.TIME_NUMBERS:
+        return milliseconds(type, expr)
+    if allowance is Allowance.ROUNDING and type.size < LINT.size and may(body, Allowance.WRAPPED_REALS):
+        return fold.convert(type, fold.convert(LINT, expr))
     return wide.converted(body, type, fold.convert(base_of(source), expr) if source is not base_of(source) else expr)
 
 
@@ -277,12 +308,38 @@ def _allowance(source: Elementary, target: Elementary) -> Allowance | None:
     if source.kind in INTEGRAL and target.kind in INTEGRAL:
         if target.size < source.size:
             return Allowance.NARROWING
+        if source.kind is Kind.INT and target.kind is Kind.BITS and target.size > source.size:
+            return Allowance.SIGNED_BITS
         return Allowance.NARROWING if Kind.BITS not in (source.kind, target.kind) else Allowance.BIT_CONVERSION
     if target.kind is Kind.REAL and source.kind in INTEGRAL:
-        return Allowance.REAL_CONVERSION
+        return Allowance.BITS_AS_REALS if source.kind is Kind.BITS else Allowance.REAL_CONVERSION
     if source.kind is Kind.REAL and target.kind in WHOLE:
         return Allowance.ROUNDING
+    if Kind.CHAR in (source.kind, target.kind):
+        other = target if source.kind is Kind.CHAR else source
+        return Allowance.CHAR_NUMBERS if other.kind in INTEGRAL else None
+    if (target == TIME and source in MILLISECONDS) or (source in (TIME, TIME_OF_DAY) and target in MILLISECONDS):
+        return Allowance.TIME_NUMBERS
     return Allowance.REAL_CONVERSION if source.kind is Kind.REAL and target == REAL else None
+
+
+def as_duration(body: Body, left: Expr, right: Expr, span: Span) -> Expr:
+    """A number that is added to a TIME or TIME_OF_DAY as milliseconds, where the dialect has that."""
+    number = fold.convert(DINT, right) if right.type == ANY_INT else right
+    if left.type not in (TIME, TIME_OF_DAY) or not isinstance(number.type, Elementary):
+        return right
+    if number.type.kind is not Kind.INT or number.type.size > DINT.size:
+        return right
+    what = f"{left.type} is joined with the number of milliseconds that {number.type} is"
+    return milliseconds(TIME, number) if allowed(body, Allowance.TIME_NUMBERS, span, what) else right
+
+
+def milliseconds(type: Elementary, expr: Expr) -> Expr:
+    """A number as a TIME of so many milliseconds, with the sign that 32 bits have; or a TIME or TIME_OF_DAY as such a number."""
+    unit = Const(LINT, MILLISECOND_NS)
+    if type == TIME:
+        return fold.convert(TIME, fold.binary("mul", LINT, fold.convert(LINT, fold.convert(DINT, expr)), unit))
+    return fold.convert(type, fold.binary("div", LINT, fold.convert(LINT, expr), unit))
 
 
 def _enumerated(body: Body, expr: Expr, source: Elementary, type: Enumeration, span: Span, what: str) -> Expr | None:

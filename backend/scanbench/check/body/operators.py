@@ -5,7 +5,7 @@ from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.joining_hint import joining_hint
-from scanbench.check.body.lenient import LOGIC, as_calculated, counted, index, logical
+from scanbench.check.body.lenient import LOGIC, as_calculated, as_duration, bit_sum, counted, index, logical
 from scanbench.check.body.literals import as_text, in_64_bits, literal_as
 from scanbench.check.body.references import compare_references, pointer_arithmetic
 from scanbench.check.body.subrange_checks import plain
@@ -53,6 +53,8 @@ def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Ty
     left, right = _number(left), _number(right)
     if op in LOGIC and (made := logical(body, op, left, right, span)) is not None:
         return made
+    if (sum := bit_sum(body, op, left, right, span, wanted)) is not None:
+        return sum
     left, right, bits = counted(body, op, left, right, span)
     if op not in LOGIC:
         left, right = as_calculated(body, left, right)
@@ -158,6 +160,8 @@ def _beside(body: Body, literal: Expr, type: Elementary, span: Span, wanted: Typ
 
 
 def _time(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
+    if op in ("add", "sub"):
+        right = as_duration(body, left, right, span)
     a, b = left.type, right.type
     if isinstance(a, Elementary) and isinstance(b, Elementary):
         if a.kind in MOMENTS and b.kind in MOMENTS and op in ("add", "sub"):

@@ -267,6 +267,8 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
     result = conversions.convert(value, target, parsed.way, partial(_library, body), raw, by_number)
     if isinstance(result, str):
         raise body.report.reject("T002", f"There is no conversion {name}{result}", node.span)
+    if not raw and isinstance(target, StringType) and may(body, Allowance.SIGNED_TEXTS):
+        return _signed_text(body, node, name, value, result)
     if not raw and isinstance(value.type, Elementary) and (value.type.name, target.name) in conversions.BITCASTS:
         number = "UDINT" if value.type.size == 4 else "ULINT"
         if by_number:
@@ -280,6 +282,26 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
             node.span,
         )
     return result
+
+
+def _signed_text(body: Body, node: tree.Call, name: str, value: Expr, text: Expr) -> Expr:
+    """The text of a number as SCL has it: an integer with its sign, of which the standard has no `+`."""
+    kind = value.type.kind if isinstance(value.type, Elementary) else None
+    if kind is Kind.REAL:
+        raise body.report.reject(
+            "T002", f"How `{name}` writes a number in {body.dialect.title} is not documented exactly. Convert its integer part and the "
+            "digits after the point by themselves, with DINT_TO_STRING.", node.span,
+        )  # fmt: skip
+    if kind not in (Kind.INT, Kind.UINT):
+        return text
+    used(body, Allowance.SIGNED_TEXTS, node.span, f"`{name}` begins with `+` or `-`", f"`CONCAT('+', {name}(...))`")
+    plain = conversions.convert(value, StringType(21), "plain", partial(_library, body))
+    assert not isinstance(plain, str)
+    signed = _library(body, "__WITH_SIGN", plain)
+    assert signed is not None
+    made = conversions.convert(signed, text.type, "plain", partial(_library, body)) if text.type else signed
+    assert not isinstance(made, str)
+    return made
 
 
 def _library(body: Body, name: str, *args: Expr) -> Expr | None:

@@ -2,13 +2,15 @@
 
 import math
 import struct
+from contextlib import suppress
 
 from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.uses import variable_symbol
+from scanbench.problems import Span
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Const
-from scanbench.program.types import ArrayType, Elementary, Kind, Record, Section, StringType, Type, initial_of
+from scanbench.program.types import ArrayType, Elementary, Kind, Member, Record, Section, StringType, Type, initial_of
 from scanbench.syntax import tree
 
 
@@ -17,6 +19,8 @@ def initial_image(declared: Declarations, value: tree.Initial, type: Type) -> by
     match value:
         case tree.ArrayInit():
             return _array(declared, value, type)
+        case tree.StructInit(parts=parts) if parts:
+            return _parts(declared, value, type)
         case tree.StructInit():
             return _record(declared, value, type)
     if not isinstance(type, Elementary | StringType):
@@ -51,22 +55,69 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
         raise declared.report.reject("D004", f"Values by member initialise a structure, not {type}.", value.span)
     image = bytearray(type.initial())
     for name, item, span in value.members:
-        member = type.members.get(name.upper())
-        if member is None or member.section in (Section.IN_OUT, Section.OUTPUT) or member.located:
-            if type.open or (type.name.upper(), name.upper()) in declared.broken:
-                raise Rejected
-            hint = declared.report.near(
-                name, lambda: [each.name for each in type.members.values()], f"member:{type.name}"
-            )
-            raise declared.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
-        declared.report.use(span, name, variable_symbol(member, type))
-        declared.report.written.append(span)
-        data = initial_image(declared, item, member.type)
-        if member.bit is None:
-            image[member.offset : member.offset + len(data)] = data
-        else:
-            image[member.offset] = image[member.offset] & ~(1 << member.bit) | data[0] << member.bit
+        member = _member(declared, type, name, span, (Section.IN_OUT, Section.OUTPUT))
+        _put(image, member.offset, member.bit, initial_image(declared, item, member.type))
     return bytes(image)
+
+
+def _member(declared: Declarations, type: Record, name: str, span: Span, without: tuple[Section, ...]) -> Member:
+    """The member of this name, which has none of these sections."""
+    member = type.members.get(name.upper())
+    if member is None or member.section in without or member.located:
+        if type.open or (type.name.upper(), name.upper()) in declared.broken:
+            raise Rejected
+        hint = declared.report.near(name, lambda: [each.name for each in type.members.values()], f"member:{type.name}")
+        raise declared.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
+    declared.report.use(span, name, variable_symbol(member, type))
+    declared.report.written.append(span)
+    return member
+
+
+def _put(image: bytearray, offset: int, bit: int | None, data: bytes) -> None:
+    if bit is None:
+        image[offset : offset + len(data)] = data
+    else:
+        image[offset] = image[offset] & ~(1 << bit) | data[0] << bit
+
+
+def _parts(declared: Declarations, value: tree.StructInit, type: Type) -> bytes:
+    image = bytearray(initial_of(type))
+    for target, item in value.parts:
+        with suppress(Rejected):  # it is told; so are the others
+            offset, bit, part = _part(declared, target, type)
+            _put(image, offset, bit, initial_image(declared, item, part))
+    return bytes(image)
+
+
+def _part(declared: Declarations, node: tree.Expression, type: Type) -> tuple[int, int | None, Type]:
+    """Where in a variable of this type a part is, the bit if it is one, and the type of the part."""
+    match node:
+        case tree.Name(name=name, span=span):
+            offset, owner = 0, type
+        case tree.MemberOf(owner=of, name=name, span=span):
+            offset, _, owner = _part(declared, of, type)
+        case tree.IndexOf(array, indices, span):
+            offset, _, owner = _part(declared, array, type)
+            return _element(declared, owner, offset, indices, span)
+        case _:
+            raise declared.report.reject("D004", "This is no part that has a start value.", node.span)
+    if not isinstance(owner, Record):
+        raise declared.report.reject("D004", f"{owner} has no members; `{name}` is not among them.", span)
+    member = _member(declared, owner, name, span, (Section.IN_OUT,))
+    return offset + member.offset, member.bit, member.type
+
+
+def _element(
+    declared: Declarations, array: Type, offset: int, indices: tuple[tree.Expression, ...], span: Span
+) -> tuple[int, None, Type]:
+    if not isinstance(array, ArrayType) or len(indices) != len(array.bounds):
+        raise declared.report.reject("D004", f"{array} has no element of {len(indices)} indices.", span)
+    for dimension, (index, (low, high)) in enumerate(zip(indices, array.bounds, strict=True)):
+        number = declared.constant_of(index, None).value
+        if not isinstance(number, int) or not low <= number <= high:
+            raise declared.report.reject("D004", f"The index {number!r} is outside of {low}..{high}.", index.span)
+        offset += (number - low) * array.stride(dimension)
+    return offset, None, array.element
 
 
 def encode(type: Elementary | StringType, constant: Const) -> bytes:

@@ -26,6 +26,7 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "FILE": ("codesys",),
     "IBaseLibrary": ("twincat",),
     "Logix": ("rockwell",),
+    "Siemens": ("siemens",),
     "Standard64": ("codesys", "twincat"),
     "Tc2_EtherCAT": ("twincat",),
     "Tc2_MC2": ("twincat",),
@@ -42,8 +43,8 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
 """Each name, and the dialects that it is written in."""
 UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
 """Global variables of libraries that the vendor's controller sets, and nothing here: whoever uses one is told."""
-NEEDED_BY = {"__HEAP": frozenset({"__NEW", "__DELETE"})}
-"""Operators that use a library whose name they do not say."""
+NEEDED_BY = {"__HEAP": frozenset({"__NEW", "__DELETE"}), "Siemens": frozenset({"NORM_X", "SCALE_X", "SWAP"})}
+"""Operators and instructions that use a library whose name they do not say."""
 _WORD = re.compile(r"\b[A-Z_]\w*")
 _IN_NAMESPACE = re.compile(r"\b(?=([A-Z_]\w*\.[A-Z_]\w*))")
 NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)

@@ -63,6 +63,8 @@ def write_initial(parent: Element, initial: tree.Initial) -> None:
                 write_initial(
                     add(made, "value", **({"repetitionValue": text(times)} if times is not None else {})), item
                 )
+        case tree.StructInit(parts=parts) if parts:
+            raise CannotWrite("the start values of a data block")
         case tree.StructInit(members):
             made = add(parent, "structValue")
             for name, item, _ in members:
