@@ -20,6 +20,12 @@ FILES = {
         "the past of a run, what was reached, and what left its subrange",
         "LastWriter RunChanges Comparison Rerun Diagnostics Coverage",
     ),
+    "disturbances": ("disturbances, and campaigns of them", "DisturbanceInfo CampaignState WholeCampaign"),
+    "verification": (
+        "verifications",
+        "VerificationInfo UploadedTrace TraceMapping VerifyRows SetCell VerificationRecord",
+    ),
+    "traces": ("traces", "TraceInfo TraceTrigger TraceRecordInfo Retrospective"),
 }
 """What each file is about, and the components that are asked for; those that they hold come into the first file."""
 _NAMES = {"integer": "int", "string": "str", "boolean": "bool", "number": "float", "null": "None"}

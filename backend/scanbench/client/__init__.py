@@ -15,6 +15,8 @@ described in `scanbench.client.shapes`.
 
 from scanbench.client.asking import Json, Refused
 from scanbench.client.requests.base import Value
+from scanbench.client.requests.traces import Samples
+from scanbench.client.requests.verification import verdict
 from scanbench.client.waiting import Plc, Server, connect
 
-__all__ = ["Json", "Plc", "Refused", "Server", "Value", "connect"]
+__all__ = ["Json", "Plc", "Refused", "Samples", "Server", "Value", "connect", "verdict"]

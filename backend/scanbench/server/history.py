@@ -34,6 +34,8 @@ IDLE_S = 120.0
 """So long without a question, and the process that answers them ends."""
 COMPARISONS = 20
 """Of an instance, that are kept."""
+RERUNS = 20
+"""Of the server, that are known."""
 MOST = 3
 """Comparisons and replays at a time."""
 Open = Callable[[Session, str, Path, str], Awaitable[Session]]
@@ -68,6 +70,8 @@ class RunHistory:
         self._next = 1
         self._comparisons: dict[int, _Comparison] = {}
         self._reruns: dict[int, _Rerun] = {}
+        self._begun: dict[int, _Rerun] = {}
+        """The last replays, those that are over included."""
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def close(self) -> None:
@@ -87,6 +91,7 @@ class RunHistory:
         for id, rerun in list(self._reruns.items()):
             if rerun.session.id == instance and self._reruns.pop(id, None) is not None:
                 await _cancelled(rerun.task)
+        self._begun = {id: each for id, each in self._begun.items() if each.session.id != instance}
 
     # ---- questions ------------------------------------------------------------------------------------------------
 
@@ -118,6 +123,12 @@ class RunHistory:
     def comparisons(self, session: Session) -> list[Comparison]:
         """Those of an instance's run with others, the newest first."""
         return [each.changed for each in reversed(self._comparisons.values()) if each.session is session]
+
+    def comparison(self, id: int) -> Comparison:
+        """How far a comparison is, and what came of it."""
+        if id not in self._comparisons:
+            raise NotFound(f"there is no comparison {id}: it was forgotten, or the server has started again")
+        return self._comparisons[id].changed
 
     def compare(self, a: Session, b: Session, author: str) -> Comparison:
         """Compares two runs, scan by scan."""
@@ -167,11 +178,18 @@ class RunHistory:
         id = self._number()
         rerun = self._reruns[id] = _Rerun(session, Rerun(id, author, name), self._runs / f"rerun-{fresh_token()}")
         run, until = str(session.instance.run_file), _until(session)
+        self._begun = dict([*self._begun.items(), (id, rerun)][-RERUNS:])
         rerun.task = self._do(
             self._rerun(id, rerun, lambda ref: RerunRun(ref, run, str(rerun.file), change, until, author))
         )
         _tell(rerun)
         return rerun.changed
+
+    def rerun_of(self, id: int) -> Rerun:
+        """How far a replay is, and what came of it; the last 20 of the server are known."""
+        if id not in self._begun:
+            raise NotFound(f"there is no replay {id}: it was forgotten, or the server has started again")
+        return self._begun[id].changed
 
     async def cancel_rerun(self, id: int) -> None:
         """Gives a replay up."""

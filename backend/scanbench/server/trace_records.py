@@ -14,7 +14,7 @@ from scanbench.jobs.client import FAULT, Make, alone
 from scanbench.runtime.clock import fresh_token
 from scanbench.server.kept import readable, unreadable
 from scanbench.session.session import Session
-from scanbench.store.records import Json, KeptRow
+from scanbench.store.records import Json, KeptRow, NotFound
 from scanbench.store.store import Store
 from scanbench.taps.spool import Spool, read_pages
 from scanbench.taps.trace import TraceSignal
@@ -31,6 +31,7 @@ MAX_SCANS = 10_000_000
 """Scans of one retrospective trace."""
 MAX_AT_ONCE = 2
 """At a time: each is a process that takes a core and some hundred MB."""
+KNOWN = 20
 _OPEN_BYTES = 512 << 20
 """Of records that stay in memory."""
 
@@ -59,11 +60,13 @@ class _Retrospective:
     changed: RetrospectiveChanged
     file: Path
     every: int
+    known: dict[int, RetrospectiveChanged]
+    """Where its state is looked up."""
     task: "asyncio.Task[None] | None" = None
 
     def tell(self, changed: RetrospectiveChanged) -> None:
         """Reports its present state."""
-        self.changed = changed
+        self.changed = self.known[changed.id] = changed
         self.session.tell(changed)
 
 
@@ -75,6 +78,8 @@ class TraceRecords:
         self._open: OrderedDict[int, TraceBuffer] = OrderedDict()
         self._opening = asyncio.Lock()
         self._retrospectives: dict[int, _Retrospective] = {}
+        self._known: dict[int, RetrospectiveChanged] = {}
+        """The last ones, those that are over included."""
         self._next = 1
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -212,8 +217,10 @@ class TraceRecords:
         id, self._next = self._next, self._next + 1
         file = self._directory / f"retrospective-{fresh_token()}"
         retrospective = self._retrospectives[id] = _Retrospective(
-            session, RetrospectiveChanged(id, author, 0, last - first + 1), file, every
+            session, RetrospectiveChanged(id, author, 0, last - first + 1), file, every, self._known
         )
+        if len(self._known) >= KNOWN:
+            del self._known[min(self._known)]
         run, to = str(session.instance.run_file), str(file)
         retrospective.task = asyncio.get_running_loop().create_task(
             self._make_record(
@@ -222,8 +229,14 @@ class TraceRecords:
         )
         self._tasks.add(retrospective.task)
         retrospective.task.add_done_callback(self._tasks.discard)
-        session.tell(retrospective.changed)
+        retrospective.tell(retrospective.changed)
         return retrospective.changed
+
+    def retrospective(self, id: int) -> RetrospectiveChanged:
+        """How far one is, and what came of it; the last 20 of the server are known."""
+        if id not in self._known:
+            raise NotFound(f"there is no retrospective trace {id}: it was forgotten, or the server has started again")
+        return self._known[id]
 
     async def cancel(self, id: int) -> None:
         """Gives a retrospective trace up."""

@@ -144,33 +144,33 @@ class Verifications:
         self, id: int, pace: VerifyPace | None, auto: bool | None, memory: Memory | None, action: str | None, author: str
     ) -> VerificationStatus:  # fmt: skip
         """Changes pace or memory; goes one further; stops or resumes."""
-        verification = self._one(id)
+        verification = self.one(id)
         await verification.drive(pace, auto, memory, action, author)
         return verification.status
 
     async def delete(self, id: int, author: str) -> None:
         """Ends one, and forgets its rows."""
-        verification = self._one(id)
+        verification = self.one(id)
         await verification.leave(author)
         await self._drop(id)
 
     async def set_cells(self, id: int, edits: tuple[tuple[int, int, str, str], ...], author: str) -> VerificationStatus:
         """Edits inputs of the set data."""
-        verification = self._one(id)
+        verification = self.one(id)
         await verification.set_cells(edits)
         return verification.status
 
     async def uses(self, id: int, scan: int, call: int) -> tuple[UseRow, ...]:
         """The used-variable record of one row."""
-        return await self._one(id).uses(scan, call)
+        return await self.one(id).uses(scan, call)
 
     async def rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
         """Rows from index `first` on."""
-        return await asyncio.to_thread(self._one(id).rows.as_now().page, first, count, differing)
+        return await asyncio.to_thread(self.one(id).rows.as_now().page, first, count, differing)
 
     async def export(self, id: int, format: Format) -> Exported:
         """All rows that are kept, as a file."""
-        verification = self._one(id)
+        verification = self.one(id)
         session, status = verification.session, verification.status
         when, rows = iso(wall_time()), verification.rows.as_now()
         project = (await asyncio.to_thread(self._store.projects.get, session.project_id)).name
@@ -184,7 +184,7 @@ class Verifications:
             heir.hold.held = True
         return heir is not None
 
-    def _one(self, id: int) -> Verification:
+    def one(self, id: int) -> Verification:
         verification = self._all.get(id)
         if verification is None:
             raise NotFound(f"there is no verification {id}: it was ended, or the server has started again")
@@ -240,7 +240,7 @@ class Verifications:
 
     async def keep(self, id: int, name: str, author: str) -> Kept:
         """Keeps one in the project, as it is now."""
-        verification = self._one(id)
+        verification = self.one(id)
         session, status, rows = verification.session, verification.status, verification.rows.as_now()
         if not rows.kept:
             raise Refused("nothing was verified yet: let it run first")

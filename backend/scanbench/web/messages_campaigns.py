@@ -25,5 +25,7 @@ class NewCampaign(Wire):
 
 
 class WholeCampaign(Wire):
+    """A campaign, and what came of each disturbance that was tried so far."""
+
     state: CampaignState
     trials: list[Trial]

@@ -102,6 +102,8 @@ class DriveVerification(Wire):
 
 
 class SetCell(Wire):
+    """An input of the set data, edited."""
+
     scan: Scan
     call: int = Field(ge=0, le=1_000_000)
     column: str = Field(min_length=1, max_length=500)
@@ -157,6 +159,8 @@ Role = Literal["input", "output", "ignore"]
 
 
 class TraceColumnMap(Wire):
+    """What a column of a trace file means: a variable, and how near to it an output has to be."""
+
     column: str = Field(max_length=500, description="as the file names it")
     path: str = Field(default="", max_length=500, description="variable or address of the project")
     role: Role

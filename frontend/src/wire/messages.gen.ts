@@ -131,7 +131,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * A comparison: how far it is, and what came of it
+         * @description A comparison: how far it is, and what came of it.
+         */
+        get: operations["get_comparison"];
         put?: never;
         post?: never;
         /**
@@ -2349,7 +2353,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * A replay: how far it is, and which instance came of it
+         * @description A replay: how far it is, and which instance came of it.
+         */
+        get: operations["get_rerun"];
         put?: never;
         post?: never;
         /**
@@ -2369,7 +2377,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * A retrospective trace: how far it is, and which record came of it
+         * @description A retrospective trace: how far it is, and which record came of it.
+         */
+        get: operations["get_retrospective"];
         put?: never;
         post?: never;
         /**
@@ -2741,7 +2753,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * One verification: how far it is, what was compared, and what differs
+         * @description One verification: how far it is, what was compared, and what differs.
+         */
+        get: operations["get_verification"];
         put?: never;
         post?: never;
         /**
@@ -7618,7 +7634,10 @@ export interface components {
             version: number;
         };
         ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["CampaignState"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
-        /** SetCell */
+        /**
+         * SetCell
+         * @description An input of the set data, edited.
+         */
         SetCell: {
             /** Call */
             call: number;
@@ -8137,7 +8156,10 @@ export interface components {
              */
             thinned_before: number;
         };
-        /** TraceColumnMap */
+        /**
+         * TraceColumnMap
+         * @description What a column of a trace file means: a variable, and how near to it an output has to be.
+         */
         TraceColumnMap: {
             /**
              * Absolute
@@ -9703,7 +9725,10 @@ export interface components {
             /** Version */
             version: number;
         };
-        /** WholeCampaign */
+        /**
+         * WholeCampaign
+         * @description A campaign, and what came of each disturbance that was tried so far.
+         */
         WholeCampaign: {
             state: components["schemas"]["CampaignState"];
             /** Trials */
@@ -10032,6 +10057,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Instance"];
+                };
+            };
+        };
+    };
+    get_comparison: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                comparison: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
                 };
             };
         };
@@ -14282,6 +14338,37 @@ export interface operations {
             };
         };
     };
+    get_rerun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                rerun: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Rerun"];
+                };
+            };
+        };
+    };
     delete_rerun: {
         parameters: {
             query?: never;
@@ -14308,6 +14395,37 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    get_retrospective: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                retrospective: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Retrospective"];
+                };
             };
         };
     };
@@ -14966,6 +15084,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["VerifyRows"];
+                };
+            };
+        };
+    };
+    get_verification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationInfo"];
                 };
             };
         };

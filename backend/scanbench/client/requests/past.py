@@ -1,9 +1,19 @@
 """The past of the run, what was reached of the program, and what left its subrange."""
 
+from typing import Protocol
+
 from scanbench.client.asking import Steps, asked, asked_value
-from scanbench.client.requests.base import Asks
+from scanbench.client.requests.base import Asks, waited
 from scanbench.client.shapes import past as shapes
 from scanbench.client.shapes.running import CommandResult
+
+
+class Numbered(Protocol):
+    """A PLC."""
+
+    @property
+    def id(self) -> int:
+        """Its number on the server."""
 
 
 class Past(Asks):
@@ -16,9 +26,51 @@ class Past(Asks):
         return self._get(shapes.LastWriter, "last-write", path=path, scan=scan)
 
     @asked
-    def changes(self, first: int, last: int) -> Steps[shapes.RunChanges]:
-        """The variables that differ between the beginnings of two scans, and what was entered in between."""
-        return self._get(shapes.RunChanges, "changes", first=first, last=last)
+    def changes(self, first: int, last: int, other: "int | Numbered | None" = None) -> Steps[shapes.RunChanges]:
+        """The variables that differ between the beginnings of two scans, and what was entered in between. With `other`: that differ
+        between this PLC at `first` and the other one at `last`."""
+        second = None if other is None else _number(other)
+        return self._get(shapes.RunChanges, "changes", first=first, last=last, other=second)
+
+    @asked
+    def compare(self, other: "int | Numbered", timeout_s: float = 600.0) -> Steps[shapes.Comparison]:
+        """Compares this run (A) with that of another PLC (B), scan by scan, and waits for it: where they part is in `result`; where there
+        is none, `message` says why."""
+        begun = yield from self._send(shapes.Comparison, "POST", "comparisons", {"other": _number(other)})
+        return (
+            yield from waited(
+                lambda: self._get(shapes.Comparison, f"/api/comparisons/{begun['id']}"),
+                lambda now: now["result"] is None and not now["message"], timeout_s,
+                lambda now: f"{now['done']} of {now['of']} scans are compared",
+            )
+        )  # fmt: skip
+
+    @asked
+    def replay_with(
+        self, name: str, *, scan: int, error: str, by: int = 0, instead: str = "", leave_out: bool = False,
+        scans_after: int = 0, timeout_s: float = 600.0,
+    ) -> Steps[shapes.Rerun]:  # fmt: skip
+        """Replays the run with one error changed that was raised before `scan`: `by` so many scans later or earlier, another one
+        `instead`, or left out; goes on for `scans_after`. A new PLC comes of it, whose number is in `instance`; where there is none,
+        `message` says why."""
+        body: dict[str, object] = {
+            "name": name, "scan": scan, "error": error, "by": by, "instead": instead, "leave_out": leave_out,
+            "scans_after": scans_after,
+        }  # fmt: skip
+        begun = yield from self._send(shapes.Rerun, "POST", "reruns", body)
+        return (
+            yield from waited(
+                lambda: self._get(shapes.Rerun, f"/api/reruns/{begun['id']}"),
+                lambda now: now["instance"] is None and not now["message"], timeout_s,
+                lambda now: f"{now['done']} of {now['of']} scans are replayed",
+            )
+        )  # fmt: skip
+
+    @asked
+    def scenario(self, scan: int | None = None) -> Steps[str]:
+        """A scenario file of what people and protocol clients did before a scan, or so far: a test that expects the outputs to be the same
+        again, for `scanbench scenario`."""
+        return (yield from self._fetch("scenario", scan=scan)).decode()
 
     @asked_value
     def diagnostics(self) -> Steps[shapes.Diagnostics]:
@@ -45,3 +97,7 @@ class Past(Asks):
     def coverage_lcov(self) -> Steps[str]:
         """The same as text in the format LCOV, for genhtml and CI."""
         return (yield from self._fetch("coverage.lcov")).decode()
+
+
+def _number(plc: int | Numbered) -> int:
+    return plc if isinstance(plc, int) else plc.id

@@ -3,17 +3,22 @@
 from typing import Generic, TypeVar
 from urllib.parse import urlencode
 
+from scanbench.client.requests.disturbances import Disturbances
 from scanbench.client.requests.errors import Errors
 from scanbench.client.requests.past import Past
 from scanbench.client.requests.running import Running
 from scanbench.client.requests.sweeps import Sweeps
+from scanbench.client.requests.traces import Traces
 from scanbench.client.requests.values import Values
+from scanbench.client.requests.verification import Verifications
 from scanbench.client.transport import Reach
 
 PlcT = TypeVar("PlcT")
 
 
-class PlcRequests(Values, Errors, Running[PlcT], Past, Sweeps, Generic[PlcT]):
+class PlcRequests(
+    Values, Errors, Running[PlcT], Past, Sweeps, Disturbances[PlcT], Verifications, Traces, Generic[PlcT]
+):
     """One virtual PLC."""
 
     def __init__(self, reach: Reach, id: int) -> None:

@@ -36,5 +36,10 @@ class Sweeps(Asks):
             lambda now: f"sweep {number} still runs: {now['done']} of {now['total']}",
         )  # fmt: skip
 
+    @asked
+    def cancel_sweep(self, number: int) -> Steps[shapes.SweepSummary]:
+        """Stops a sweep; what it found is kept."""
+        return self._send(shapes.SweepSummary, "POST", f"/api/sweeps/{number}/cancel")
+
     def _sweep(self, number: int) -> Steps[shapes.Sweep]:
         return self._get(shapes.Sweep, f"/api/sweeps/{number}")

@@ -52,6 +52,12 @@ async def on_compare(bench: Bench, request: Request, instance: Id, new: wire.New
     return bench.history.compare(a, b, user_of(request).name)
 
 
+@router.get("/comparisons/{comparison}")
+async def on_comparison(bench: Bench, comparison: Id) -> Comparison:
+    """A comparison: how far it is, and what came of it."""
+    return bench.history.comparison(comparison)
+
+
 @router.delete("/comparisons/{comparison}", status_code=204)
 async def on_delete_comparison(bench: Bench, comparison: Id) -> None:
     """Cancels a comparison, or deletes its result."""
@@ -63,6 +69,12 @@ async def on_rerun(bench: Bench, request: Request, instance: Id, new: wire.NewRe
     """Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket."""
     change = RerunChange(new.scan, new.error, new.by, new.instead, new.leave_out, new.scans_after)
     return await bench.history.rerun(bench.session(instance), change, new.name.strip(), user_of(request).name)
+
+
+@router.get("/reruns/{rerun}")
+async def on_rerun_state(bench: Bench, rerun: Id) -> Rerun:
+    """A replay: how far it is, and which instance came of it."""
+    return bench.history.rerun_of(rerun)
 
 
 @router.delete("/reruns/{rerun}", status_code=204)

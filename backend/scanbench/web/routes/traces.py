@@ -142,6 +142,12 @@ async def on_new_retrospective(
     )
 
 
+@router.get("/retrospectives/{retrospective}")
+async def on_retrospective(bench: Bench, retrospective: Id) -> RetrospectiveChanged:
+    """A retrospective trace: how far it is, and which record came of it."""
+    return bench.trace_records.retrospective(retrospective)
+
+
 @router.delete("/retrospectives/{retrospective}", status_code=204)
 async def on_cancel_retrospective(bench: Bench, retrospective: Id) -> None:
     """Cancels a retrospective trace that is being made."""

@@ -58,6 +58,12 @@ async def on_new_trace_verification(
     return translate_verify.info(begun)
 
 
+@router.get("/verifications/{verification}")
+async def on_verification(bench: Bench, verification: Id) -> wire.VerificationInfo:
+    """One verification: how far it is, what was compared, and what differs."""
+    return translate_verify.info(bench.verifications.one(verification).status)
+
+
 @router.patch("/verifications/{verification}")
 async def on_drive(
     bench: Bench, request: Request, verification: Id, drive: wire.DriveVerification
