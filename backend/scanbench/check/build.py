@@ -27,6 +27,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.declare import declarations_of
 from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
+from scanbench.check.declare.generic_blocks import specialised
 from scanbench.check.declare.kept import declare_static, kept_of
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.programs import placed_programs
@@ -145,6 +146,8 @@ class Checker:
     looked_at: frozenset[str] = frozenset()
     """As in `Declarations`."""
     dialect: Dialect = IEC
+    generic_blocks: bool = False
+    """Whether blocks are made of generic ones, see `generic_blocks.py`."""
     globals: Record = field(default_factory=lambda: Record("GLOBAL", Kind.STRUCT))
     pous: Pous = field(default_factory=Pous)
     declarations: Declarations = field(init=False)
@@ -183,6 +186,8 @@ class Checker:
         self.declarations.symbols = self.system.symbols
         self.names = Collector(self.report, self.declarations, self.system.file, self.enabling)
         self.plant = Plant(self.report, self.pous, plant_files(file.name for file in self.parsed))
+        parsed = specialised(self.parsed, self.report, self.dialect)
+        self.generic_blocks, self.parsed = parsed is not self.parsed, parsed
         self.names.collect(self.parsed)
         self.pous.classes = collect(self.declarations)
         declare_globals(self.parsed, self.globals, self.declarations, self.pous)

@@ -58,6 +58,7 @@ class Allowance(Enum):
     INSTRUCTION_CALLS = auto()
     INSTRUCTION_TYPES = auto()
     SIGNED_TEXTS = auto()
+    GENERIC_CONSTANTS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -282,6 +283,11 @@ RULES: dict[Allowance, Rule] = {
         "`__TRY`, `__CATCH`, `__FINALLY`: a division by zero, an index outside and a pointer to nothing go on in the `__CATCH`",
         "such an error stops the program",
         "a condition before it, `IF divisor <> 0 THEN`",
+    ),
+    Allowance.GENERIC_CONSTANTS: Rule(
+        "`VAR_GENERIC CONSTANT` of a block, whose values come with each instance, `buffer : Buffer<20>`",
+        "a constant has one value",
+        "a block for each value, or VAR_IN_OUT with ARRAY[*]",
     ),
 }
 

@@ -10,7 +10,7 @@ CLOSED = {
     "CONFIGURATION": "END_CONFIGURATION", "TYPE": "END_TYPE", "STRUCT": "END_STRUCT",
     "IF": "END_IF", "CASE": "END_CASE", "FOR": "END_FOR", "WHILE": "END_WHILE", "REPEAT": "END_REPEAT", "__TRY": "__ENDTRY",
     **{f"VAR{section}": "END_VAR" for section in (
-        "", "_INPUT", "_OUTPUT", "_IN_OUT", "_TEMP", "_GLOBAL", "_EXTERNAL", "_ACCESS", "_CONFIG", "_STAT", "_INST",
+        "", "_INPUT", "_OUTPUT", "_IN_OUT", "_TEMP", "_GLOBAL", "_EXTERNAL", "_ACCESS", "_CONFIG", "_STAT", "_INST", "_GENERIC",
     )},
 }  # fmt: skip
 """Keywords that begin a block, and what ends it."""

@@ -54,8 +54,7 @@ def _part_of(c: Cursor, parts: _Parts, end: str) -> bool:
     if text == ";":
         c.take()
     elif text == "VAR_GLOBAL":
-        section = parse_declaration.section(c)
-        parts.globals += [section] if section else []
+        parts.globals.append(parse_declaration.section(c))
     elif text == "VAR_CONFIG":
         parts.settings += _settings(c)
     elif text == "VAR_ACCESS":

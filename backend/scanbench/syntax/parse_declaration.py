@@ -10,14 +10,12 @@ ACCESS = frozenset(("PUBLIC", "PROTECTED", "PRIVATE", "INTERNAL"))
 def sections(c: Cursor) -> tuple[tree.VariableSection, ...]:
     found = []
     while c.texts[c.at] in parse_type.SECTIONS:
-        one = section(c)
-        if one is not None:
-            found.append(one)
+        found.append(section(c))
     return tuple(found)
 
 
-def section(c: Cursor, list_name: str = "", namespace: str = "") -> tree.VariableSection | None:
-    """One section of variables; nothing when it is one that is refused."""
+def section(c: Cursor, list_name: str = "", namespace: str = "") -> tree.VariableSection:
+    """One section of variables."""
     start = c.take()
     span = c.span_of(start)
     qualifiers, access = [], "PROTECTED"
@@ -32,9 +30,6 @@ def section(c: Cursor, list_name: str = "", namespace: str = "") -> tree.Variabl
     variables = parse_type.variables(c)
     end(c, "END_VAR", f"{c.texts[start]} of line {span.line}")
     keyword, kept = c.texts[start], ""
-    if keyword == "VAR_GENERIC":
-        c.report("X001", "VAR_GENERIC is not supported; use a constant, or ARRAY[*] for in-outs.", span)
-        return None
     if keyword in ("VAR_STAT", "VAR_INST"):
         # what a block keeps between calls has no word of its own in the standard
         keyword, kept = "VAR", keyword

@@ -30,9 +30,11 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     kind = c.texts[first].upper()
     access, modifiers = _modifiers(c)
     name = c.name(f"the name of the {kind}")
+    sections: list[tree.VariableSection] = []
+    while kind == "FUNCTION_BLOCK" and c.is_("VAR_GENERIC"):  # before or after what it extends
+        sections.append(parse_declaration.section(c))
     header = _header(c, kind, name)
     in_out = _in_out(c, first) if kind == "FUNCTION_BLOCK" and c.pragmas else ""
-    sections: list[tree.VariableSection] = []
     methods: list[tree.PouDeclaration] = []
     body: Body = ()
     while True:

@@ -52,8 +52,7 @@ def _top(c: Cursor, result: tree.File) -> None:
     elif text == "TYPE":
         _types(c, result)
     elif text == "VAR_GLOBAL":
-        section = parse_declaration.section(c, c.list_name, c.namespace)
-        result.globals += [section] if section else []
+        result.globals.append(parse_declaration.section(c, c.list_name, c.namespace))
     elif text == "CONFIGURATION":
         result.configurations.append(parse_configuration.configuration(c))
     elif word == "NAMESPACE":

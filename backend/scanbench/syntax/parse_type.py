@@ -43,7 +43,7 @@ def _type_spec(c: Cursor, start: int, named: bool) -> tree.TypeSpec:
         return _reference(c, word)
     if word in ("STRING", "WSTRING"):
         return _string_type(c, word == "WSTRING")
-    base = tree.NamedType(c.qualified("a type"), c.span_from(start))
+    base = _with_values(c, tree.NamedType(c.qualified("a type"), c.span_from(start)))
     if c.is_("("):
         return _restricted(c, base, start, named)
     return base
@@ -262,4 +262,15 @@ def structure(c: Cursor, extends: tree.NamedType | None = None) -> tree.StructSp
 def parent(c: Cursor, what: str) -> tree.NamedType:
     """What something extends, implements or is an instance of."""
     first = c.at
-    return tree.NamedType(c.qualified(what), c.span_from(first))
+    return _with_values(c, tree.NamedType(c.qualified(what), c.span_from(first)))
+
+
+def _with_values(c: Cursor, base: tree.NamedType) -> tree.NamedType:
+    """`FB<10, n, (2 * n)>` of vendors: the values of generic constants."""
+    if not c.accept("<"):
+        return base
+    values = [parse_expression.operand(c)]
+    while c.accept(","):
+        values.append(parse_expression.operand(c))
+    c.expect(">", "to close the values of the generic constants")
+    return tree.NamedType(base.name, base.span, tuple(values))

@@ -148,10 +148,11 @@ Expression = (
 
 @node
 class NamedType:
-    """`name` may be qualified: `Motion.Axis`."""
+    """`name` may be qualified: `Motion.Axis`. `values` are those of `FB<10, (2 * n)>`."""
 
     name: str
     span: Span
+    values: tuple[Expression, ...] = ()
 
 
 @node

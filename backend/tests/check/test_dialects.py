@@ -188,6 +188,7 @@ APART = {
     Allowance.WRAPPED_REALS, Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_TYPES,
     Allowance.SIGNED_TEXTS,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
+    Allowance.GENERIC_CONSTANTS,
     Allowance.UNLINKED_ADDRESSES,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""

@@ -75,8 +75,8 @@ def test_bad_declarations_are_skipped_one_by_one() -> None:
 
 
 def test_refused_sections() -> None:
-    assert complaints("FUNCTION_BLOCK b\nVAR_GENERIC CONSTANT n : INT; END_VAR\nEND_FUNCTION_BLOCK") == [
-        "X001 2:1 VAR_GENERIC is not supported; use a constant, or ARRAY[*] for in-outs."
+    assert complaints("FUNCTION_BLOCK b\nVAR_INPUT n : INT<; END_VAR\nEND_FUNCTION_BLOCK") == [
+        "S003 2:19 an expression (a value, variable or call) expected, found `;`."
     ]
     assert complaints("PROGRAM p\nVAR_ACCESS a : b : INT; END_VAR\nVAR x : INT; END_VAR\nEND_PROGRAM") == [
         "X001 2:1 VAR_ACCESS in a PROGRAM is not supported; write it inside of the CONFIGURATION."

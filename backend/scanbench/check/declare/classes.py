@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from scanbench.check.context import Rejected
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.frames import frame
-from scanbench.check.declare.names import Space, qualified
+from scanbench.check.declare.names import Space, qualified, written
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.program.program import Pou
@@ -230,7 +230,7 @@ def _parent(named: tree.NamedType, keyword: str, owner: Class, classes: Classes,
         )
         raise report.reject("D002", f"There is no {_wanted(owner, keyword)} `{name}`.{hint}", declaration.span)
     parent = classes.by_key[key]
-    report.use(named.span, name, Symbol("pou", "", key))
+    report.use(named.span, written(name), Symbol("pou", "", written(key)))
     fits = {
         "IMPLEMENTS": ("interface",), "interface": ("interface",), "class": ("class",),
         "function_block": ("function_block", "class"),

@@ -8,7 +8,7 @@ from typing import TypeAlias
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.creations import Creations
 from scanbench.check.declare.enumeration_values import EnumerationValues
-from scanbench.check.declare.names import Names, Space, qualified
+from scanbench.check.declare.names import Names, Space, qualified, written
 from scanbench.check.declare.vendor_types import vendor_type
 from scanbench.check.dialect import IEC, Dialect
 from scanbench.check.libraries.catalogue import where_declared
@@ -140,7 +140,7 @@ class Declarations:
     def _note(self, name: str, key: str, span: Span) -> None:
         origin = self.type_trees.get(key) or self.block_trees.get(key)
         if origin is not None and origin.span is not span:  # where it is declared it is not used
-            self.report.use(span, name, Symbol("type" if key in self.type_trees else "pou", "", key))
+            self.report.use(span, written(name), Symbol("type" if key in self.type_trees else "pou", "", written(key)))
 
     def _complete(self) -> None:
         """Makes what references referred to while it could not be made."""

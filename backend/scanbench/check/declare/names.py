@@ -11,6 +11,11 @@ LIBRARY = "__STANDARD"
 """The namespace of what the standard library declares where the user declares the same name."""
 
 
+def written(name: str) -> str:
+    """The name of a type as the text has it: without the values of generic constants, `FB` of `FB<20>`."""
+    return name.partition("<")[0]
+
+
 @dataclass(frozen=True, slots=True)
 class Space:
     """The namespace of a declaration, and the namespaces whose names it sees without qualification."""

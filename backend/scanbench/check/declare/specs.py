@@ -31,6 +31,10 @@ def type_of(declared: Declarations, spec: tree.TypeSpec) -> Type:
     """The type that the specification says."""
     match spec:
         case tree.NamedType(name, span):
+            if spec.values:
+                raise declared.report.reject(
+                    "D002", f"`{name}` has no generic constants; write it without `<` and `>`.", span
+                )
             return declared.named(name, span)
         case tree.StringSpec(length, span, wide):
             return _string(declared, length, span, 2 if wide else 1)
