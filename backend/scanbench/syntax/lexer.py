@@ -123,6 +123,11 @@ def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[To
         text = _without_nested(source, start, end, problems)
         pieces = PIECE.findall(text, start, end)
         known = {piece: _kind(piece) for piece in set(pieces)}
+    if Lex.UNREADABLE in found and ("'" in known or '"' in known):
+        text = _with_closed_strings(source, text, pieces, start, problems)
+        pieces = PIECE.findall(text, start, end)
+        known = {piece: _kind(piece) for piece in set(pieces)}
+        found = set(known.values())
     all_starts = list(accumulate(map(len, pieces), initial=start))
     if Lex.UNREADABLE in found:
         for piece, at in zip(pieces, all_starts, strict=False):
@@ -177,6 +182,22 @@ def _unreadable(source: Source, at: int, char: str) -> Problem:
     if found:
         return Problem("S001", f"`{found}` is of another language; {FOREIGN[found]}.", source.span(at, at + len(found)))
     return Problem("S001", f"`{char}` has no meaning here; remove it.", span)
+
+
+def _with_closed_strings(source: Source, text: str, pieces: list[str], start: int, problems: list[Problem]) -> str:
+    """The text with an empty string for one that never ends in its line, which is reported; a `;` at the end stays."""
+    at, closed = start, -1
+    for piece in pieces:
+        if piece in ("'", '"') and at > closed and len(problems) < MAX_UNREADABLE:
+            problems.append(_unreadable(source, at, piece))
+            closed = text.find("\n", at)
+            closed = len(text) if closed < 0 else closed
+            rest = text[at:closed]
+            last = ";" if rest.rstrip().endswith(";") else ""
+            made = f"{2 * piece}{last}" if len(rest) > 2 else ""
+            text = text[:at] + made.ljust(len(rest)) + text[closed:]
+        at += len(piece)
+    return text
 
 
 FOREIGN = {

@@ -35,6 +35,7 @@ FOREIGN = {
     **{f"{operator}=": f"write `x := x {operator} ...`" for operator in "+-*/"},
 }
 """Operators of other languages that are read as two of ours."""
+UNITS = frozenset(("d", "h", "m", "s", "ms", "us", "ns"))
 MAX_CHAIN = 1000
 SIZES = frozenset("SIZEOF XSIZEOF".split())
 
@@ -66,11 +67,22 @@ def operand(c: Cursor) -> tree.Expression:
         c.at = at + 1
         if kind is Lex.STRING and texts[at][0] == '"' and texts[at + 1] in QUOTED_NAME:
             raise c.quoted(at)
+        if kind is Lex.INTEGER and c.kinds[at + 1] is NAME and c.end_of(at) == c.starts[at + 1]:
+            raise _no_number(c, at)
         return literal(c, at)
     if kind is Lex.ADDRESS:
         c.at = at + 1
         return tree.DirectAddress(texts[at], c.span_of(at))
     return _marked(c, at, texts[at])
+
+
+def _no_number(c: Cursor, at: int) -> Unexpected:
+    """Refuses `5s` and `3x`."""
+    written = c.texts[at] + c.texts[at + 1]
+    unit = c.texts[at + 1].lower() in UNITS
+    hint = f"a time is written `T#{written}`" if unit else "a name begins with a letter, and an operator is before it"
+    c.report("S003", f"`{written}` is neither a number nor a name: {hint}.", c.span_from(at))
+    return Unexpected()
 
 
 def _marked(c: Cursor, at: int, text: str) -> tree.Expression:
@@ -102,6 +114,14 @@ def _marked(c: Cursor, at: int, text: str) -> tree.Expression:
         c.take()
         c.wires.add(c.texts[at + 1].upper())
         return postfix(c, tree.Name(f"#{c.texts[at + 1]}", c.span_from(at)), calls=False)
+    twice = c.texts[at - 2 : at]
+    if twice in (["+", "+"], ["-", "-"]) and c.end_of(at - 2) == c.starts[at - 1]:
+        sign = twice[0]
+        c.report(
+            "S003", f"`{2 * sign}` is of another language; write `x := x {sign} 1`.",
+            c.source.span(c.starts[at - 2], c.starts[at - 1] + 1),
+        )  # fmt: skip
+        raise Unexpected
     foreign = FOREIGN.get(c.texts[at - 1] + text)
     if foreign and c.starts[at - 1] + len(c.texts[at - 1]) == c.starts[at]:
         c.report("S003", f"`{c.texts[at - 1]}{text}` is of another language; {foreign}.", c.span_from(at - 1))

@@ -66,6 +66,13 @@ def _top(c: Cursor, result: tree.File) -> None:
     elif (refused := word or text) in REFUSED:
         c.report("X001", f"{refused} is not supported here; {REFUSED[refused]}.", c.here())
         raise Unexpected
+    elif word in MEMBERS:
+        c.report(
+            "S003",
+            f"{word} belongs into a FUNCTION_BLOCK: write it after one, or before its END_FUNCTION_BLOCK.",
+            c.here(),
+        )
+        raise Unexpected
     else:
         raise c.fail("PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL or CONFIGURATION expected")
 

@@ -148,8 +148,16 @@ def _array(c: Cursor) -> tree.TypeSpec:
 def variables(c: Cursor) -> tuple[tree.Variable, ...]:
     """Declarations up to what closes them."""
     found: list[tree.Variable] = []
-    while c.texts[c.at] not in DECLARATIONS_END and not c.ended():
+    while not c.ended():
         depth = c.depth
+        if c.kinds[c.at] is Lex.KEYWORD and c.texts[c.at + 1] == ":":
+            word = c.texts[c.at]
+            c.report("S003", f"`{word}` is a keyword and cannot be the name of a variable; rename it.", c.here())
+            c.take()
+            skip_declaration(c)
+            continue
+        if c.texts[c.at] in DECLARATIONS_END:
+            break
         if c.accept(";"):
             continue
         try:

@@ -14,6 +14,7 @@ from scanbench.problems import Severity
 from scanbench.program.types import ABBREVIATIONS, ELEMENTARY
 from scanbench.syntax import tree
 from scanbench.syntax.chart import QUALIFIERS, Chart
+from scanbench.syntax.conditions import chosen
 from scanbench.syntax.lexer import Lex, tokenize
 from scanbench.syntax.networks import NetworkBody
 from scanbench.syntax.source import Source
@@ -47,7 +48,8 @@ def test_every_name_of_a_case_means_something(topic: str) -> None:
 def unresolved(reading: Reading) -> list[str]:
     """Names that mean nothing; but not words of the language, parameters of standard functions, names of namespaces, tasks and
     program instances, operators and labels of IL, and what only a network knows."""
-    tokens, _ = tokenize(Source(FILE, reading.text(FILE)))
+    source = Source(FILE, reading.text(FILE))
+    tokens, _ = chosen(source, tokenize(source)[0])
     names = reading.index.between(FILE, 0, len(reading.text(FILE)) + 1)
     known = {reading.place(FILE, first) for first, _, _ in names}
     known |= {(each.span.line, each.span.column) for each in declared(reading)}

@@ -19,8 +19,8 @@ from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Stmt
 from scanbench.program.shown import shown
-from scanbench.program.types import BOOL, ArrayType, Kind, Record, Reference, Type, has_instance
-from scanbench.program.untyped import ANY_INT, settle
+from scanbench.program.types import BOOL, ArrayType, Elementary, Kind, Record, Reference, Type, has_instance
+from scanbench.program.untyped import ANY_INT, is_untyped, settle
 from scanbench.syntax import tree
 
 
@@ -34,7 +34,13 @@ def _bind(body: Body, target: tree.Expression, value: tree.Expression, span: Spa
     body.effects.assignable(body, place, member, target.span)
     null = isinstance(value, tree.Name) and value.name.upper() == "NULL"
     if null or isinstance(value, tree.Literal | tree.Call):
-        return place, coerce(body, body.expression(value), replace(type, automatic=False), span, shown(target))
+        given = body.expression(value)
+        if not null and is_untyped(given) and not (isinstance(given, Const) and given.value == 0):
+            raise body.report.reject(
+                "T002", f"`REF=` binds `{shown(target)}` to a variable; for a value write `{shown(target)} := {shown(value)}`.",
+                value.span,
+            )  # fmt: skip
+        return place, coerce(body, given, replace(type, automatic=False), span, f"`{shown(target)}`")
     source, _ = raw_place(body, value) if isinstance(value, VARIABLES) else (None, None)
     if source is not None and isinstance(source.type, Reference) and source.type.automatic:
         reference: Expr = Load(source)
@@ -153,7 +159,10 @@ def condition(body: Body, node: tree.Expression) -> Expr:
         if isinstance(expr, Const) and expr.type == ANY_INT and expr.value in (0, 1):
             return Const(BOOL, expr.value)
         if expr.type != BOOL:
-            raise body.report.reject("T006", f"A condition is BOOL, not {settle(expr).type}.", node.span)
+            type = settle(expr).type
+            counts = isinstance(type, Elementary) and type.kind in (Kind.INT, Kind.UINT, Kind.BITS)
+            hint = f" Write `{shown(node)} <> 0`." if counts and isinstance(node, VARIABLES) else ""
+            raise body.report.reject("T006", f"A condition is BOOL, not {type}.{hint}", node.span)
     except Rejected:
         return Const(BOOL, 0)
     return expr

@@ -16,7 +16,7 @@ from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.uses import Symbol
 from scanbench.program.origin import in_library
 from scanbench.program.program import Expr, Place, Pou
-from scanbench.program.types import Record, Reference, Type
+from scanbench.program.types import ELEMENTARY, Record, Reference, Type
 from scanbench.syntax import tree
 
 
@@ -100,6 +100,8 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
     hint = body.declarations.library_hint(name) or body.report.near(name, lambda: _known(body), "function")
     if body.declarations.find_type(name, node.span) in body.declarations.block_trees:
         hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
+    if key in ELEMENTARY:
+        hint = f" `{name}` is a type; convert a value with TO_{key}(...)."
     untyped = {(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken
     if key in body.pous.broken or untyped or (body.scope.instance is not None and body.scope.instance.open):
         raise Rejected

@@ -70,6 +70,9 @@ def coerce(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr:
     if isinstance(source, Reference) and isinstance(source.target, Record) and source.target.open:
         raise Rejected  # who knows what it is derived from
     said = "nothing" if source is None else str(settle(expr).type)
+    if isinstance(expr, Const) and isinstance(source, StringType) and isinstance(type, StringType):
+        hint = "Write the text in single quotes." if source.width == 2 else "Write the text in double quotes."
+        raise body.report.reject("T002", f"{what} is {type}, but this is {said}. {hint}", span)
     raise body.report.reject("T002", f"{what} is {type}, but this is {said}.{_hint(source, type)}", span)
 
 
@@ -105,7 +108,9 @@ def _hint(source: Type | None, target: Type) -> str:
         instance = isinstance(target.target, Record) and target.target.kind is Kind.INTERFACE
         if isinstance(source, Reference):
             return ""
-        return " Assign an instance that implements it." if instance else " Write REF(variable)."
+        if instance:
+            return " Assign an instance that implements it."
+        return " Write ADR(variable)." if target.pointer else " Write REF(variable)."
     if isinstance(source, Reference) and source.target == target:
         return " Dereference it with `^`."
     return conversion_hint(source, target)

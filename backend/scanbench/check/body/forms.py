@@ -10,7 +10,7 @@ from scanbench.check.body.heap import heap_form
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import as_written
-from scanbench.check.body.vendor_forms import POINTER_TO, WHY, vendor_form
+from scanbench.check.body.vendor_forms import POINTER_TO, UNSUPPORTED, WHY, vendor_form
 from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.program.program import Const, Expr, Load, Violates
@@ -111,7 +111,7 @@ def form(body: Body, node: tree.Call) -> Expr | None:
     if not isinstance(node.callee, tree.Name):
         return None
     name = node.callee.name.upper()
-    if name in WHY:
+    if name in WHY or name in UNSUPPORTED:
         return vendor_form(body, node, name)
     if name in HEAP_FORMS:
         return heap_form(body, node, name)

@@ -130,7 +130,9 @@ def _same(
     a, b = left.type, right.type
     if not isinstance(a, Elementary) or not isinstance(b, Elementary):
         both = f"{settle(left).type} and {settle(right).type}"
-        raise body.report.reject("T002", f"`{OPERATORS[op]}` cannot join {both}.", span)
+        texts = op == "add" and (isinstance(a, StringType) or isinstance(b, StringType))
+        hint = " Texts are joined with CONCAT(a, b); convert what is no text, as TO_STRING(a)." if texts else ""
+        raise body.report.reject("T002", f"`{OPERATORS[op]}` cannot join {both}.{hint}", span)
     if is_untyped(left) and is_untyped(right):
         type = ANY_REAL if ANY_REAL in (a, b) else ANY_INT
         return Const(type, _plain(left)), Const(type, _plain(right)), type

@@ -138,7 +138,9 @@ def _case(body: Body, node: tree.CaseStatement) -> Stmt:
     selector = value_of(body, node.selector)
     type = selector.type
     if not isinstance(type, Elementary) or type.kind not in (*COUNTED, Kind.BITS):
-        raise body.report.reject("T002", f"CASE needs an integer or an enumeration, not {type}.", node.selector.span)
+        raise body.report.reject(
+            "T002", f"CASE needs an integer or an enumeration, not {type}; write IF and ELSIF.", node.selector.span
+        )
     branches = []
     taken: list[tuple[int, int]] = []  # in order
     for labels, inner in node.branches:
@@ -171,7 +173,7 @@ def _label(
 def _label_value(body: Body, node: tree.Expression, type: Elementary) -> int:
     expr = body.expression(node, type)
     if not isinstance(expr, Const):
-        raise body.report.reject("T007", "A label is a constant.", node.span)
+        raise body.report.reject("T007", "A label is a constant; for a variable write IF.", node.span)
     return int(_plain_label(body, expr, type, node).value)
 
 

@@ -16,14 +16,29 @@ WHY = {
     "__POUNAME": "there is no information about POUs at run time",
 }
 """Why the strict language has none of these."""
+UNSUPPORTED = {
+    "INI": "initialise the variables with assignments",
+    "BITADR": "write a bit of a variable, as `x.3`",
+    "INDEXOF": "give the POUs numbers of their own",
+    "__CURRENTTASK": "give the task a number of its own",
+    "__XADD": "write `old := x; x := x + step;`, as tasks do not interrupt each other here",
+    "__COMPARE_AND_SWAP": "write an IF and an assignment, as tasks do not interrupt each other here",
+    "TEST_AND_SET": "write an IF and an assignment, as tasks do not interrupt each other here",
+}
+"""Operators of CODESYS and TwinCAT that no dialect has here, and what to do instead."""
 POINTER_TO = "POINTER TO"
 """The name by which `SIZEOF(POINTER TO INT)` passes on what is no expression."""
 
 
 def vendor_form(body: Body, node: tree.Call, name: str) -> Expr | None:
-    """One of `WHY`; None where the user declared something of that name."""
-    if name not in WHY or name in body.pous.functions or body.scope.find(name) is not None:
+    """One of `WHY`, or what is not supported at all; None where the user declared something of that name."""
+    if name in body.pous.functions or body.scope.find(name) is not None:
         return None
+    if name in UNSUPPORTED:
+        raise body.report.reject(
+            "X001", f"`{name}` is an operator of CODESYS and TwinCAT that is not supported: {UNSUPPORTED[name]}.",
+            node.callee.span,
+        )  # fmt: skip
     if not may(body, Allowance.VENDOR_OPERATORS):
         raise body.report.reject("X001", f"`{name}` is not supported: {WHY[name]}.", node.callee.span)
     return _pou_name(body, node) if name == "__POUNAME" else _query(body, node, name)
