@@ -134,7 +134,7 @@ def guess_dialect(files: Mapping[str, str], others: Iterable[str] = ()) -> Diale
     exported = any(name.endswith((".exp", ".project", ".export")) for name in names)
     if exported or any(map(_CODESYS_MARKS.search, programs)):
         return "codesys"
-    if any(name.endswith((".scl", ".udt", ".awl")) for name in names) or any(map(is_scl, files)):
+    if any(name.endswith((".scl", ".udt", ".awl", "apax.yml")) for name in names) or any(map(is_scl, files)):
         return "siemens"
     if any(name.endswith((".l5x", ".acd")) for name in names):
         return "rockwell"

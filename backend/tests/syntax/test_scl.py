@@ -68,6 +68,7 @@ def test_half_a_text_is_read_to_its_end() -> None:
 def test_it_is_not_laid_out_and_tells_its_dialect() -> None:
     assert formatted("a.scl", "FUNCTION F : Void\nEND_FUNCTION\n") is None
     assert guess_dialect({"a.scl": ""}) == "siemens"
+    assert guess_dialect({"src/a.st": ""}, ["apax.yml"]) == "siemens"
     assert guess_dialect({"a.st": ""}, ["Thumbs.db"]) == "iec"
 
 
@@ -94,3 +95,16 @@ def test_a_data_block_is_kept_over_a_restart_as_it_says() -> None:
     assert (file.globals[0].qualifiers, found) == (("RETAIN",), [])
     mixed = text.replace("BEGIN", "VAR\n  y : Int;\nEND_VAR\nBEGIN")
     assert [each.code for each in parse_scl(Source("a.scl", mixed))[1]] == ["X001"]
+
+
+def test_a_type_that_is_not_there_is_told_once_and_not_at_every_call() -> None:
+    text = "CLASS C\nVAR\n  t : Missing;\nEND_VAR\nMETHOD PUBLIC Run\n  t(signal := TRUE);\n  t(signal := FALSE);\nEND_METHOD\nEND_CLASS\n"
+    for dialect in ("iec", "siemens"):
+        found = check_sources(with_dialect({"a.st": text}, dialect), MODEL).problems
+        assert [each.code for each in found] == ["D011", "D002"], dialect
+
+
+def test_a_time_is_compared_with_a_number_of_milliseconds() -> None:
+    text = 'FUNCTION "F" : Bool\nVAR_INPUT\n  t : Time;\nEND_VAR\nBEGIN\n  #F := #t - T#1s < {};\nEND_FUNCTION\n'
+    assert [each.split()[1] for each in problems(text.format("0"))] == ["W006"]
+    assert [each.split()[1] for each in problems(text.format("0.5"))] == ["T002"]

@@ -6,9 +6,10 @@ from scanbench.check.body.arguments import Invocation, invoke
 from scanbench.check.body.context import Body
 from scanbench.check.body.generic import instantiated
 from scanbench.check.body.methods import send
-from scanbench.check.body.objects import dotted
+from scanbench.check.body.objects import dotted, own_class
 from scanbench.check.body.receivers import Receiver, is_qualified, method_called
 from scanbench.check.body.standard_calls import standard_call
+from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Method
 from scanbench.check.declare.names import Names
@@ -102,7 +103,9 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
     if key in ELEMENTARY:
         hint = f" `{name}` is a type; convert a value with TO_{key}(...)."
-    untyped = {(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken
+    untyped = bool({(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken)
+    owner = own_class(body)
+    untyped = untyped or (owner is not None and owner.record is not None and is_broken(body, owner.record, name))
     if key in body.pous.broken or untyped or (body.scope.instance is not None and body.scope.instance.open):
         raise Rejected
     if body.scope.find(name) is not None:

@@ -43,6 +43,7 @@ def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Ty
     if op in ("and_then", "or_else"):
         return _short_circuit(body, op, left, right, span)
     if op in COMPARISONS:
+        right = as_duration(body, left, right, span) if right.type == ANY_INT else right
         return _compare(body, op, left, right, span)
     if isinstance(left.type, Reference) or isinstance(right.type, Reference):
         return pointer_arithmetic(body, op, left, right, span)

@@ -22,12 +22,14 @@ FOLDER = "libraries"
 SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "__HEAP": ("codesys", "twincat"),
     "__SYSTEM": ("codesys", "twincat"),
+    "AxUnit": ("siemens",),
     "CAA": ("codesys",),
     "FILE": ("codesys",),
     "IBaseLibrary": ("twincat",),
     "Logix": ("rockwell",),
     "Siemens": ("siemens",),
     "Standard64": ("codesys", "twincat"),
+    "System": ("siemens",),
     "Tc2_EtherCAT": ("twincat",),
     "Tc2_MC2": ("twincat",),
     "Tc2_Math": ("twincat",),
@@ -43,8 +45,13 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
 """Each name, and the dialects that it is written in."""
 UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
 """Global variables of libraries that the vendor's controller sets, and nothing here: whoever uses one is told."""
-NEEDED_BY = {"__HEAP": frozenset({"__NEW", "__DELETE"}), "Siemens": frozenset({"NORM_X", "SCALE_X", "SWAP"})}
-"""Operators and instructions that use a library whose name they do not say."""
+NEEDED_BY = {
+    "__HEAP": frozenset({"__NEW", "__DELETE"}),
+    "AxUnit": frozenset({"AXUNIT.ASSERT"}),
+    "Siemens": frozenset({"NORM_X", "SCALE_X", "SWAP"}),
+    "System": frozenset({"SYSTEM.TIMER"}),
+}
+"""Operators, instructions and namespaces that use a library without a name that it declares."""
 _WORD = re.compile(r"\b[A-Z_]\w*")
 _IN_NAMESPACE = re.compile(r"\b(?=([A-Z_]\w*\.[A-Z_]\w*))")
 NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)
