@@ -23,7 +23,6 @@ FUNCTION_FORMS = ("AND", "OR", "XOR", "MOD")
 LITERALS = frozenset((Lex.INTEGER, Lex.REAL, Lex.TIME, Lex.STRING, Lex.TYPED))
 REFUSED = {
     "__CATCH": "check before you compute; a trap stops the PLC",
-    "__VARINFO": "there is no information about variables at run time",
     "__CURRENTTASK": "there is no information about tasks at run time",
     "__POSITION": "there is no information about positions at run time",
 }

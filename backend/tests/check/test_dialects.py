@@ -102,6 +102,7 @@ REFUSED = [
     "d := MAX(dw, d);",  # a negative d
     "__TRY i := 1; __CATCH() i := 2; __FINALLY RETURN; __ENDTRY",
     "WHILE ok DO __TRY i := 1; __CATCH() i := 2; __FINALLY EXIT; __ENDTRY END_WHILE",
+    "i := __VARINFO(i);",
     "__TRY i := 1; __CATCH(i) i := 2; __ENDTRY",
 ]
 """What no dialect allows, as no documentation says what it computes."""

@@ -62,10 +62,10 @@ def _told(
     """The members of such an input, for a variable of the type `given`."""
     class_, pointer, size = (type.members[key] for key in ("TYPECLASS", "PVALUE", "DISIZE"))
     assert isinstance(class_.type, Enumeration)
-    number = class_.type.number(f"TYPE_{_class_of(given)}")
+    number = class_.type.number(f"TYPE_{class_of(given)}")
     if given.kind not in KINDS[name]:
         raise body.report.reject("T002", f"{what} is {name}, and this is {given}.", node.span)
-    if _is_different(given):
+    if is_different(given):
         raise body.report.reject(
             "T002",
             f"{what} is {name}; {given} cannot be passed, as its bytes are not those of {body.dialect.title}.",
@@ -80,17 +80,18 @@ def _told(
     return [(class_, Const(class_.type, number)), (pointer, address), (size, Const(DINT, given.size))]
 
 
-def _is_different(type: Type) -> bool:
+def is_different(type: Type) -> bool:
     """Whether it is stored differently there: strings begin with their length here, times and dates have 64 bits."""
     match type:
         case ArrayType():
-            return _is_different(type.element)
+            return is_different(type.element)
         case Record():
-            return any(_is_different(each.type) for each in type.members.values())
+            return any(is_different(each.type) for each in type.members.values())
     return isinstance(type, StringType) or type.kind in (Kind.TIME, Kind.DATE)
 
 
-def _class_of(type: Type) -> str:
+def class_of(type: Type) -> str:
+    """The name of a type's class there, after `TYPE_`; empty where it has none."""
     match type:
         case Enumeration():
             return "ENUM"

@@ -4,6 +4,7 @@ from scanbench.check.body import fold
 from scanbench.check.body.allowed import may, used
 from scanbench.check.body.context import Body
 from scanbench.check.body.interfaces import attempt
+from scanbench.check.body.var_info import var_info
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
 from scanbench.program.program import Const, Expr, Load, Sequence
@@ -13,6 +14,7 @@ from scanbench.syntax import tree
 WHY = {
     "__QUERYINTERFACE": "use `?=`",
     "__QUERYPOINTER": "use `?=`",
+    "__VARINFO": "there is no information about variables at run time",
     "__POUNAME": "there is no information about POUs at run time",
 }
 """Why the strict language has none of these."""
@@ -41,6 +43,8 @@ def vendor_form(body: Body, node: tree.Call, name: str) -> Expr | None:
         )  # fmt: skip
     if not may(body, Allowance.VENDOR_OPERATORS):
         raise body.report.reject("X001", f"`{name}` is not supported: {WHY[name]}.", node.callee.span)
+    if name == "__VARINFO":
+        return var_info(body, node)
     return _pou_name(body, node) if name == "__POUNAME" else _query(body, node, name)
 
 
