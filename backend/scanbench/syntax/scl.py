@@ -6,6 +6,7 @@ external sources in the TIA Portal's help.
 """
 
 import re
+from dataclasses import replace
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
@@ -15,6 +16,8 @@ from scanbench.syntax.parse_st import whole
 from scanbench.syntax.source import Source
 
 ENDINGS = (".scl", ".udt", ".db")
+STARTUP = "STARTUP"
+"""The modifier of a program that comes before the others where no task says anything else."""
 _SETTINGS = frozenset(("AUTHOR", "FAMILY", "KNOW_HOW_PROTECT", "NAME", "NON_RETAIN", "TITLE", "VERSION"))
 _OPENS = frozenset(("FUNCTION", "FUNCTION_BLOCK", "ORGANIZATION_BLOCK", "DATA_BLOCK", "TYPE"))
 _BLOCKS = {"ORGANIZATION_BLOCK": "PROGRAM", "END_ORGANIZATION_BLOCK": "END_PROGRAM"}
@@ -23,9 +26,13 @@ _JOINED = frozenset("+-*/")
 """Operators of combined assignments, `+=` and the like."""
 _OF_SECTIONS = frozenset(("DB_SPECIFIC", "NON_RETAIN"))
 """Words after VAR that say nothing here."""
-_CYCLIC = frozenset(("MAIN", "OB1", "MAIN_OB1"))
+_RESTART = ("Startup", "COMPLETE RESTART", "OB100", "OB 100")
+"""What the name or TITLE of the organization block is that runs once, at a start, before the first cycle."""
+_CYCLIC = re.compile(r"MAIN|\bOB_?1\b", re.IGNORECASE)
 """Names of the organization block that runs in every cycle; its TITLE says the same."""
 _CYCLE = "(Cycle)"
+_DONE = "Done_since_start"
+"""The variable that tells that the organization block of a start has run."""
 _NO_NAME = re.compile(r"\W")
 
 
@@ -41,7 +48,11 @@ def parse_scl(source: Source) -> tuple[tree.File, list[Problem]]:
     cursor = Cursor(source, writer.write())
     cursor.problems += [*problems, *writer.problems]
     cursor.parts = True
-    return whole(cursor)
+    file, told = whole(cursor)
+    for at, pou in enumerate(file.pous):
+        if pou.name in writer.restarts:
+            file.pous[at] = replace(pou, modifiers=(*pou.modifiers, STARTUP))
+    return file, told
 
 
 def name_of(quoted: str) -> str:
@@ -66,6 +77,10 @@ class _Writer:
         """Between VAR and END_VAR."""
         self._combining = False
         """In the value of `x += value`."""
+        self._restart = False
+        """In the organization block of a start."""
+        self.restarts: set[str] = set()
+        """The names of such blocks."""
 
     def write(self) -> Tokens:
         """All of them, closed."""
@@ -82,11 +97,17 @@ class _Writer:
             self._tell_both()
             self._block(word)
         elif word in _BLOCKS:
+            if self._restart:
+                self._put(Lex.KEYWORD, "END_IF", self._in.starts[self._at])
+                self._put(Lex.OPERATOR, ";", self._in.starts[self._at])
+                self._restart = False
             self._put(Lex.KEYWORD, _BLOCKS[word], self._in.starts[self._at])
             self._at += 1
         elif word in ("REGION", "END_REGION") and self._begins_line():
             self._skip_line()
         elif word == "BEGIN" and self._word(1) not in (":=", ".", "[", "("):
+            if self._restart:
+                self._once(self._in.starts[self._at])
             self._at += 1
         elif word == "GOTO":
             self._put(Lex.NAME, "JMP", self._in.starts[self._at])
@@ -152,10 +173,13 @@ class _Writer:
         name, at = self._in.texts[self._at].strip('"'), self._in.starts[self._at]
         self._copy()
         self._globals.clear()
-        if word == "ORGANIZATION_BLOCK" and name.upper() not in _CYCLIC and not self._is_cyclic():
+        self._restart = word == "ORGANIZATION_BLOCK" and self._is_titled(name, _RESTART)
+        if self._restart:
+            self.restarts.add(self._out.texts[-1])
+        elif word == "ORGANIZATION_BLOCK" and not _CYCLIC.search(name) and not self._is_titled("", (_CYCLE,)):
             self._refuse(
-                f"`{name}` is started by an event (restart, interrupt, time); only the organization block of the cycle is read, "
-                "Main or one with the TITLE `... (Cycle)`. Call what it does from there, or declare a task for it.",
+                f"`{name}` is started by an event (interrupt, time, error); only the organization blocks of the cycle are read, Main or one with "
+                "the TITLE `... (Cycle)`, and of a start, Startup. Call what it does from there, or declare a task for it.",
                 at,
             )
         if word == "FUNCTION" and self._word() == ":" and self._word(1) == "VOID":
@@ -270,10 +294,20 @@ class _Writer:
                 )
         self._globals, self._locals, self._declares = [], set(), False
 
-    def _is_cyclic(self) -> bool:
-        """Whether the TITLE in the head of this organization block says that it runs in every cycle."""
+    def _is_titled(self, name: str, words: tuple[str, ...]) -> bool:
+        """Whether the name, or the TITLE in the head of this organization block, has one of these words."""
         end = self._in.starts[min(self._at + 8, len(self._in.starts) - 1)]
-        return _CYCLE in self._source.text[self._in.starts[self._at - 1] : end]
+        head = self._source.text[self._in.starts[self._at - 1] : end]
+        title = re.search(r"\bTITLE\s*=\s*([^\n]*)", head, re.IGNORECASE)
+        found = f"{name} {title.group(1) if title else ''}".upper()
+        return any(word.upper() in found for word in words)
+
+    def _once(self, at: int) -> None:
+        """At the beginning of the statements of a start: what lets them run once."""
+        tokens = f"VAR {_DONE} : BOOL ; END_VAR IF NOT {_DONE} THEN {_DONE} := TRUE ;"
+        for text in tokens.split():
+            kind = Lex.NAME if text in (_DONE, "BOOL") else Lex.OPERATOR if text in (":", ";", ":=") else Lex.KEYWORD
+            self._put(kind, text, at)
 
     def _refuse(self, message: str, at: int) -> None:
         self.problems.append(Problem("X001", message, self._source.span(at, at + 1)))

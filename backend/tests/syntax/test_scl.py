@@ -83,7 +83,7 @@ def test_a_name_that_is_global_and_of_the_block_is_refused_and_not_mixed_up() ->
 
 
 def test_an_organization_block_of_an_event_does_not_run_in_every_cycle() -> None:
-    text = 'ORGANIZATION_BLOCK "Startup"\nTITLE = "Complete Restart"\nBEGIN\nEND_ORGANIZATION_BLOCK\n'
+    text = 'ORGANIZATION_BLOCK "Interval"\nTITLE = "Cyclic interrupt"\nBEGIN\nEND_ORGANIZATION_BLOCK\n'
     assert [each[:9] for each in problems(text)] == ["1:20 X001"]
     cyclic = 'ORGANIZATION_BLOCK "Second"\nTITLE = "Main Program Sweep (Cycle)"\nBEGIN\nEND_ORGANIZATION_BLOCK\n'
     assert problems(cyclic) == []

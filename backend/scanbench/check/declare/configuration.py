@@ -11,6 +11,7 @@ from scanbench.problems import Span
 from scanbench.program.program import Const, Pou
 from scanbench.program.types import TIME, Record, Type
 from scanbench.syntax import tree
+from scanbench.syntax.scl import STARTUP
 
 SHORTEST_NS = 1_000
 BACKGROUND = 1 << 16
@@ -91,17 +92,22 @@ class Planner:
         return bool(self._programs())
 
     def free(self) -> list[PlannedTask]:
-        """Without a CONFIGURATION every PROGRAM that no other POU calls runs, in order of declaration, in one task."""
+        """Without a CONFIGURATION every PROGRAM that no other POU calls runs, in order of declaration, in one task; one for the start first."""
         task = PlannedTask("Main", self._interval_ns)
         programs = self._programs()
         called = {each for pou in programs for each in self._called_by(pou) if each is not pou}
-        for pou in programs:
+        for pou in sorted(programs, key=self._is_later):
             if pou in called:
                 continue
             name = pou.name.rpartition(".")[2]  # of a namespace: the dot is for resources
             if self._is_free(name, pou.span):
                 task.runs.append(PlannedInstance(name, pou))
         return [task]
+
+    def _is_later(self, pou: Pou) -> bool:
+        """Whether it is not the one that runs at a start, which comes before the others."""
+        declaration = self._declarations.block_trees.get(pou.name.upper())
+        return declaration is None or STARTUP not in declaration.modifiers
 
     def _called_by(self, pou: Pou) -> set[Pou]:
         """All that this program leads to."""
