@@ -66,11 +66,11 @@ def test_a_method_after_the_initialisation_has_no_inputs() -> None:
     assert [code for code, _ in found(text)] == ["D014"]
 
 
-def test_fb_exit_is_told_to_be_called_by_nobody() -> None:
+def test_fb_exit_is_told_to_be_called_by_delete_alone() -> None:
     text = block("bInCopyCode : BOOL;").replace("FB_init", "FB_exit") + main("u : Unit;")
     problems = check_sources(with_dialect({"a.st": text}, "twincat"), MODEL).problems
     assert [each.code for each in problems] == ["W006"]
-    assert "is not called by itself here" in problems[0].message
+    assert "is called by `__DELETE` alone here" in problems[0].message
 
 
 def test_what_a_function_and_a_method_cannot_keep_is_refused_in_the_strict_language() -> None:

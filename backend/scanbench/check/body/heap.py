@@ -1,10 +1,15 @@
 """`__NEW(type)`, `__NEW(type, count)` and `__DELETE(pointer)` of vendors: memory of the library `__HEAP`, which is part of the image."""
 
+from dataclasses import replace
+
 from scanbench.check.body import fold
 from scanbench.check.body.allowed import may, used
+from scanbench.check.body.arguments import invoke
 from scanbench.check.body.context import Body
 from scanbench.check.body.references import reference_type
 from scanbench.check.context import Rejected
+from scanbench.check.declare.classes import Class
+from scanbench.check.declare.creations import FB_EXIT
 from scanbench.check.dialect import Allowance
 from scanbench.check.life.start import Writer
 from scanbench.problems import Span
@@ -93,15 +98,32 @@ def _delete(body: Body, node: tree.Call, value: tree.Expression) -> Expr:
     if not isinstance(place.type, Reference) or not place.type.pointer:
         raise body.report.reject("T002", f"`__DELETE` takes a pointer, not {place.type}.", value.span)
     ended: list[Stmt] = []
-    owner = body.pous.classes.of(place.type.target)
-    if owner is not None and owner.find("FB_EXIT") is not None:
-        callee = tree.MemberOf(tree.Dereference(value, value.span), "FB_exit", node.span)
-        off = tree.Argument(None, False, tree.Literal("bool", 0, None, node.span), node.span)
-        ended.append(_done(body, body.call(tree.Call(callee, (off,), node.span)), node.span))
+    ended += _ended(body, node, value, body.pous.classes.of(place.type.target))
     ended.append(_done(body, _call(body, "Give", (value,), node.span), node.span))
     ended.append(Assign(place, Const(place.type, 0), node.span))
     there = fold.compare("ne", BOOL, Load(place), Const(NULL, 0))
     return Sequence((If(((there, tuple(ended)),), (), node.span),), Const(BOOL, 1))
+
+
+def _ended(body: Body, node: tree.Call, value: tree.Expression, owner: Class | None) -> list[Stmt]:
+    """FB_exit of the instance, then those of the bases, the nearest first
+    (https://infosys.beckhoff.com/content/1033/tc3_plc_intro/5482088715.html)."""
+    first = None if owner is None else owner.find(FB_EXIT)
+    if first is None:
+        return []
+    off = tree.Argument(None, False, tree.Literal("bool", 0, None, node.span), node.span)
+    callee = tree.MemberOf(tree.Dereference(value, value.span), "FB_exit", node.span)
+    made = [_done(body, body.call(tree.Call(callee, (off,), node.span)), node.span)]
+    above = first.owner.base
+    while above is not None:
+        own = above.methods.get(FB_EXIT)
+        if own is not None and own.pou is not None and not own.abstract:
+            instance, _ = body.place(tree.Dereference(value, value.span))
+            given = replace(instance, type=own.pou.frame.members["THIS"].type)
+            call = tree.Call(tree.Name(own.name, node.span), (off,), node.span)
+            made += invoke(body, call, own.pou, own.name, given, None).statements(node.span)
+        above = above.base
+    return made
 
 
 def _done(body: Body, value: Expr, span: Span) -> Stmt:

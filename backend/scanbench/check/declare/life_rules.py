@@ -18,8 +18,8 @@ def check_life_method(method: Method, report: Report, dialect: Dialect) -> None:
     if name == FB_EXIT:
         report.warn(
             "W006",
-            f"{what} is not called by itself here: nothing outside of the program is to be released, and a restart or a program "
-            f"change replaces the whole memory. Call it yourself where it has to run.",
+            f"{what} is called by `__DELETE` alone here: nothing outside of the program is to be released, and a restart or a "
+            f"program change replaces the whole memory. Call it yourself where it has to run.",
             declaration.span,
         )
         return
