@@ -12,7 +12,7 @@ FOLDER = Path(__file__).parents[1] / "scanbench" / "client" / "shapes"
 FILES = {
     "running": (
         "the PLC and its values",
-        "AppInfo Instance ImportedInstance Value CommandResult ForceInfo Binding LogPage",
+        "AppInfo Instance ImportedInstance Value CommandResult ForceInfo Binding LogPage Watching",
     ),
     "errors": ("errors", "DeviceErrors ArmedFault ErrorHistoryRow FaultStart FaultShape"),
     "sweeps": ("how programs react to errors", "Reaction ProgramState SweepSummary Sweep"),
@@ -25,6 +25,7 @@ FILES = {
         "verifications",
         "VerificationInfo UploadedTrace TraceMapping VerifyRows SetCell VerificationRecord",
     ),
+    "debugging": ("breakpoints", "BreakpointInfo"),
     "traces": ("traces", "TraceInfo TraceTrigger TraceRecordInfo Retrospective"),
 }
 """What each file is about, and the components that are asked for; those that they hold come into the first file."""

@@ -17,6 +17,9 @@ from scanbench.client.asking import Json, Refused
 from scanbench.client.requests.base import Value
 from scanbench.client.requests.traces import Samples
 from scanbench.client.requests.verification import verdict
-from scanbench.client.waiting import Plc, Server, connect
+from scanbench.client.requests.watching import Frame
+from scanbench.client.waiting import Debugger, Plc, Server, Watch, connect
 
-__all__ = ["Json", "Plc", "Refused", "Samples", "Server", "Value", "connect", "verdict"]
+__all__ = [
+    "Debugger", "Frame", "Json", "Plc", "Refused", "Samples", "Server", "Value", "Watch", "connect", "verdict",
+]  # fmt: skip

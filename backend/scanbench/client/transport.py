@@ -1,8 +1,9 @@
 """How a request goes to a server and comes back, with nothing but Python's own library."""
 
 import json
+from collections.abc import Mapping
 from urllib.error import HTTPError
-from urllib.parse import parse_qs, quote, urlsplit
+from urllib.parse import parse_qs, quote, urlencode, urlsplit
 from urllib.request import Request as HttpRequest
 from urllib.request import urlopen
 
@@ -38,6 +39,13 @@ class Reach:
                 raise
             near = told.get("near")
             raise Refused(str(told["message"]), tuple(map(str, near)) if isinstance(near, list) else ()) from None
+
+    def socket(self, path: str) -> tuple[str, Mapping[str, str]]:
+        """The address of a WebSocket, and the headers by which it knows who asks."""
+        scheme, _, rest = self.address.partition("://")
+        secure = "wss" if scheme == "https" else "ws"
+        who = urlencode({"scanbench_user": self.user})
+        return f"{secure}://{rest}{path}?{who}", {"Authorization": f"Bearer {self.token}"}
 
 
 def reached(address: str, token: str, user: str) -> Reach:

@@ -185,6 +185,7 @@ class Verifications:
         return heir is not None
 
     def one(self, id: int) -> Verification:
+        """The one of this number; `NotFound`."""
         verification = self._all.get(id)
         if verification is None:
             raise NotFound(f"there is no verification {id}: it was ended, or the server has started again")

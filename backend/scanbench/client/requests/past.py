@@ -5,6 +5,7 @@ from typing import Protocol
 from scanbench.client.asking import Steps, asked, asked_value
 from scanbench.client.requests.base import Asks, waited
 from scanbench.client.shapes import past as shapes
+from scanbench.client.shapes.debugging import BreakpointInfo
 from scanbench.client.shapes.running import CommandResult
 
 
@@ -87,6 +88,11 @@ class Past(Asks):
     def cover(self, on: bool = True, reset: bool = False) -> Steps[str]:
         """Notes from now on which statements and branches are reached, or no longer; `reset` forgets what was reached."""
         return (yield from self._send(CommandResult, "PATCH", "coverage", {"on": on, "reset": reset}))["message"]
+
+    @asked_value
+    def breakpoints(self) -> Steps[list[BreakpointInfo]]:
+        """All breakpoints of the PLC, whoever manages them: `kind`, place, `author`, `verified`, how often `reached`."""
+        return self._get(list[BreakpointInfo], "breakpoints")
 
     @asked_value
     def coverage(self) -> Steps[shapes.Coverage]:

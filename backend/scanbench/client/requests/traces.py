@@ -117,18 +117,18 @@ def unpacked(data: bytes, signals: Sequence[shapes.TraceSignal]) -> Samples:
     _, thinned, count, rows, _, _, _ = _HEAD.unpack_from(data)
     columns = [struct.unpack_from(f"<{rows}Q", data, _HEAD.size + 8 * rows * at) for at in range(2 + count)]
     values = {
-        signal["text"]: [_number(raw, signal) if valid >> at & 1 else None for raw, valid in zip(column, columns[1], strict=True)]
+        signal["text"]: [number(raw, signal["kind"], signal["size"]) if valid >> at & 1 else None for raw, valid in zip(column, columns[1], strict=True)]
         for at, (signal, column) in enumerate(zip(signals, columns[2:], strict=True))
     }  # fmt: skip
     return Samples(list(columns[0]), values, bool(thinned))
 
 
-def _number(raw: int, signal: shapes.TraceSignal) -> Number:
-    size = signal["size"]
+def number(raw: int, kind: str, size: int) -> Number:
+    """A value of so many bytes, which lie in the image as those of `raw`."""
     data = raw.to_bytes(8, "little")[:size]
-    if signal["kind"] == "bool":
+    if kind == "bool":
         return bool(raw)
-    if signal["kind"] == "real":
+    if kind == "real":
         found: float = struct.unpack("<f" if size == 4 else "<d", data)[0]
         return found
-    return int.from_bytes(data, "little", signed=signal["kind"] in _SIGNED)
+    return int.from_bytes(data, "little", signed=kind in _SIGNED)

@@ -262,3 +262,75 @@ class LogPage(TypedDict):
     kept: int
     """Lines that are kept at most; older ones go."""
     lines: list[LogLine]
+
+
+class EnumValue(TypedDict):
+    """A number of an enumeration that has a name."""
+
+    name: str
+    value: int
+
+
+class Symbol(TypedDict):
+    """A variable, or an address, by its instance path."""
+
+    path: str
+    name: str
+    type: str
+    """As declared, e.g. INT, ARRAY[0..9] OF REAL, TON."""
+    kind: Literal[
+        "bool",
+        "int",
+        "uint",
+        "bits",
+        "real",
+        "time",
+        "string",
+        "array",
+        "struct",
+        "block",
+        "union",
+        "interface",
+        "date",
+        "char",
+        "ref",
+    ]
+    size: int
+    """Bytes of the value."""
+    address: str | None
+    """Vendor notation when it is located."""
+    writable: bool
+    section: str
+    """VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member."""
+    expandable: bool
+    values: list[EnumValue]
+    """Of an enumeration: the names of its numbers."""
+    range: str
+    """Of a subrange: the integer that it is and its bounds, INT (0..500); `type` may be a name."""
+    in_out: bool
+    """It is an in-out; of a watched path also: it leads through one. It has a binding."""
+
+
+class Refusal(TypedDict):
+    """Every refused request: what, and what to do next."""
+
+    message: str
+    near: list[str]
+    """near matches for an unknown name."""
+
+
+class Watched(TypedDict):
+    """One path of a `Watch`: an id for the value frames, or the reason why there is none."""
+
+    path: str
+    id: int | None
+    symbol: Symbol | None
+    refusal: Refusal | None
+
+
+class Watching(TypedDict):
+    """Answer to `watch`; sent again, for all ids, when a new program moved the variables."""
+
+    type: Literal["watching"]
+    ref: int | None
+    items: list[Watched]

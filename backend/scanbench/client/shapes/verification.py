@@ -239,10 +239,10 @@ class VerifyRow(TypedDict):
     call: int
     """Which run through the range it is in this scan, from 1; 0 where that means nothing."""
     count: int
-    """Of a step: the count of the statement that is next (`engines.debug`)."""
+    """Of a step: the count of the statement that is next (`engines.debug`); 0 at the end of the scan."""
     instance: str
     place: VerifyPlace | None
-    """Of a step: its statement."""
+    """Of a step: the statement that ran; None where it ran up to the first one only."""
     outputs: dict[str, VerifyOutput]
     inputs: dict[str, VerifyInput]
     """By the names of columns, both in the order of use."""
@@ -257,6 +257,10 @@ class VerifyRow(TypedDict):
     """Whether anything was: not where the program stood still, nor where a trace has no value, or is believed."""
     index: int
     """Of all rows, from 0, said where they are told; those that were forgotten keep theirs."""
+    next: VerifyPlace | None
+    """Of a step: the statement that is next."""
+    consequences: list[VerifyDifference]
+    """Of a step: what its statement got wrong because it read what was different before it. These are no differences of the row."""
 
 
 class VerifyRows(TypedDict):

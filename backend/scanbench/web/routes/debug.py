@@ -1,14 +1,14 @@
-"""REST: what a debugger shows of one PLC, for scripts and links: coverage, diagnostics."""
+"""REST: what a debugger shows of one PLC, for scripts and links: coverage, diagnostics, breakpoints."""
 
 from fastapi import APIRouter, Request
 from fastapi.responses import PlainTextResponse
 
 from scanbench.taps.lcov import lcov
-from scanbench.web import translate
+from scanbench.web import translate, translate_debug
 from scanbench.web.auth import user_of
 from scanbench.web.messages import Diagnostics
 from scanbench.web.messages_base import Id
-from scanbench.web.messages_debug import ChangeCoverage
+from scanbench.web.messages_debug import BreakpointInfo, ChangeCoverage
 from scanbench.web.messages_errors import CommandResult
 from scanbench.web.reach import Bench
 from scanbench.web.translate_errors import command_result
@@ -28,6 +28,12 @@ async def on_cover(bench: Bench, request: Request, instance: Id, wanted: ChangeC
     """Notes which statements and branches are reached from now on, or no longer."""
     debugging = bench.session(instance).debugging
     return command_result(await debugging.cover(wanted.on, wanted.reset, user_of(request).name))
+
+
+@router.get("/breakpoints")
+async def on_breakpoints(bench: Bench, instance: Id) -> list[BreakpointInfo]:
+    """All breakpoints of the PLC, whoever manages them; they are set by DAP, on the PLC's sockets."""
+    return list(map(translate_debug.breakpoint, bench.session(instance).debugging.verdicts))
 
 
 @router.get("/diagnostics")
