@@ -10,7 +10,7 @@ from pathlib import Path
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
 from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.definition import Disturbance, describe
-from scanbench.faults.disturb.disturb import DISTURBED, Disturb, is_disturbance, told
+from scanbench.faults.disturb.disturb import DISTURBED, Disturb, told
 from scanbench.faults.inject import Generate
 from scanbench.history.campaign.contract import (
     MOST_SCANS,
@@ -24,8 +24,7 @@ from scanbench.history.campaign.contract import (
 )
 from scanbench.history.campaign.places import places
 from scanbench.history.campaign.plan import planned
-from scanbench.history.renumbered import Numbers, refused
-from scanbench.history.rerun_plan import Given, comes_by_itself, number_of
+from scanbench.history.entered import Entering, given_after
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.recording.blocks import Codec
@@ -112,11 +111,7 @@ class Trials:
         self._stump, self._path = bench.folder / "begin.run", bench.folder / "trial.run"
         self._stump.unlink(missing_ok=True)
         write_stump(reader, self._stump, wanted.first, AUTHOR, bench.codec)
-        self._given = [
-            Given(each.scan, each.command, number_of(each))
-            for each in reader.entries
-            if each.scan > wanted.first and not comes_by_itself(each.command) and not is_disturbance(each.command)
-        ]
+        self._given = given_after(reader, wanted.first)
         with reader.reading():
             self.program = reader.programs.get(reader.version(wanted.first)).program
         self.disturbances = planned(self.program, wanted)
@@ -186,29 +181,18 @@ class Trials:
 
     def _through(self, timeline: Timeline, seen: _Seen, begin: int, end: int) -> None:
         """Scan by scan from `begin` on; before that as fast as it goes."""
-        waiting, numbers = list(enumerate(self._given)), Numbers()
+        entering = Entering(self._given)
         resource = timeline.resource
         while (now := timeline.live_scan) < end and not resource.header.halted_by_trap:
-            self._enter(timeline, waiting, numbers, seen)
-            following = min([end, *(given.scan for _, given in waiting[:1])])
-            until = now + 1 if now >= begin else min(following, begin)
+            entering.enter(timeline)
+            until = now + 1 if now >= begin else min(entering.following(end), begin)
             if resource.runnable:
                 timeline.run(until - now)
             else:
                 resource.idle(until - now)
             if timeline.live_scan > begin:
                 self._look(resource, seen, timeline.live_scan - 1)
-
-    @staticmethod
-    def _enter(timeline: Timeline, waiting: list[tuple[int, Given]], numbers: Numbers, seen: _Seen) -> None:
-        """What somebody entered before this scan; a disturbed PLC may refuse it."""
-        while waiting and waiting[0][1].scan <= timeline.live_scan:
-            at, given = waiting.pop(0)
-            command = numbers.renamed(given.command)
-            outcome = command if isinstance(command, Refusal) else timeline.submit(command)
-            numbers.note(given.number, outcome)
-            if isinstance(outcome, Refusal):
-                seen.refused[at] = refused(timeline.live_scan, given.command, outcome)
+        seen.refused = entering.refused
 
     def _look(self, resource: Resource, seen: _Seen, scan: int) -> None:
         memory = resource.memory

@@ -1,0 +1,255 @@
+"""Goes on with a recorded run from a scan, with some inputs set to other values; again and again."""
+
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from hashlib import blake2b
+
+from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
+from scanbench.faults.detect import Detection
+from scanbench.history.campaign.places import places
+from scanbench.history.campaign.trials import Bench
+from scanbench.history.entered import Entering, given_after
+from scanbench.history.scenario import Expectation, Step, write_scenario
+from scanbench.history.scenario_of_run import scenario_of
+from scanbench.history.whatif.contract import (
+    MOST_SCANS,
+    MOST_SET,
+    MOST_TRIES,
+    MOST_WINDOW,
+    BadWhatIf,
+    SetValue,
+    Try,
+    WhatIf,
+    WhatIfWanted,
+)
+from scanbench.history.whatif.search import Candidate, Change, Search, searchable
+from scanbench.program.program import Program
+from scanbench.recording.format import RunFileError
+from scanbench.recording.gaps import gap_between
+from scanbench.recording.reader import RunReader, Unreadable
+from scanbench.recording.stump import write_stump
+from scanbench.recording.timeline import Timeline
+from scanbench.runtime.command import Refusal, Swapped
+from scanbench.runtime.forces import Force
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
+from scanbench.symbols.whole import bytes_of, worth_text
+
+AUTHOR = "what if"
+OnTry = Callable[[int, int], None]
+"""Tries that are done, and at most how many; may raise to end it."""
+
+
+def what_if(reader: RunReader, wanted: WhatIfWanted, bench: Bench, on_try: OnTry = lambda done, of: None) -> WhatIf:
+    """All that is wanted. `BadWhatIf`, `Unreadable`. The reader has been followed."""
+    return _Tries(reader, wanted, bench, on_try).all()
+
+
+class _Tries:
+    def __init__(self, reader: RunReader, wanted: WhatIfWanted, bench: Bench, on_try: OnTry) -> None:
+        _check(reader, wanted)
+        self._reader, self._wanted, self._bench, self._on_try = reader, wanted, bench, on_try
+        self._end = wanted.scan + wanted.window + 1
+        self._stump, self._path = bench.folder / "begin.run", bench.folder / "try.run"
+        self._stump.unlink(missing_ok=True)
+        write_stump(reader, self._stump, wanted.scan, AUTHOR, bench.codec)
+        self._given = [each for each in given_after(reader, wanted.scan) if each.scan < self._end]
+        with reader.reading():
+            self._program = reader.programs.get(reader.version(wanted.scan)).program
+        self._condition = None if not wanted.condition else _condition(self._program, wanted.condition)
+        self._watch = [_symbol(self._program, each) for each in wanted.watch]
+        for path in (*(each.path for each in wanted.values), *filter(None, [wanted.vary])):
+            _symbol(self._program, path)
+        self._outputs: dict[int, bytes] = {}
+        """After each scan of the recorded run a digest."""
+        self._recorded = self._run((), self._outputs)
+        self._tries: list[Try] = []
+
+    def all(self) -> WhatIf:
+        """What came of it."""
+        wanted = self._wanted
+        best, note = None, ""
+        if wanted.search:
+            best, note = self._search()
+        elif wanted.vary:
+            for value in wanted.tried:
+                self._try(((wanted.vary, value),))
+        else:
+            self._try(())
+        kept = (
+            self._tries[best]
+            if best is not None
+            else next((each for each in self._tries if each.met is not None), None)
+        )
+        text, why = self._scenario(kept) if kept is not None else ("", "")
+        notes = "; ".join(filter(None, (note, why)))
+        return WhatIf(wanted, self._recorded, tuple(self._tries), best, notes, text)
+
+    # ---- a search -------------------------------------------------------------------------------------------------
+
+    def _search(self) -> tuple[int | None, str]:
+        """The index of the smallest change, and what was not looked at."""
+        if self._recorded.met is not None:
+            return None, f"`{self._wanted.condition}` holds after scan {self._recorded.met} without any change"
+        left: list[str] = []
+        candidates = []
+        for path in self._wanted.candidates:
+            symbol = _symbol(self._program, path)
+            data = self._begin_value(symbol)
+            if data is None or not searchable(symbol.type):
+                left.append(path)
+            else:
+                candidates.append(Candidate(symbol.path, symbol.type, data))
+        most = min(MOST_TRIES, max(1, MOST_SCANS // (self._wanted.window + 1)))
+        search = Search(candidates, lambda change: self._try(change, of=most).met is not None, most)
+        found, whole = search.run()
+        notes = [f"{', '.join(left)}: no values are tried of such a type"] if left else []
+        if not whole:
+            notes.append(f"it ended after {search.asked} tries: there may be a smaller change")
+        elif not found:
+            notes.append("no change of one of them, or of two that are BOOL, was found with which it holds")
+        if not found:
+            return None, "; ".join(notes)
+        best = tuple(SetValue(*each) for each in found[0])
+        return next(at for at, each in enumerate(self._tries) if each.values[-len(best) :] == best), "; ".join(notes)
+
+    def _begin_value(self, symbol: Symbol) -> bytes | None:
+        resource = self._reader.at(self._wanted.scan)
+        return bytes_of(resource.memory, symbol)
+
+    # ---- one try --------------------------------------------------------------------------------------------------
+
+    def _try(self, change: Change, of: int = 0) -> Try:
+        values = (*self._wanted.values, *(SetValue(*each) for each in change))
+        done = self._run(values, {})
+        self._tries.append(done)
+        self._on_try(len(self._tries), of or max(1, len(self._wanted.tried)))
+        return done
+
+    def _run(self, values: tuple[SetValue, ...], outputs: dict[int, bytes]) -> Try:
+        shutil.copy(self._stump, self._path)
+        try:
+            timeline = Timeline.resume(
+                self._path,
+                lambda kept: self._bench.runs,
+                self._bench.codec,
+                0,
+                Detection(),
+                agenda=self._bench.agenda(),
+            )
+        except RunFileError as error:
+            raise Unreadable(f"the run cannot be gone on with: {error}") from error
+        try:
+            refused = self._set(timeline, values)
+            if refused:
+                return Try(values, refused=refused)
+            return self._through(timeline, values, outputs)
+        finally:
+            timeline.close()
+
+    def _set(self, timeline: Timeline, values: tuple[SetValue, ...]) -> tuple[str, ...]:
+        refused = []
+        for each in values:
+            made = (Force if self._wanted.hold else Write)(AUTHOR, each.path, each.value)
+            outcome = timeline.submit(made)
+            if isinstance(outcome, Refusal):
+                refused.append(f"{each.path} := {each.value}: {outcome.message}")
+        return tuple(refused)
+
+    def _through(self, timeline: Timeline, values: tuple[SetValue, ...], outputs: dict[int, bytes]) -> Try:
+        entering, resource = Entering(self._given), timeline.resource
+        met: int | None = None
+        differs: int | None = None
+        while timeline.live_scan < self._end and not resource.header.halted_by_trap:
+            scan = timeline.live_scan
+            entering.enter(timeline)
+            if resource.runnable:
+                timeline.run(1)
+            else:
+                resource.idle(1)
+            if timeline.live_scan == scan:  # a run-time error ended it
+                break
+            outputs[scan] = _digest(resource)
+            if differs is None and outputs[scan] != self._outputs.get(scan):
+                differs = scan
+            if met is None and self._condition is not None and resource.engine.holds(self._condition):
+                met = scan
+        trap = resource.trap
+        return Try(
+            values, met, differs, tuple(worth_text(resource.program, resource.memory, each) for each in self._watch),
+            "" if trap is None else f"scan {trap.scan}, {trap.file}:{trap.line}: {trap.message}",
+            tuple(entering.refused.values()), timeline.live_scan - self._wanted.scan,
+        )  # fmt: skip
+
+    # ---- a test of it ---------------------------------------------------------------------------------------------
+
+    def _scenario(self, kept: Try) -> tuple[str, str]:
+        """The text of the file, or why there is none."""
+        wanted = self._wanted
+        if not wanted.condition:
+            return "", ""
+        try:
+            made = scenario_of(self._reader, min(self._end, self._reader.end), [])
+        except Unreadable as error:
+            return "", f"no test can be made of it: {error}"
+        verb = "force" if wanted.hold else "write"
+        steps = [*made.steps, *(Step(wanted.scan, f"{verb} {each.path}={each.value}") for each in kept.values)]
+        steps.sort(key=lambda each: each.at)
+        expected = Expectation("holds", wanted.condition, wanted.scan + 1, self._end)
+        return write_scenario(replace(made, scans=self._end, steps=tuple(steps), expect=(expected,))), ""
+
+
+def _digest(resource: Resource) -> bytes:
+    found = blake2b(digest_size=8)
+    for stretch in places(resource.program, "Q"):
+        found.update(resource.memory[stretch.start : stretch.stop])
+    return found.digest()
+
+
+def _symbol(program: Program, path: str) -> Symbol:
+    try:
+        return resolve(program, path)
+    except UnknownPath as error:
+        raise BadWhatIf(error.message, tuple(error.near)) from None
+
+
+def _condition(program: Program, text: str) -> Condition:
+    found = compile_condition(program, text)
+    if isinstance(found, BadCondition):
+        raise BadWhatIf(f"{text}: {found.message}", found.near)
+    return found
+
+
+def _check(reader: RunReader, wanted: WhatIfWanted) -> None:
+    """`BadWhatIf` where it makes no sense."""
+    if not reader.first <= wanted.scan < max(reader.over, reader.first + 1):
+        raise BadWhatIf(f"scan {wanted.scan} is not in the run: it has scans {reader.first} to {reader.over - 1}")
+    if not 0 <= wanted.window <= MOST_WINDOW:
+        raise BadWhatIf(f"{wanted.window} scans cannot be gone on: 0 to {MOST_WINDOW} can")
+    if max(len(wanted.values), len(wanted.candidates), len(wanted.watch)) > MOST_SET:
+        raise BadWhatIf(f"at most {MOST_SET} variables can be set, searched among or watched")
+    if len(wanted.tried) > MOST_TRIES:
+        raise BadWhatIf(f"{len(wanted.tried)} values are too many: at most {MOST_TRIES}")
+    if len(wanted.tried) * (wanted.window + 1) > MOST_SCANS:
+        raise BadWhatIf(
+            f"{len(wanted.tried)} values with {wanted.window} scans each are too much: try fewer values, or fewer scans"
+        )
+    if wanted.vary and not wanted.tried:
+        raise BadWhatIf(f"say which values of {wanted.vary} are to be tried")
+    if wanted.search and not (wanted.candidates and wanted.condition):
+        raise BadWhatIf("a search needs a condition, and the variables that may change")
+    if wanted.search and wanted.vary:
+        raise BadWhatIf("either the values of one variable are tried, or a change is looked for")
+    if not (wanted.values or wanted.vary or wanted.search):
+        raise BadWhatIf("say which variable is to have some other value")
+    gap = gap_between(reader.recording.gaps, wanted.scan, wanted.scan + wanted.window + 1)
+    if gap is not None:
+        raise BadWhatIf(f"scan {wanted.scan} and what follows cannot be run again: {gap}")
+    for each in reader.entries:
+        if wanted.scan < each.scan <= wanted.scan + wanted.window and isinstance(each.plan.effect, Swapped):
+            raise BadWhatIf(
+                f"the program was changed before scan {each.scan}: go on for at most {each.scan - wanted.scan - 1} scans, "
+                f"or begin with scan {each.scan}"
+            )

@@ -1,0 +1,166 @@
+"""What if: inputs of a recorded run with other values, carried on; the smallest change; the test that is made of it."""
+
+import random
+from pathlib import Path
+
+import pytest
+
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.history.scenario import read_scenario
+from scanbench.history.whatif.contract import BadWhatIf, SetValue, WhatIf, WhatIfWanted
+from scanbench.history.whatif.tries import what_if
+from scanbench.recording.programs import programs_of
+from scanbench.recording.reader import RunReader
+from scanbench.runtime.write import Write
+from scanbench.wire.codec import ENTRIES
+from tests.amounts import amount
+from tests.history.test_campaign import MAKE, bench
+from tests.runtime.bench import program
+from tests.verify.verified_runs import record
+
+SOURCE = """
+VAR_GLOBAL
+  start AT CIO0.00 : BOOL; door AT CIO0.01 : BOOL; level AT CIO1 : INT; speed AT CIO2 : UINT; mask AT CIO3 : WORD;
+  motor AT CIO100.00 : BOOL; full AT CIO100.01 : BOOL;
+END_VAR
+PROGRAM Main
+VAR seen, n : INT; ratio : REAL; delay : TIME; divisor : INT := 1; END_VAR
+  n := n + 1;
+  motor := start AND door AND speed >= 37;
+  IF motor THEN seen := seen + level; END_IF;
+  full := seen > 500;
+  ratio := 10.0 / REAL#4.0;
+  n := n / divisor;
+END_PROGRAM
+"""
+
+
+def asked(folder: Path, wanted: WhatIfWanted, source: str = SOURCE, scans: int = 100) -> WhatIf:
+    commands = [
+        (10, Write("Ada", "start", "TRUE")),
+        (11, Write("Ada", "speed", "20")),
+        (60, Write("Ada", "level", "3")),
+    ]
+    (folder / "base.run").unlink(missing_ok=True)
+    path = record(folder / "base.run", program(source), scans, commands, engine=NativeEngine)
+    with RunReader(path, programs_of(lambda kept: program(source), MAKE), ENTRIES) as reader:
+        reader.follow()
+        return what_if(reader, wanted, bench(folder, program(source)))
+
+
+def value(path: str, text: str) -> SetValue:
+    return SetValue(path, text)
+
+
+def test_values_are_carried_on_through_the_scans_that_follow(tmp_path: Path) -> None:
+    values = (value("door", "TRUE"), value("speed", "40"), value("level", "100"))
+    wanted = WhatIfWanted(20, values, condition="full", window=50, watch=("Main.seen", "motor"))
+    found = asked(tmp_path, wanted)
+    assert (found.recorded.met, found.recorded.shown) == (None, ("0", "FALSE"))
+    (one,) = found.tries
+    assert (one.met, one.output_scan, one.shown, one.ran) == (25, 20, ("5100", "TRUE"), 51)
+    # written once they are there, too: nothing else writes them, but somebody does in scan 60
+    once = asked(tmp_path, WhatIfWanted(20, values, hold=False, condition="full", window=50, watch=("Main.seen",)))
+    assert once.tries[0].met == 25
+    assert once.tries[0].shown == (str(40 * 100 + 11 * 3),)
+
+
+def test_a_range_of_values_is_tried(tmp_path: Path) -> None:
+    wanted = WhatIfWanted(
+        20,
+        (value("door", "TRUE"), value("level", "100")),
+        vary="speed",
+        tried=("30", "36", "37", "90"),
+        condition="full",
+    )
+    found = asked(tmp_path, wanted)
+    assert [(each.values[-1].value, each.met) for each in found.tries] == [
+        ("30", None), ("36", None), ("37", 25), ("90", 25),
+    ]  # fmt: skip
+    assert [each.output_scan for each in found.tries] == [None, None, 20, 20]
+
+
+def test_a_value_that_is_none_and_a_run_time_error_are_told(tmp_path: Path) -> None:
+    found = asked(tmp_path, WhatIfWanted(20, vary="Main.divisor", tried=("1", "0", "many"), hold=False, window=5))
+    right, trapped, none = found.tries
+    assert (right.trapped, right.ran) == ("", 6)
+    assert trapped.trapped.startswith("scan 20, main.st:")
+    assert (trapped.ran, none.ran) == (0, 0)
+    assert "many" in none.refused[0]
+
+
+def test_the_smallest_change_is_found(tmp_path: Path) -> None:
+    search = ("start", "door", "speed", "level", "mask")
+    given = (value("door", "TRUE"),)
+    found = asked(tmp_path, WhatIfWanted(20, given, search=True, candidates=search, condition="motor", window=0))
+    assert found.best is not None
+    assert found.tries[found.best].values == (*given, value("speed", "37"))
+    # a BOOL that is enough comes first
+    found = asked(
+        tmp_path, WhatIfWanted(20, (value("speed", "50"),), search=True, candidates=search, condition="motor", window=0)
+    )
+    assert found.best is not None
+    assert found.tries[found.best].values[-1] == value("door", "TRUE")
+    # two of them
+    found = asked(
+        tmp_path,
+        WhatIfWanted(5, (value("speed", "50"),), search=True, candidates=("start", "door", "level"), condition="motor", window=0),
+    )  # fmt: skip
+    assert found.best is not None
+    assert found.tries[found.best].values[1:] == (value("start", "TRUE"), value("door", "TRUE"))
+
+
+def test_what_a_search_did_not_find_or_look_at_is_said(tmp_path: Path) -> None:
+    source = SOURCE.replace("delay : TIME;", "delay : TIME; name : STRING[5];")
+    wanted = WhatIfWanted(20, search=True, candidates=("level", "Main.name"), condition="motor", window=0)
+    found = asked(tmp_path, wanted, source)
+    assert found.best is None
+    assert "Main.name: no values are tried of such a type" in found.note
+    assert "no change of one of them, or of two that are BOOL, was found" in found.note
+    found = asked(tmp_path, WhatIfWanted(20, search=True, candidates=("door",), condition="start", window=3))
+    assert (found.best, found.tries) == (None, ())
+    assert "holds after scan 20 without any change" in found.note
+
+
+def test_a_test_is_made_of_it(tmp_path: Path) -> None:
+    wanted = WhatIfWanted(20, (value("door", "TRUE"), value("speed", "40")), condition="motor", window=9)
+    made = read_scenario(asked(tmp_path, wanted).scenario)
+    assert [(each.at, each.do) for each in made.steps] == [
+        (10, "write start=TRUE"), (11, "write speed=20"), (20, "force door=TRUE"), (20, "force speed=40"),
+    ]  # fmt: skip
+    assert [(each.kind, each.condition, each.first, each.last) for each in made.expect] == [("holds", "motor", 21, 30)]
+    assert made.scans == 30
+
+
+@pytest.mark.parametrize(
+    ("wanted", "message"),
+    [
+        (WhatIfWanted(500, (value("door", "TRUE"),)), "scan 500 is not in the run"),
+        (WhatIfWanted(20), "say which variable"),
+        (WhatIfWanted(20, (value("dor", "TRUE"),)), "dor"),
+        (WhatIfWanted(20, (value("door", "TRUE"),), condition="motr"), "motr"),
+        (WhatIfWanted(20, search=True, candidates=("door",)), "a search needs a condition"),
+        (WhatIfWanted(20, vary="door"), "say which values"),
+        (WhatIfWanted(20, vary="speed", tried=("1",) * 201), "at most 200"),
+        (WhatIfWanted(20, vary="speed", tried=("1",) * 200, window=9_000), "fewer values, or fewer scans"),
+    ],
+)
+def test_what_cannot_be_tried_is_refused(wanted: WhatIfWanted, message: str, tmp_path: Path) -> None:
+    with pytest.raises(BadWhatIf, match=message):
+        asked(tmp_path, wanted)
+
+
+def test_a_planted_threshold_is_found(tmp_path: Path) -> None:
+    chance = random.Random(3)
+    for number in range(amount(40, 4)):
+        low = chance.choice((True, False))
+        edge = chance.randint(-30_000, 30_000)
+        source = SOURCE.replace("speed >= 37", f"level {'<=' if low else '>='} {edge}")
+        given = (value("door", "TRUE"),)
+        found = asked(
+            tmp_path, WhatIfWanted(20, given, search=True, candidates=("level",), condition="motor", window=0), source
+        )
+        now = 0
+        if found.recorded.met is None and not (now <= edge if low else now >= edge):
+            assert found.best is not None, (number, edge, low, found.note)
+            assert found.tries[found.best].values[-1].value == str(edge), (number, edge, low)
