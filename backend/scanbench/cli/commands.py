@@ -21,6 +21,7 @@ from scanbench.cli.scenario import scenario
 from scanbench.cli.serve import serve
 from scanbench.cli.verify import verify
 from scanbench.cli.vscode import vscode
+from scanbench.cli.whatif import whatif
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -29,7 +30,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="A bench for debugging PLC programs (IEC 61131-3) on virtual PLCs of real models.",
 )
-for command in (serve, check, format, run, verify, campaign, replay, diff, dap, lsp):
+for command in (serve, check, format, run, verify, campaign, whatif, replay, diff, dap, lsp):
     app.command()(command)
 app.command("import")(import_file)
 app.command("export")(export_file)

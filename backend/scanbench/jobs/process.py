@@ -31,6 +31,7 @@ from scanbench.jobs import verification as verify_job
 from scanbench.jobs.campaign import run_campaign
 from scanbench.jobs.retrospective import record
 from scanbench.jobs.starting import checked_program, model_of, point_in, reaction_in
+from scanbench.jobs.whatif import run_what_if
 from scanbench.plcmodel.user_errors import is_of_catalogue
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import Program
@@ -62,6 +63,7 @@ from scanbench.wire.jobs import (
 from scanbench.wire.refused import Refused
 from scanbench.wire.traces import RecordRetrospective, RetrospectiveAt
 from scanbench.wire.verification import CompareRuns, FindChanges, FindWriter, MakeScenario, PastAt, RerunRun
+from scanbench.wire.whatif import RunWhatIf
 
 log = logging.getLogger("scanbench")
 X = TypeVar("X")
@@ -70,7 +72,16 @@ _NICENESS = 10
 _TELL_EVERY_NS = 250_000_000
 _PROGRAMS = 4
 """Checked programs that stay in memory."""
-Request = FindReaction | RunSweep | RecordRetrospective | Check | RunCampaign | verify_job.Request | history_job.Request
+Request = (
+    FindReaction
+    | RunSweep
+    | RecordRetrospective
+    | Check
+    | RunCampaign
+    | RunWhatIf
+    | verify_job.Request
+    | history_job.Request
+)
 _REFUSALS = (Unreadable, NoProgram, RunFileError, Died, OSError)
 
 
@@ -124,6 +135,9 @@ class Job:
             case RunCampaign():
                 programs = programs_by(self._program, on(self._flavours))
                 return run_campaign(request, programs, self._flavours.observed, self._say)
+            case RunWhatIf():
+                programs = programs_by(self._program, on(self._flavours))
+                return run_what_if(request, programs, self._flavours.observed, self._say)
             case FindWriter() | FindChanges() | CompareRuns() | RerunRun() | MakeScenario():
                 if self._past is None:
                     self._past = history_job.HistoryJob(self._program, self._cache, self._flavours.observed)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
+from scanbench.history.whatif.contract import WhatIf, WhatIfWanted
 from scanbench.jobs.client import FAULT, Make, SharedJob, alone
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
@@ -27,6 +28,7 @@ from scanbench.wire.verification import (
     ScenarioMade,
     WriterFound,
 )
+from scanbench.wire.whatif import RunWhatIf, WhatIfDone
 
 log = logging.getLogger("scanbench")
 
@@ -73,6 +75,8 @@ class RunHistory:
         self._begun: dict[int, _Rerun] = {}
         """The last replays, those that are over included."""
         self._tasks: set[asyncio.Task[None]] = set()
+        self._trying = 0
+        """Questions of what if that are under way."""
 
     async def close(self) -> None:
         """Ends every process."""
@@ -171,6 +175,22 @@ class RunHistory:
             _tell(comparison, message="cancelled")
 
     # ---- what if --------------------------------------------------------------------------------------------------
+
+    async def what_if(self, session: Session, wanted: WhatIfWanted) -> WhatIf:
+        """Goes on with the run from a scan with other values; the answer comes when all is tried, within seconds."""
+        if self._trying >= MOST:
+            raise Refused(f"{self._trying} questions of what if are being tried already: wait for one")
+        run, until = str(session.instance.run_file), _until(session)
+
+        async def on_part(part: object) -> None:
+            """A try is done."""
+
+        self._trying += 1
+        try:
+            found = await alone(self._cache, lambda ref: RunWhatIf(ref, run, wanted, until), WhatIfDone, on_part)
+        finally:
+            self._trying -= 1
+        return found.found
 
     async def rerun(self, session: Session, change: RerunChange, name: str, author: str) -> Rerun:
         """Repeats the run with one error changed, and makes a new instance of it."""

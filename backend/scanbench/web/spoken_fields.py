@@ -13,6 +13,7 @@ from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.reaction.reaction import Reaction, RequiredResult
 from scanbench.history.campaign.contract import Trial
+from scanbench.history.whatif.contract import Try, WhatIf
 from scanbench.history.contract import BetweenEntry, Changes, Divergence
 from scanbench.recording.recording import RecordingInfo
 from scanbench.reports.record import RecordCell
@@ -92,6 +93,9 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (Trial, "program"),
     (Trial, "refused"),
     (Trial, "why"),
+    (WhatIf, "note"),
+    (Try, "refused"),
+    (Try, "trapped"),
     (CampaignState, "message"),
     (Comparison, "message"),
     (events.LogEntry, "text"),

@@ -50,6 +50,7 @@ from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
 from scanbench.history.campaign.contract import CampaignWanted, Trial
 from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence, RerunChange, Writer
+from scanbench.history.whatif.contract import SetValue, Try, WhatIf, WhatIfWanted
 from scanbench.problems import Problem, Span
 from scanbench.program.sites import CheckSite
 from scanbench.recording.gaps import LostScans
@@ -80,6 +81,7 @@ from scanbench.wire import host as protocol
 from scanbench.wire import jobs as job_protocol
 from scanbench.wire import traces as trace_protocol
 from scanbench.wire import verification as verify_protocol
+from scanbench.wire import whatif as whatif_protocol
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -125,6 +127,7 @@ _CLASSES: dict[str, type] = {
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
         verify_protocol.MakeScenario, verify_protocol.ScenarioMade, verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
+        WhatIfWanted, SetValue, Try, WhatIf, whatif_protocol.RunWhatIf, whatif_protocol.TryDone, whatif_protocol.WhatIfDone,
         CampaignWanted, Trial, campaign_protocol.RunCampaign, campaign_protocol.TrialDone, campaign_protocol.CampaignDone, campaign_protocol.CampaignCount, campaign_protocol.CampaignState,
         verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,

@@ -70,14 +70,14 @@ def test_a_range_of_values_is_tried(tmp_path: Path) -> None:
         20,
         (value("door", "TRUE"), value("level", "100")),
         vary="speed",
-        tried=("30", "36", "37", "90"),
+        tried=("30", "36..37", "90..60/30"),
         condition="full",
     )
     found = asked(tmp_path, wanted)
     assert [(each.values[-1].value, each.met) for each in found.tries] == [
-        ("30", None), ("36", None), ("37", 25), ("90", 25),
+        ("30", None), ("36", None), ("37", 25), ("90", 25), ("60", 25),
     ]  # fmt: skip
-    assert [each.output_scan for each in found.tries] == [None, None, 20, 20]
+    assert [each.output_scan for each in found.tries] == [None, None, 20, 20, 20]
 
 
 def test_a_value_that_is_none_and_a_run_time_error_are_told(tmp_path: Path) -> None:
@@ -142,6 +142,7 @@ def test_a_test_is_made_of_it(tmp_path: Path) -> None:
         (WhatIfWanted(20, search=True, candidates=("door",)), "a search needs a condition"),
         (WhatIfWanted(20, vary="door"), "say which values"),
         (WhatIfWanted(20, vary="speed", tried=("1",) * 201), "at most 200"),
+        (WhatIfWanted(20, vary="speed", tried=("0..1000/2",)), "write a larger step"),
         (WhatIfWanted(20, vary="speed", tried=("1",) * 200, window=9_000), "fewer values, or fewer scans"),
     ],
 )

@@ -13,6 +13,7 @@ import { VersionsPage } from "../panels/project/editor/VersionsPage";
 import { CommunicationPage } from "../panels/run/communication/CommunicationPage";
 import { ComparePage } from "../panels/run/past/ComparePage";
 import { CampaignPage } from "../panels/verify/campaign/CampaignPage";
+import { WhatIfPage } from "../panels/verify/whatif/WhatIfPage";
 import { MemoryPage } from "../panels/watch/memory/MemoryPage";
 import { useHardwareEdited } from "../store/errors/hardware";
 import { useRecordTitle } from "../store/errors/records";
@@ -35,6 +36,7 @@ export const PAGES: Record<PageName, Page> = {
   hardware: { component: HardwarePage, icon: "plc", useTitle: useHardwareTitle },
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
   compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
+  whatif: { component: WhatIfPage, icon: "branch", useTitle: () => t("whatif.tab") },
   campaign: { component: CampaignPage, icon: "disturbance", useTitle: () => t("campaign.tab") },
   versions: { component: VersionsPage, icon: "branch", useTitle: () => t("versions.title") },
   cross: { component: CrossPage, icon: "swap", useTitle: () => t("cross.title") },

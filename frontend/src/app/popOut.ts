@@ -6,7 +6,7 @@ import { useBench } from "../store/plc/bench";
 import { fileOf, openFilePanel, openPagePanel, showFixedPanel } from "./layout";
 
 /** What these pages show was chosen in their window, and no address knows it. */
-const BOUND: readonly string[] = ["record", "compare", "campaign", "cross", "calls", "start"];
+const BOUND: readonly string[] = ["record", "compare", "campaign", "whatif", "cross", "calls", "start"];
 
 export const canPopOut = (panel: string) => !BOUND.includes(panel) && loneIn(location) !== panel;
 

@@ -1597,6 +1597,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/what-if": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Goes on with the recorded run from a scan with other values of some inputs: as given, each of several, or the smallest change with which a condition holds
+         * @description Goes on with the recorded run from a scan with other values of some inputs: as given, each of several, or the smallest change with
+         *     which a condition holds. The PLC goes on meanwhile. The answer comes when all is tried.
+         */
+        post: operations["what_if_instance"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/write": {
         parameters: {
             query?: never;
@@ -6390,6 +6411,69 @@ export interface components {
             shared: boolean;
         };
         /**
+         * NewWhatIf
+         * @description Inputs of the recorded run with other values, from a scan on; see `history.whatif.contract.WhatIfWanted`.
+         */
+        NewWhatIf: {
+            /**
+             * Candidates
+             * @default []
+             */
+            candidates: string[];
+            /**
+             * Condition
+             * @description what is to be, in ST: `Main.valve = 3`
+             * @default
+             */
+            condition: string;
+            /**
+             * Hold
+             * @description forced all the time; else written once
+             * @default true
+             */
+            hold: boolean;
+            /**
+             * Scan
+             * @description the values are set before this scan
+             */
+            scan: number;
+            /**
+             * Search
+             * @description looks for the smallest change of `candidates` with which the condition holds
+             * @default false
+             */
+            search: boolean;
+            /**
+             * Tried
+             * @default []
+             */
+            tried: string[];
+            /**
+             * Values
+             * @description in every try
+             * @default []
+             */
+            values: components["schemas"]["WhatIfValue"][];
+            /**
+             * Vary
+             * @description of this variable each of the values `tried`
+             * @default
+             */
+            vary: string;
+            /**
+             * Watch
+             * @description variables whose values at the end are told
+             * @default []
+             */
+            watch: string[];
+            /**
+             * Window
+             * @description goes on for so many scans after `scan`
+             * @default 100
+             */
+            window: number;
+        };
+        /**
          * OnlineChange
          * @description What a swap of the program does to the variables of one running PLC.
          */
@@ -9746,6 +9830,127 @@ export interface components {
             version: number;
         };
         /**
+         * WhatIf
+         * @description All that was tried.
+         */
+        WhatIf: {
+            /**
+             * Best
+             * @description Of a search: the index of the smallest change that was found.
+             */
+            best: number | null;
+            /**
+             * Note
+             * @description What the search did not look at.
+             */
+            note: string;
+            recorded: components["schemas"]["WhatIfTry"];
+            /**
+             * Scenario
+             * @description A scenario file that does the same from a cold start and expects the condition; empty where there can be none.
+             */
+            scenario: string;
+            /** Tries */
+            tries: components["schemas"]["WhatIfTry"][];
+            wanted: components["schemas"]["WhatIfWanted"];
+        };
+        /**
+         * WhatIfTry
+         * @description What came of one set of values.
+         */
+        WhatIfTry: {
+            /**
+             * Met
+             * @description After this scan the condition held for the first time.
+             */
+            met: number | null;
+            /**
+             * Output Scan
+             * @description After this scan an output (%Q) was different from the recorded run for the first time.
+             */
+            output_scan: number | null;
+            /**
+             * Ran
+             * @description Scans.
+             */
+            ran: number;
+            /**
+             * Refused
+             * @description A value that the PLC did not take, then nothing was run; or what had been entered later, and was not taken this time.
+             */
+            refused: string[];
+            /**
+             * Shown
+             * @description The values of what is watched.
+             */
+            shown: string[];
+            /**
+             * Trapped
+             * @description The run-time error that stopped the program, and where.
+             */
+            trapped: string;
+            /**
+             * Values
+             * @description None: the run as it was recorded.
+             */
+            values: components["schemas"]["WhatIfValue"][];
+        };
+        /**
+         * WhatIfValue
+         * @description A variable or address, and its value as typed.
+         */
+        WhatIfValue: {
+            /** Path */
+            path: string;
+            /** Value */
+            value: string;
+        };
+        /**
+         * WhatIfWanted
+         * @description What is tried: the `values` in every try; with `vary`, each of the values `tried`; with `search`, the smallest change of the variables
+         *     `candidates` with which `condition` holds. None of them: one try.
+         */
+        WhatIfWanted: {
+            /** Candidates */
+            candidates: string[];
+            /**
+             * Condition
+             * @description What is to be, in ST: `Main.valve = 3`. It is met where it holds after one of the scans.
+             */
+            condition: string;
+            /**
+             * Hold
+             * @description The values are forced all the time; else they are written once.
+             */
+            hold: boolean;
+            /**
+             * Scan
+             * @description The values are set before this scan, after all that was entered there.
+             */
+            scan: number;
+            /** Search */
+            search: boolean;
+            /**
+             * Tried
+             * @description Values as typed, or ranges of whole numbers: `0..100/5`.
+             */
+            tried: string[];
+            /** Values */
+            values: components["schemas"]["WhatIfValue"][];
+            /** Vary */
+            vary: string;
+            /**
+             * Watch
+             * @description Variables and addresses whose values after the last scan are told.
+             */
+            watch: string[];
+            /**
+             * Window
+             * @description It goes on for so many scans after `scan`.
+             */
+            window: number;
+        };
+        /**
          * WholeCampaign
          * @description A campaign, and what came of each disturbance that was tried so far.
          */
@@ -12823,6 +13028,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["VerificationInfo"];
+                };
+            };
+        };
+    };
+    what_if_instance: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewWhatIf"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WhatIf"];
                 };
             };
         };

@@ -43,6 +43,7 @@ class WhatIfWanted(Public):
     values: tuple[SetValue, ...] = ()
     vary: str = ""
     tried: tuple[str, ...] = ()
+    """Values as typed, or ranges of whole numbers: `0..100/5`."""
     search: bool = False
     candidates: tuple[str, ...] = ()
     hold: bool = True

@@ -1,7 +1,8 @@
 """Goes on with a recorded run from a scan, with some inputs set to other values; again and again."""
 
+import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from hashlib import blake2b
 
@@ -38,6 +39,7 @@ from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.whole import bytes_of, worth_text
 
 AUTHOR = "what if"
+_SPAN = re.compile(r"([+-]?\d+)\s*\.\.\s*([+-]?\d+)(?:\s*/\s*(\d+))?")
 OnTry = Callable[[int, int], None]
 """Tries that are done, and at most how many; may raise to end it."""
 
@@ -49,6 +51,7 @@ def what_if(reader: RunReader, wanted: WhatIfWanted, bench: Bench, on_try: OnTry
 
 class _Tries:
     def __init__(self, reader: RunReader, wanted: WhatIfWanted, bench: Bench, on_try: OnTry) -> None:
+        wanted = replace(wanted, tried=spread(wanted.tried))
         _check(reader, wanted)
         self._reader, self._wanted, self._bench, self._on_try = reader, wanted, bench, on_try
         self._end = wanted.scan + wanted.window + 1
@@ -220,6 +223,21 @@ def _condition(program: Program, text: str) -> Condition:
     if isinstance(found, BadCondition):
         raise BadWhatIf(f"{text}: {found.message}", found.near)
     return found
+
+
+def spread(tried: Sequence[str]) -> tuple[str, ...]:
+    """Each value; `A..B` and `A..B/STEP` are whole numbers, both ends included. `BadWhatIf`."""
+    found: list[str] = []
+    for text in tried:
+        span = _SPAN.fullmatch(text.strip())
+        if span is None:
+            found.append(text.strip())
+            continue
+        first, last, step = int(span[1]), int(span[2]), int(span[3] or 1)
+        if step == 0 or abs(last - first) // step >= MOST_TRIES:
+            raise BadWhatIf(f"{text}: at most {MOST_TRIES} values can be tried: write a larger step, as in 0..1000/10")
+        found += map(str, range(first, last + 1, step) if first <= last else range(first, last - 1, -step))
+    return tuple(found)
 
 
 def _check(reader: RunReader, wanted: WhatIfWanted) -> None:

@@ -6,7 +6,9 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
 from scanbench.history.contract import Changes, RerunChange, Writer
+from scanbench.history.whatif.contract import WhatIf, WhatIfWanted
 from scanbench.web import messages_past as wire
+from scanbench.web import messages_whatif
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.reach import Bench
@@ -62,6 +64,17 @@ async def on_comparison(bench: Bench, comparison: Id) -> Comparison:
 async def on_delete_comparison(bench: Bench, comparison: Id) -> None:
     """Cancels a comparison, or deletes its result."""
     await bench.history.forget(comparison)
+
+
+@router.post("/instances/{instance}/what-if")
+async def on_what_if(bench: Bench, instance: Id, new: messages_whatif.NewWhatIf) -> WhatIf:
+    """Goes on with the recorded run from a scan with other values of some inputs: as given, each of several, or the smallest change with
+    which a condition holds. The PLC goes on meanwhile. The answer comes when all is tried."""
+    wanted = WhatIfWanted(
+        new.scan, tuple(new.values), new.vary.strip(), tuple(new.tried), new.search, tuple(new.candidates), new.hold,
+        new.window, new.condition.strip(), tuple(new.watch),
+    )  # fmt: skip
+    return await bench.history.what_if(bench.session(instance), wanted)
 
 
 @router.post("/instances/{instance}/reruns", status_code=201)

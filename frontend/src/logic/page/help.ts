@@ -18,6 +18,7 @@ export const CONTENTS = "README.md";
 /** By the name of a panel, or of a part of the window. */
 const TOPICS: Readonly<Record<string, string>> = {
   campaign: "verification.md#campaigns",
+  whatif: "verification.md#what-if",
   calls: "projects.md#who-uses-it-who-calls-it",
   communication: "communication.md",
   compare: "time-travel.md#comparing-two-runs",

@@ -27,6 +27,7 @@ const PAGES = [
   "record",
   "compare",
   "campaign",
+  "whatif",
   "hardware",
   "versions",
   "rack",

@@ -8,6 +8,7 @@ import { showRerun } from "../../../store/past/reruns";
 import { scanLink } from "../../../store/plc/links";
 import { saveScenario, selectStretch, setView, travel } from "../../../store/plc/timeline";
 import { verifyStretch } from "../../../store/verify/verify";
+import { showWhatIf } from "../../../store/verify/whatif";
 import { t } from "../../../text";
 import { copyText } from "../../../ui/clipboard";
 import type { MenuItem } from "../../../ui/Menu";
@@ -57,6 +58,7 @@ export function pointMenu({ scan, marks, position }: Point): MenuItem[] {
       icon: "export",
       onSelect: () => void saveScenario(scan),
     },
+    { label: t("whatif.from", { scan: grouped(scan) }), icon: "branch", onSelect: () => showWhatIf(scan) },
     ...errorsOf(marks).flatMap((error, index, all) => replayItems(error, all.length > 1, index)),
   ];
 }

@@ -9,6 +9,7 @@ import { useForbidden } from "../../../store/plc/plc";
 import { travel } from "../../../store/plc/timeline";
 import { drive, type ShownVerification } from "../../../store/verify/verify";
 import { editInput, useVerifyRows } from "../../../store/verify/verifyRows";
+import { askWhatIf } from "../../../store/verify/whatif";
 import { t } from "../../../text";
 import { CopyButton } from "../../../ui/CopyButton";
 import { Icon } from "../../../ui/Icon";
@@ -275,6 +276,17 @@ function Deeds({ shown, row, difference, uses, onUses }: DeedsProps) {
             text={() => scanLink(row.scan, "verification")}
           />
         </>
+      )}
+      {!isTrace && (
+        <button
+          type="button"
+          className="btn quiet sm"
+          title={t("whatif.about")}
+          onClick={() => void askWhatIf(row, difference)}
+        >
+          <Icon name="branch" small />
+          {t("whatif.show")}
+        </button>
       )}
       <button type="button" className="btn quiet sm" aria-expanded={uses} onClick={onUses}>
         <Icon name={uses ? "chev-d" : "chev-r"} small />
