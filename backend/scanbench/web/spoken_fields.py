@@ -13,8 +13,8 @@ from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.reaction.reaction import Reaction, RequiredResult
 from scanbench.history.campaign.contract import Trial
-from scanbench.history.whatif.contract import Try, WhatIf
 from scanbench.history.contract import BetweenEntry, Changes, Divergence
+from scanbench.history.whatif.contract import Try, WhatIf
 from scanbench.recording.recording import RecordingInfo
 from scanbench.reports.record import RecordCell
 from scanbench.reports.record_text import RecordLine
