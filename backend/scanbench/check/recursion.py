@@ -41,7 +41,9 @@ def allow(report: Report, pous: Pous) -> None:
 
 
 def _of_interface(pous: Pous, name: str) -> bool:
-    owner = pous.classes.by_key.get(name.removesuffix(".dispatch").rpartition(".")[0].removesuffix(".GET").upper())
+    known = pous.classes.by_key
+    above = name.removesuffix(".dispatch").rpartition(".")[0].upper()
+    owner = known.get(above) or known.get(above.rpartition(".")[0])  # of a method, or of half of a property
     return owner is not None and owner.kind == "interface"
 
 
