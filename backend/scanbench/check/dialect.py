@@ -58,6 +58,7 @@ class Allowance(Enum):
     INSTRUCTION_CALLS = auto()
     INSTRUCTION_TYPES = auto()
     SIGNED_TEXTS = auto()
+    BLOCK_MOVES = auto()
     GENERIC_CONSTANTS = auto()
 
 
@@ -178,6 +179,11 @@ RULES: dict[Allowance, Rule] = {
         "`INT_TO_STRING` and the like begin with the sign, also with `+`",
         "a positive number has no sign in a text",
         "`CONCAT('+', INT_TO_STRING(i))`",
+    ),
+    Allowance.BLOCK_MOVES: Rule(
+        "MOVE_BLK, UMOVE_BLK, FILL_BLK and UFILL_BLK of up to 256 elements",
+        "elements of arrays are assigned one by one",
+        "`FOR i := 0 TO 3 DO b[i] := a[i]; END_FOR`",
     ),
     Allowance.RETURN_CONDITION: Rule(
         "a condition after RETURN, `RETURN(done)`",
@@ -308,7 +314,7 @@ _SIEMENS = frozenset(
     {
         *(Allowance.ROUNDING, Allowance.WRAPPED_REALS, Allowance.TIME_NUMBERS, Allowance.CHAR_NUMBERS),
         *(Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_CALLS),
-        *(Allowance.INSTRUCTION_TYPES, Allowance.SIGNED_TEXTS),
+        *(Allowance.INSTRUCTION_TYPES, Allowance.SIGNED_TEXTS, Allowance.BLOCK_MOVES),
     }
 )
 _CODESYS = frozenset(Allowance) - _LOGIX - _SIEMENS

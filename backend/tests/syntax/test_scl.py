@@ -108,3 +108,25 @@ def test_a_time_is_compared_with_a_number_of_milliseconds() -> None:
     text = 'FUNCTION "F" : Bool\nVAR_INPUT\n  t : Time;\nEND_VAR\nBEGIN\n  #F := #t - T#1s < {};\nEND_FUNCTION\n'
     assert [each.split()[1] for each in problems(text.format("0"))] == ["W006"]
     assert [each.split()[1] for each in problems(text.format("0.5"))] == ["T002"]
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "told"),
+    [
+        ("#w := PEEK_WORD(area := 16#84, dbNumber := 1, byteOffset := 0);", "X001", "Declare a variable"),
+        ("#i := VariantGet(SRC := #i);", "X001", "ARRAY[*]"),
+        ("MOVE_BLK(IN := #a[0], COUNT := #i, OUT => #a[1]);", "X001", "FOR i := 0"),
+        ("MOVE_BLK(IN := #a, COUNT := 2, OUT => #a[1]);", "T002", "`a[0]`"),
+        ("MOVE_BLK(IN := #a[0], OUT => #a[1]);", "T004", "IN, COUNT and OUT"),
+        ("RESET_TIMER(#p);", "X001", "IN := FALSE"),
+        ("#i := #missing;", "T001", "`missing` is not declared"),
+        ("#s := #v;", "D002", "ARRAY[*] in VAR_IN_OUT"),
+        ("VariantPut(SRC := #i, DST := #v);", "D002", "ARRAY[*] in VAR_IN_OUT"),
+    ],
+)
+def test_what_is_refused_is_told_once_with_what_to_do(line: str, code: str, told: str) -> None:
+    variant = "  v : Variant;\n" if "#v" in line else ""
+    text = f'FUNCTION "F" : Void\nVAR_INPUT\n{variant}  i : Int;\nEND_VAR\nVAR_TEMP\n  w : Word;\n  s : Int;\n  a : Array[0..3] of Int;\nEND_VAR\nVAR_IN_OUT\n  p : TP_TIME;\nEND_VAR\nBEGIN\n  {line}\nEND_FUNCTION\n'
+    found = [each for each in problems(text) if not each.split()[1].startswith("W")]
+    assert [each.split()[1] for each in found] == [code]
+    assert told in found[0]

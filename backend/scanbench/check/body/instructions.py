@@ -9,6 +9,7 @@ from dataclasses import replace
 from scanbench.check.body.allowed import may, used
 from scanbench.check.body.context import Body
 from scanbench.check.body.generic import tried
+from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
 from scanbench.program.shown import shown
 from scanbench.program.types import LREAL, REAL, Elementary, Record, Type, base_of
@@ -18,6 +19,19 @@ from scanbench.syntax import tree
 OF_INSTANCES = frozenset(("TON", "TOF", "TP", "TONR", "CTU", "CTD", "CTUD"))
 BY_ARGUMENTS = {"NORM_X": ("MIN", "VALUE", "MAX"), "SCALE_X": ("MIN", "MAX"), "SWAP": ("IN",)}
 """Instructions whose type is that of these arguments; the library has them for each type."""
+
+RESET = frozenset(("TON", "TON_TIME", "TON_LTIME", "IEC_TIMER"))
+_MEMORY = "memory has no numbers here. Declare a variable, and use its name and its parts, `x.%B0`"
+_VARIANT = "there is no Variant. Declare the parameter with the type that is passed, an array as ARRAY[*]"
+REFUSED = {
+    **dict.fromkeys(("PEEK", "POKE"), _MEMORY),
+    **dict.fromkeys(
+        ("VARIANTGET", "VARIANTPUT", "TYPEOF", "IS_ARRAY", "COUNTOFELEMENTS", "MOVE_BLK_VARIANT", "DB_ANY_TO_VARIANT"),
+        _VARIANT,
+    ),
+    **dict.fromkeys(("SERIALIZE", "DESERIALIZE"), _VARIANT),
+}
+"""Beginnings of names of instructions that are known, and what to do instead."""
 
 
 def instructed(body: Body, node: tree.Call) -> tree.Call:
@@ -46,11 +60,36 @@ def _typed(body: Body, node: tree.Call, name: str) -> tree.Call:
     declared = body.declarations.names.find(name, node.callee.span, body.pous.functions, body.pous.generic)
     if declared is not None:
         return node
+    if name == "RESET_TIMER":
+        return _reset(body, node)
+    if (mend := next((REFUSED[each] for each in REFUSED if name.startswith(each)), None)) is not None:
+        values = [argument.value for argument in node.arguments]
+        names = {value.name.upper() for value in values if isinstance(value, tree.Name)}
+        if {(body.scope.pou.upper(), each) for each in names} & body.declarations.broken:
+            raise Rejected  # its type is told where it is declared
+        raise body.report.reject("X001", f"`{shown(node.callee)}` is not supported: {mend}.", node.callee.span)
     if name not in BY_ARGUMENTS:
         return node
     found = f"{name}_{_type_of(body, node, name)}"
     used(body, Allowance.INSTRUCTION_TYPES, node.callee.span, f"`{name}` is `{found}` here", f"`{found}(...)`")
     return replace(node, callee=tree.Name(found, node.callee.span))
+
+
+def _reset(body: Body, node: tree.Call) -> tree.Call:
+    """RESET_TIMER of an on-delay timer as a call with IN FALSE, which sets all of it to 0 as well."""
+    timer = next((each.value for each in node.arguments if each.value is not None), None)
+    type = None if timer is None else body.place(timer)[0].type
+    if timer is None or not isinstance(type, Record) or type.name.upper() not in RESET:
+        raise body.report.reject(
+            "X001", "RESET_TIMER is read for TON, TON_TIME and IEC_TIMER. Call another timer with IN := FALSE until its time is over.",
+            node.span,
+        )  # fmt: skip
+    name = shown(timer)
+    used(body, Allowance.INSTRUCTION_CALLS, node.span, f"RESET_TIMER sets `{name}` back", f"`{name}(IN := FALSE)`")
+    if type.name.upper() == "IEC_TIMER":
+        return replace(node, callee=tree.MemberOf(timer, "RESET", node.callee.span), arguments=())
+    false = tree.Literal("bool", 0, None, node.span)
+    return replace(node, callee=timer, arguments=(tree.Argument("IN", False, false, node.span),))
 
 
 def _type_of(body: Body, node: tree.Call, name: str) -> Type:

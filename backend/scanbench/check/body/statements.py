@@ -7,6 +7,7 @@ from scanbench.check.body import targets
 from scanbench.check.body.allowed import allowed
 from scanbench.check.body.assignments import assign, condition
 from scanbench.check.body.bare import bare_call
+from scanbench.check.body.block_moves import block_move
 from scanbench.check.body.calls import call_statement
 from scanbench.check.body.catching import leaves, try_statement
 from scanbench.check.body.coercion import as_type, value_of
@@ -131,7 +132,7 @@ def _expression(body: Body, node: tree.ExpressionStatement) -> Stmt | None:
         finally:
             body.report.warn("W001", "This computes a value and drops it; is an assignment missing?", node.span)
         return None
-    return call_statement(body, call)
+    return block_move(body, call) or call_statement(body, call)
 
 
 def _case(body: Body, node: tree.CaseStatement) -> Stmt:

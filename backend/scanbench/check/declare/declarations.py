@@ -9,7 +9,7 @@ from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.creations import Creations
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified, written
-from scanbench.check.declare.vendor_types import vendor_type
+from scanbench.check.declare.vendor_types import instead_of, vendor_type
 from scanbench.check.dialect import IEC, Dialect
 from scanbench.check.libraries.catalogue import where_declared
 from scanbench.check.uses import Symbol
@@ -114,6 +114,7 @@ class Declarations:
             hint = self.library_hint(name) or self.report.near(
                 name, lambda: [*TYPE_NAMES, *self.type_trees, *self.block_trees], "declared"
             )
+            hint = instead_of(self.dialect, name) or hint
             raise self.report.reject("D002", f"There is no type `{name}`.{hint}", span)
         origin = declaration or block
         assert origin is not None

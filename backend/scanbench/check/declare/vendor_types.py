@@ -29,6 +29,20 @@ VENDOR_TYPES: dict[str, Elementary] = {
     "PVOID": Reference("POINTER TO BYTE", Kind.REF, SLOT_BYTES, BYTE, pointer=True),
 }
 
+NOT_HERE = {
+    "VARIANT": "Declare it with the type that is passed, an array as ARRAY[*] in VAR_IN_OUT.",
+    "S5TIME": "Declare it as TIME, and use a TON, TOF or TP.",
+    "TIMER": "Declare an IEC_TIMER, and call it as TON, TOF or TP.",
+    "COUNTER": "Declare an IEC_COUNTER, and call it as CTU, CTD or CTUD.",
+}
+"""Types of Siemens that are known and not supported, and what to do instead."""
+
+
+def instead_of(dialect: Dialect, name: str) -> str:
+    """What to declare instead of a type that the dialect has, and Scanbench has not; or nothing."""
+    siemens = Allowance.INSTRUCTION_TYPES in dialect.allows
+    return f" {NOT_HERE[name.upper()]}" if siemens and name.upper() in NOT_HERE else ""
+
 
 def vendor_type(report: Report, dialect: Dialect, name: str, span: Span) -> Elementary | None:
     """The type of this name, where the dialect has it."""
