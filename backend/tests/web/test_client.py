@@ -1,6 +1,9 @@
 """The Python client against a real server."""
 
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Mapping
 from itertools import count
 from pathlib import Path
@@ -125,6 +128,20 @@ def test_the_examples_of_the_docs_run(tmp_path: Path) -> None:
         names: dict[str, object] = {}
         for each in examples:
             exec(each.replace("http://127.0.0.1:8700/?token=...", server.address), names)
+        (shell,) = re.findall(r"```sh\n(.*?)```", page, re.DOTALL)
+        told = f"set -ex\n{shell.replace('http://127.0.0.1:8700/?token=...', server.address)}"
+        path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+        done = subprocess.run(
+            ["bash", "-c", told],
+            cwd=tmp_path,
+            env={**os.environ, "PATH": path},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert "no error is present" in done.stdout
+        assert "no difference" in done.stdout
 
 
 def test_the_routes_of_the_docs_are_there() -> None:
