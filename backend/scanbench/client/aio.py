@@ -8,9 +8,9 @@ from typing import Self, TypeVar
 
 from websockets.asyncio.client import ClientConnection
 from websockets.asyncio.client import connect as connect_socket
-from websockets.exceptions import ConnectionClosed
 
 from scanbench.client.asking import Awaited, Hear, Pause, Request, Say, Step, Steps
+from scanbench.client.closed import said
 from scanbench.client.requests.base import Value
 from scanbench.client.requests.debugging import DebugRequests
 from scanbench.client.requests.plc import PlcRequests
@@ -63,7 +63,8 @@ class _Talks(_Asks):
         address, headers = self._reach.socket(self._path)
         async with AsyncExitStack() as opened:
             connecting = connect_socket(address, additional_headers=headers, max_size=None, max_queue=None)
-            self._connection = await opened.enter_async_context(connecting)
+            with said():
+                self._connection = await opened.enter_async_context(connecting)
             await self._do(self._begin())
             self._opened = opened.pop_all()
         return self
@@ -75,7 +76,7 @@ class _Talks(_Asks):
 
     async def _take(self, step: Step) -> bytes | str:
         assert self._connection is not None, "open it in an `async with`"
-        try:
+        with said():
             match step:
                 case Say(text):
                     await self._connection.send(text)
@@ -83,8 +84,6 @@ class _Talks(_Asks):
                 case Hear(timeout_s):
                     async with asyncio.timeout(timeout_s):
                         return await self._connection.recv()
-        except ConnectionClosed as error:
-            raise ConnectionResetError(f"the server has closed the connection: {error}") from error
         return await super()._take(step)
 
 

@@ -6,11 +6,11 @@ from threading import Event
 from types import TracebackType
 from typing import Self, TypeVar
 
-from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
 from websockets.sync.client import connect as connect_socket
 
 from scanbench.client.asking import Hear, Pause, Request, Say, Step, Steps, Waiting
+from scanbench.client.closed import said
 from scanbench.client.requests.base import Value
 from scanbench.client.requests.debugging import DebugRequests
 from scanbench.client.requests.plc import PlcRequests
@@ -63,8 +63,9 @@ class _Talks(_Asks):
         address, headers = self._reach.socket(self._path)
         with ExitStack() as opened:
             # without a limit, as a full queue keeps a connection from closing
-            connecting = connect_socket(address, additional_headers=headers, max_size=None, max_queue=None)
-            self._connection = opened.enter_context(connecting)
+            with said():
+                connecting = connect_socket(address, additional_headers=headers, max_size=None, max_queue=None)
+                self._connection = opened.enter_context(connecting)
             self._do(self._begin())
             self._opened = opened.pop_all()
         return self
@@ -76,15 +77,13 @@ class _Talks(_Asks):
 
     def _take(self, step: Step) -> bytes | str:
         assert self._connection is not None, "open it in a `with`"
-        try:
+        with said():
             match step:
                 case Say(text):
                     self._connection.send(text)
                     return b""
                 case Hear(timeout_s):
                     return self._connection.recv(timeout_s)
-        except ConnectionClosed as error:
-            raise ConnectionResetError(f"the server has closed the connection: {error}") from error
         return super()._take(step)
 
 

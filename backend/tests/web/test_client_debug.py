@@ -3,8 +3,10 @@
 from itertools import count, islice
 
 import pytest
+from websockets.exceptions import ConnectionClosedError
 
 from scanbench.client import Plc, Refused, connect
+from scanbench.client.closed import said
 from tests.web.server import Server
 
 SOURCE = """\
@@ -156,6 +158,18 @@ def test_values_come_as_they_change(server: Server) -> None:
         plc.run()
         scans = [each.scan for each in islice(frames, 3)]
         assert scans == sorted(scans)
+
+
+def test_a_socket_that_is_not_opened_says_why(server: Server) -> None:
+    with pytest.raises(Refused, match="HTTP 403"), connect(server.address).plc(9999).watch("n"):
+        pass
+    with pytest.raises(Refused, match=r"HTTP 40[13]"), connect(server.base, token="wrong").plc(1).debug():
+        pass
+
+
+def test_a_connection_that_ends_is_an_oserror() -> None:
+    with pytest.raises(OSError, match="has closed the connection"), said():
+        raise ConnectionClosedError(None, None)
 
 
 def test_what_cannot_be_watched_is_refused_at_once(server: Server) -> None:

@@ -1,6 +1,7 @@
 """Debugging: breakpoints and steps, by the Debug Adapter Protocol on the PLC's WebSocket for tools (docs/dap.md)."""
 
 import json
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, cast
@@ -11,6 +12,7 @@ from scanbench.runtime.clock import monotonic_ns
 Step = Literal["in", "over", "out", "statement", "scan", "back", "reverse", "pause"]
 Access = Literal["read", "write", "change", "access"]
 Body = Mapping[str, object]
+SAID = 10_000
 _ANSWER_S = 60.0
 
 
@@ -87,7 +89,7 @@ class DebugRequests:
         self._seq = 0
         self._stopped: Stopped | None = None
         self._over = ""
-        self._said: list[str] = []
+        self._said: deque[str] = deque(maxlen=SAID)
 
     # ---- breakpoints ------------------------------------------------------------------------------------------------
 
@@ -186,7 +188,7 @@ class DebugRequests:
 
     @property
     def said(self) -> list[str]:
-        """What log points, and the PLC for people, have said until the last answer."""
+        """What log points, and the PLC for people, have said until the last answer; the last 10,000 lines."""
         return list(self._said)
 
     # ---- the conversation -------------------------------------------------------------------------------------------

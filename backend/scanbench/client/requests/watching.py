@@ -9,6 +9,7 @@ from typing import cast
 from scanbench.client.asking import Hear, Refused, Say, Steps, asked
 from scanbench.client.requests.traces import Number, number
 from scanbench.client.shapes.running import Symbol, Watched, Watching
+from scanbench.runtime.clock import monotonic_ns
 
 _HEAD = struct.Struct("<BBHIQq")
 _TEXT = struct.Struct("<II")
@@ -33,7 +34,8 @@ class Frame:
 
 
 class WatchRequests:
-    """Paths that are watched as long as the connection lasts; each iteration waits for the next frame."""
+    """Paths that are watched as long as the connection lasts; each iteration waits for the next frame. None is lost: a script that is slower
+    than they come lags behind."""
 
     def __init__(self, paths: Sequence[str]) -> None:
         self._paths = tuple(paths)
@@ -42,7 +44,7 @@ class WatchRequests:
 
     @asked
     def next(self, timeout_s: float | None = None) -> Steps[Frame]:
-        """The next frame; `TimeoutError` when nothing of the PLC is heard for so long, None waits for ever."""
+        """The next frame; `TimeoutError` when none comes for so long, None waits for ever."""
         return self._next(timeout_s)
 
     def _begin(self) -> Steps[None]:
@@ -53,8 +55,9 @@ class WatchRequests:
                 return
 
     def _next(self, timeout_s: float | None) -> Steps[Frame]:
+        end = None if timeout_s is None else monotonic_ns() + int(timeout_s * 1e9)
         while True:
-            came = yield Hear(timeout_s)
+            came = yield Hear(None if end is None else max(0.0, (end - monotonic_ns()) / 1e9))
             if isinstance(came, str):
                 self._take_text(came)
                 continue
