@@ -46,6 +46,7 @@ from scanbench.check.system.stimuli import Stimuli
 from scanbench.check.system.system import System, system_of
 from scanbench.check.system.system_text import COMMON
 from scanbench.check.task_infos import TaskInfo, task_infos
+from scanbench.garbage import without_collection
 from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model, Who
 from scanbench.plcmodel.user_errors import extended, is_of_catalogue
@@ -80,9 +81,10 @@ class Checked:
 
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
     """Checks all files of a project together. `interval_ns` is the interval of the task, unless a CONFIGURATION has one."""
-    files = [read(name, text) for name, text in program_files(sources).items()]
-    checker = checker_of(files, model, dialect=dialect_in(sources))
-    return with_user_errors(concluded(files, checker.report, checker.run(interval_ns)), sources, model)
+    with without_collection():
+        files = [read(name, text) for name, text in program_files(sources).items()]
+        checker = checker_of(files, model, dialect=dialect_in(sources))
+        return with_user_errors(concluded(files, checker.report, checker.run(interval_ns)), sources, model)
 
 
 def program_files(sources: Mapping[str, str]) -> dict[str, str]:

@@ -63,7 +63,8 @@ class Checks:
             project.check_all(sources)
         else:
             self._known.remove(project)
-            project.change(sources, whole)
+            with without_collection():  # which would look through all that is known, for an edit of one line
+                project.change(sources, whole)
         self._known.insert(0, project)
         del self._known[self._limit :]
         return project

@@ -19,7 +19,7 @@ ENDS = {"PROGRAM": "END_PROGRAM", "FUNCTION": "END_FUNCTION", "FUNCTION_BLOCK": 
 """Where a POU begins and ends that makes a chunk."""
 MARKS = frozenset((*ENDS, *ENDS.values(), "CONFIGURATION", "END_CONFIGURATION"))
 TIES = frozenset(
-    "METHOD PROPERTY PROPERTY_GET PROPERTY_SET ACTION USING NAMESPACE CLASS INTERFACE ORGANIZATION_BLOCK DATA_BLOCK".split()
+    "METHOD PROPERTY PROPERTY_GET PROPERTY_SET ACTION ACTIONS USING NAMESPACE CLASS INTERFACE ORGANIZATION_BLOCK DATA_BLOCK".split()
 )
 """Words that connect what follows to the text before, or contain POUs: a file with such a word is one chunk."""
 

@@ -9,7 +9,7 @@ from scanbench.syntax.parse_pou import MEMBERS, with_member
 from scanbench.syntax.source import Source
 
 TOPS = frozenset(("PROGRAM", "FUNCTION_BLOCK", "FUNCTION", "TYPE", "VAR_GLOBAL", "CONFIGURATION"))
-WORDS = frozenset(("CLASS", "INTERFACE", "NAMESPACE", "USING")) | MEMBERS
+WORDS = frozenset(("CLASS", "INTERFACE", "NAMESPACE", "USING", "ACTIONS")) | MEMBERS
 REFUSED = {
     "ORGANIZATION_BLOCK": "write a PROGRAM, and a TASK in a CONFIGURATION",
     "DATA_BLOCK": "write VAR_GLOBAL",
@@ -59,6 +59,8 @@ def _top(c: Cursor, result: tree.File) -> None:
         _namespace(c, result)
     elif word == "USING":
         c.visible += parse_pou.using_names(c)
+    elif word == "ACTIONS" and result.pous:
+        _actions(c, result)
     elif word in MEMBERS and result.pous:
         # exports of vendors write methods and actions after the POU they belong to
         owner = result.pous[-1]
@@ -75,6 +77,29 @@ def _top(c: Cursor, result: tree.File) -> None:
         raise Unexpected
     else:
         raise c.fail("PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS, INTERFACE, TYPE, VAR_GLOBAL or CONFIGURATION expected")
+
+
+def _actions(c: Cursor, result: tree.File) -> None:
+    """`ACTIONS Pump ... END_ACTIONS` after a POU, as some exports write its actions; without a name, those of the last one."""
+    start = c.take()
+    number = len(result.pous) - 1
+    if c.kinds[c.at] is NAME and c.word() != "ACTION":
+        name = c.name("the name of the POU")
+        wanted = c.texts[name].upper()
+        found = [at for at, pou in enumerate(result.pous) if pou.name.upper() == wanted]
+        if not found:
+            c.report(
+                "D002", f"There is no POU `{c.texts[name]}` before these ACTIONS; write them after it.", c.span_of(name)
+            )
+        number = found[-1] if found else number
+        c.accept(":")
+    while c.word() == "ACTION":
+        result.pous[number] = with_member(result.pous[number], parse_pou.member(c, result.pous[number].kind.upper()))
+    if not c.accept_word("END_ACTIONS"):
+        c.report(
+            "S003", f"`END_ACTIONS` expected to close the ACTIONS of line {c.span_of(start).line}{c.found()}.", c.here()
+        )
+    c.accept(";")
 
 
 def _skip_top(c: Cursor, before: int) -> None:

@@ -25,7 +25,7 @@ from tests.language.reading import FILE, at, read
 CASES = Path(__file__).parent.parent / "cases"
 WORDS = frozenset(
     """
-    ABSTRACT ACTION ARRAY BY CLASS CONSTANT EXTENDS FINAL F_EDGE GET IMPLEMENTS INTERFACE INTERNAL INTERVAL METHOD NAMESPACE
+    ABSTRACT ACTION ACTIONS END_ACTIONS ARRAY BY CLASS CONSTANT EXTENDS FINAL F_EDGE GET IMPLEMENTS INTERFACE INTERNAL INTERVAL METHOD NAMESPACE
     NON_RETAIN NULL ON OVERLAP OVERRIDE PERSISTENT POINTER PRIORITY PRIVATE PROPERTY PROPERTY_GET PROPERTY_SET PROTECTED PUBLIC
     READ_ONLY READ_WRITE REFERENCE REF REF_TO RESOURCE RETAIN R_EDGE SET SINGLE STRING SUPER TASK THIS UNION USING WITH WSTRING
     INITIAL_STEP STEP END_STEP TRANSITION END_TRANSITION FROM RUNG END_RUNG NETWORK END_NETWORK JMP PLC CPU CONTINUE R S ANY ANY_NUM ANY_INT ANY_REAL ANY_BIT ANY_STRING ANY_DATE ANY_ELEMENTARY ANY_MAGNITUDE CIO
@@ -72,7 +72,7 @@ def unresolved(reading: Reading) -> list[str]:
         if "CONFIGURATION" in reading.holding(FILE, start) or (around and isinstance(around.inner.body, tree.IlBody)):
             continue
         line = reading.text(FILE).splitlines()[reading.place(FILE, start)[0] - 1].upper()
-        if "NAMESPACE " in line or "USING " in line or tokens.texts[number + 1] == ".":
+        if "NAMESPACE " in line or "USING " in line or line.startswith("ACTIONS ") or tokens.texts[number + 1] == ".":
             continue
         word = tokens.texts[number - 1] == "AT" or upper in WORDS or upper in types or upper in ("EN", "ENO")
         if not word and not formal and reading.place(FILE, start) not in known:
