@@ -149,7 +149,7 @@ def _units(file: tree.File, text: str, errors: Sequence[Problem]) -> list[_Unit]
         if error.span.file == file.name and at >= 0 and error.code != OF_THE_WHOLE:
             made[at].wrong = True
     lines = text.split("\n")
-    for each, end in zip(made, [*begins[1:], len(lines) + 1], strict=True):
+    for each, end in zip(made, [*begins[1:], len(lines) + 1], strict=False):  # a file may declare nothing
         code = NO_CODE.sub(" ", "\n".join(lines[each.line - 1 : end - 1]))
         each.words = {word.upper() for word in WORD.findall(code)} - each.own
     return made

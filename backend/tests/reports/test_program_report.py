@@ -98,3 +98,10 @@ END_PROGRAM
     assert "Line &lt;1&gt;" in page
     assert "1 of these 2 use stubs" in page
     assert "<script>" not in page
+
+
+def test_a_file_that_declares_nothing_stops_no_report() -> None:
+    files = {"a.st": "(* nothing *)\n", "b.st": "PROGRAM Main\nEND_PROGRAM\n"}
+    checked = check_sources(files, MODELS["GENERIC-IEC"])
+    report = program_report(files, checked.problems)
+    assert [each.pous for each in report.files] == [0, 1]
