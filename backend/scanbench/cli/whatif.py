@@ -106,7 +106,14 @@ def _outcome(found: WhatIf, tried: Try) -> str:
         said.append("not met" if tried.met is None else f"met after scan {tried.met}")
     if tried.values:
         differs = tried.output_scan
-        said.append("outputs as recorded" if differs is None else f"an output differs from scan {differs} on")
+        if differs is not None:
+            said.append(f"an output differs from scan {differs} on")
+        elif tried.compared:
+            said.append(
+                "outputs as recorded"
+                if tried.compared == tried.ran
+                else f"outputs as recorded in {tried.compared} scans"
+            )
     said += [f"{path} = {value}" for path, value in zip(found.wanted.watch, tried.shown, strict=False)]
     if tried.trapped:
         said.append(f"run-time error in {tried.trapped}")

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from scanbench.engines.debug import Frame
 from scanbench.faults.disturb.disturb import DISTURBED, is_disturbance, told, told_held
 from scanbench.faults.disturb.fire import Unfired
 from scanbench.program.layout import Layout
@@ -54,6 +55,8 @@ class Ran:
     """What is held: offset -> mask, and the byte of the control device as the first statement began."""
     passes: list[Pass] = field(default_factory=list)
     """Of the control device."""
+    counts: tuple[int, int] = (0, 0)
+    """Statements that began in it, of the control device and of the monitor."""
 
 
 class Both:
@@ -171,11 +174,13 @@ class Both:
 
         recorder.on_first = first
         trap = self.control.run(recorder, ran.control)
+        count = control.count
         if not recorder.began:
             first()
         inputs = Inputs(ran.passes, ran.there)
         other = Recorder(monitor.resource, view.reader.names, view.range, view.limit)
         right = trap_of(self.monitor.run(other, inputs))
+        ran.counts = count, monitor.count
         if not other.began:
             inputs.first()
         self._note_held(inputs, ran)
@@ -227,7 +232,9 @@ class Both:
             rows.append(Row("none", scan, note="not run in this scan"))
         if cut:
             at = max(len(passes) - 1, 0)
-            rows[at] = _with(rows[at], self.trap(ran.view, scan, *traps))
+            side, begin = (control, ran.control) if traps[0] else (monitor, ran.monitor)
+            frames = side.frames_at(begin, ran.counts[0 if traps[0] else 1])
+            rows[at] = _with(rows[at], self.trap(ran.view, scan, *traps, frames))
         known = _explained(passes, other) if different else set()
         left = [at for at in different if at not in known]
         if left:
@@ -237,8 +244,8 @@ class Both:
     def different(
         self, one: bytes | bytearray = b"", other: bytes | bytearray = b"", begin: bytes = b""
     ) -> list[int]:  # fmt: skip
-        """The bytes in which the two states (by default the present ones) differ, except for the force table and what a
-        disturbance holds. If only one side came to the end of the scan: those that the control device has changed since the
+        """The bytes in which the two states (by default the present ones) differ, except for the force table, the loop budget of the
+        scan and what a disturbance holds. If only one side came to the end of the scan: those that the control device has changed since the
         scan began, except for counters of the system; what it did not reach is not reported as a difference."""
         one, other = one or self.control.side.memory, other or self.monitor.side.memory
         size = self.control.side.resource.program.layout.state_size
@@ -249,7 +256,7 @@ class Both:
         return [
             at
             for at in found
-            if not Layout.FORCE_COUNT <= at < Layout.FORCES_END
+            if not (Layout.FORCE_COUNT <= at < Layout.FORCES_END or Layout.BUDGET <= at < Layout.BUDGET + 8)
             and (one[at] ^ other[at]) & ~bits.get(at, 0)
             and not (begin and (at < Layout.HEADER_SIZE or one[at] == begin[at]))
         ]
@@ -278,8 +285,9 @@ class Both:
                 leaves[leaf.name] = leaf
         return list(leaves.values())[:MAX_MISMATCHES]
 
-    def trap(self, view: View, scan: int, control: int, monitor: int) -> Mismatch:
-        """A run-time error, given by its number, ended the scan on one side; the other side had none or a different one."""
+    def trap(self, view: View, scan: int, control: int, monitor: int, frames: tuple[Frame, ...]) -> Mismatch:
+        """A run-time error, given by its number, ended the scan on one side; the other side had none or a different one. `frames`: the
+        open calls where it happened, of the control device where it has one."""
         program = self.control.side.resource.program
         texts = [str(trap_info(program, each, scan)) if each else "" for each in (control, monitor)]
         if control:
@@ -288,7 +296,7 @@ class Both:
             )
         else:
             text = f"the control device went to the end of scan {scan}, and a run-time error ended the reference: {texts[1]}"
-        place = view.reader.places.of_trap(control or monitor)
+        place = view.reader.places.of_trap(control or monitor, frames)
         return Mismatch("trap", "run-time error", b"", b"", place, text)
 
     # ---- disturbances ---------------------------------------------------------------------------------------------

@@ -39,12 +39,14 @@ class Places:
             self.task(frames), path or statement.pou, statement.pou, span.file, span.line, self.line(span.file, span.line)
         )  # fmt: skip
 
-    def of_trap(self, trap: int) -> Place:
-        """The place of a run-time error, by its number."""
+    def of_trap(self, trap: int, frames: tuple[Frame, ...] = ()) -> Place:
+        """The place of a run-time error, by its number, and the calls that were open."""
         site = self.program.traps[trap - 1]
-        path, span = self._only(self._pous.get(site.pou)), site.span
+        frame = next((each for each in frames if each.pou.name == site.pou), None)
+        path = self.path(frame.pou, frame.instance) if frame is not None else self._only(self._pous.get(site.pou))
+        span = site.span
         line = self.line(span.file, span.line)
-        return Place(self.task(()), path or site.pou, site.pou, span.file, span.line, line)
+        return Place(self.task(frames), path or site.pou, site.pou, span.file, span.line, line)
 
     def path(self, pou: Pou | None, instance: int) -> str:
         """`Main.belt[3]`; of a FUNCTION its name."""

@@ -123,7 +123,8 @@ def row_of(
     kind: RowKind = "scan" if made.pou is None else "pass"
     note = ""
     if made.full:
-        note = f"record full: {len(made.log):,} of {made.used:,} uses kept"
+        used = f"more than {made.used:,}" if made.uncounted else f"{made.used:,}"
+        note = f"record full: {len(made.log):,} of {used} uses kept"
     if pair.cut and (pair.control is None or pair.monitor is None):
         note = f"not run {'in the reference' if pair.monitor is None else 'by the control device'}: a run-time error came before"
     place = None

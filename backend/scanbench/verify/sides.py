@@ -84,6 +84,11 @@ class Side:
         finally:
             resource.restore(loaded, here, journal)
 
+    @property
+    def count(self) -> int:
+        """Statements that have begun in the scan that the debug flavour ran last."""
+        return self.resource.loaded.debugged().count
+
     def frames_at(self, begin: Begin, count: int) -> tuple[Frame, ...]:
         """The open calls before the statement of a count; none where it does not get so far."""
         if count not in self._frames:

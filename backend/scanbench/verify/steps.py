@@ -38,10 +38,10 @@ class _Stepper:
         self._resource, self._range, self._first = resource, range, first
         self._after, self._until = span
         self._engine = resource.loaded.debugged()
-        self._inside = False
-        """Whether a statement of the range, or one that it called, runs."""
         self.began = False
         self.log: list[Access] = []
+        self.elsewhere: set[int] = set()
+        """Bytes that statements outside of the range wrote after the step's own."""
         self.frames: tuple[Frame, ...] = ()
         """The open calls where it began."""
         self.memory = b""
@@ -62,10 +62,8 @@ class _Stepper:
                 return False
             self._begin()
             if self._after:
-                self._inside = self._range.holds(self.frames)
                 return False
-        self._inside = self._range.whole or self._range.holds(self._engine.frames())
-        return count >= self._until if self._until else self._inside
+        return count >= self._until if self._until else self._range.holds(self._engine.frames())
 
     def _begin(self) -> None:
         self.began, self.memory = True, bytes(self._resource.memory)
@@ -75,7 +73,12 @@ class _Stepper:
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
-        if self._inside or (self.began and self._after and self._range.holds(self._engine.frames())):
+        if not (self.began and self._after):
+            return
+        if not self._range.holds(self._engine.frames()):
+            if written:
+                self.elsewhere.update(range(offset, offset + size))
+        else:
             value = bytes(self._resource.memory[offset : offset + size])
             self.log.append(Access(site, count, offset, size, self._engine.bits, written, value))
 
@@ -90,11 +93,12 @@ class _Stood:
     memory: bytes
     frames: tuple[Frame, ...] = ()
     log: list[Access] = field(default_factory=list)
+    elsewhere: set[int] = field(default_factory=set)
     count: int = 0
     before: tuple[Frame, ...] = ()
     """The open calls where it began; none in the seam."""
     was: bytes = b""
-    """The whole image there; empty in the seam, and where the scan did not get so far."""
+    """The whole image there; at the end where the scan did not get so far, empty in the seam."""
     ended: bool = False
     """The scan is over."""
     trap: int = 0
@@ -140,9 +144,9 @@ def _go(
         stop: Stop = side.run(stepper, stepper.listen)
         inside = side.resource.listening.inside
         frames, count = (inside.frames, inside.count) if inside is not None else ((), 0)
-        was = stepper.memory if span[0] else b""
+        was = b"" if not span[0] else stepper.memory if stepper.began else bytes(side.memory)
         return _Stood(
-            bytes(side.memory), frames, stepper.log, count, stepper.frames, was, stop.reason is not Reason.HALTED,
+            bytes(side.memory), frames, stepper.log, stepper.elsewhere, count, stepper.frames, was, stop.reason is not Reason.HALTED,
             trap_of(stop), marks, begin.memory,
         )  # fmt: skip
 
@@ -237,19 +241,23 @@ class _Step:
         control, monitor = self.control, self.monitor
         causes, consequences = list(self.both.extra), list[Mismatch]()
         known = self._bytes(control.was, monitor.was) if control.was and monitor.was else set[int]()
-        parted = bool(control.was) != bool(monitor.was) or _sites(control.before) != _sites(monitor.before)
+        parted = _sites(control.before) != _sites(monitor.before)
         misled = parted or _reads(control.log) != _reads(monitor.log)
         own = consequences if misled else causes
         if control.trap != monitor.trap:
-            causes.append(self.both.trap(self.view, self.scan, control.trap, monitor.trap))  # whatever led to it
+            side = control if control.trap else monitor  # whatever led to it, this is told first
+            causes.append(self.both.trap(self.view, self.scan, control.trap, monitor.trap, side.before))
         elif not parted and (_sites(control.frames) != _sites(monitor.frames) or control.ended != monitor.ended):
-            own.append(self._order())
+            (consequences if known else own).append(self._order())  # which way it goes may depend on what is different
         written = {
             at: each.site
             for each in (*monitor.log, *control.log)
             if each.written
             for at in range(each.offset, each.offset + each.size)
         }
+        for at in control.elsewhere | monitor.elsewhere:
+            written.pop(at, None)
+        outside = consequences if known or parted else causes
         still: list[str] = []
         for leaf, at in self._leaves_of(self._bytes(control.memory, monitor.memory, whole=False)):
             if at in written:
@@ -258,7 +266,7 @@ class _Step:
             elif at in known:
                 still.append(leaf.name)
             else:
-                causes.append(self._mismatch(leaf, "outside", None))
+                outside.append(self._mismatch(leaf, "outside", None))
         return tuple(causes), tuple(consequences), still
 
     def _bytes(self, one: bytes, other: bytes, *, whole: bool = True) -> set[int]:

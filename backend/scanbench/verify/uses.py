@@ -30,6 +30,8 @@ class Access(NamedTuple):
     value: bytes
 
 
+_COUNTED = 16
+"""Uses that are counted of a whole scan, for each one that is kept."""
 _new = tuple.__new__
 """Makes an access in half the time: there are hundreds in a scan."""
 
@@ -57,6 +59,8 @@ class Pass:
     """Uses, the ones that found no room included."""
     called: int = 1 << 62
     """The offset of the frames. Frames of the POUs that it calls are no inputs, as the engine does not report arguments."""
+    uncounted: bool = False
+    """There were more uses than `used`: a loop that hardly ends makes millions, which nobody counts."""
     frames_of: list[tuple[Frame, ...]] = field(default_factory=list)
     """Of each entry of the log the open calls, where that was asked for."""
 
@@ -102,6 +106,7 @@ class Recorder:
         self._engine = resource.loaded.debugged()
         self._memory = resource.memory
         self._left, self._detail = limit, detail
+        self._most = _COUNTED * limit
         self.written: dict[int, list[tuple[int, int]]] = {at: [] for at in disturbed}
         """Of each disturbed byte what statements have written of it: the count, and the bits that nobody had written."""
         self._idle = Listen(sites=range.sites, count=1, bytes=dict.fromkeys(self.written, WRITE))
@@ -164,6 +169,7 @@ class Recorder:
             return
         open.used += 1
         if self._left <= 0:
+            self._count_out(open)
             return
         self._left -= 1
         bits = self._engine.bits
@@ -171,6 +177,12 @@ class Recorder:
         open.log.append(_new(Access, (site, count, offset, size, bits, written, value)))
         if self._detail:
             open.frames_of.append(self._engine.frames())
+
+    def _count_out(self, open: Pass) -> None:
+        """Of the whole scan nothing more is counted when far more is used than is kept."""
+        if self._range.whole and not open.uncounted and open.used > self._most:
+            open.uncounted = True
+            self._resource.listening.listen(Listen(bytes=dict.fromkeys(self.written, WRITE)))
 
     def _note_written(self, count: int, span: range) -> None:
         for at in span if len(span) < len(self.written) else [at for at in self.written if at in span]:

@@ -90,14 +90,17 @@ def test_a_value_that_is_none_and_a_run_time_error_are_told(tmp_path: Path) -> N
 
 
 def test_the_smallest_change_is_found(tmp_path: Path) -> None:
-    search = ("start", "door", "speed", "level", "mask")
+    search = ("start", "speed", "level", "mask")
     given = (value("door", "TRUE"),)
     found = asked(tmp_path, WhatIfWanted(20, given, search=True, candidates=search, condition="motor", window=0))
     assert found.best is not None
     assert found.tries[found.best].values == (*given, value("speed", "37"))
     # a BOOL that is enough comes first
     found = asked(
-        tmp_path, WhatIfWanted(20, (value("speed", "50"),), search=True, candidates=search, condition="motor", window=0)
+        tmp_path,
+        WhatIfWanted(
+            20, (value("speed", "50"),), search=True, candidates=("start", "door", "level"), condition="motor", window=0
+        ),
     )
     assert found.best is not None
     assert found.tries[found.best].values[-1] == value("door", "TRUE")
@@ -108,6 +111,41 @@ def test_the_smallest_change_is_found(tmp_path: Path) -> None:
     )  # fmt: skip
     assert found.best is not None
     assert found.tries[found.best].values[1:] == (value("start", "TRUE"), value("door", "TRUE"))
+
+
+@pytest.mark.parametrize(
+    ("type", "bound", "nearest"),
+    [
+        ("INT", "> 20000", "20001"), ("INT", "< -32767", "-32768"), ("USINT", "> 200", "201"),
+        ("UDINT", "> 3000000000", "3000000001"), ("LINT", "> 5000000000000000123", "5000000000000000124"),
+        ("ULINT", "> 10000000000000000000", "10000000000000000001"), ("INT(0..300)", "> 105", "106"),
+    ],
+)  # fmt: skip
+def test_numbers_are_looked_for_up_to_their_bounds(type: str, bound: str, nearest: str, tmp_path: Path) -> None:
+    source = f"PROGRAM Main VAR x : {type}; seen : BOOL; END_VAR seen := x {bound}; END_PROGRAM"
+    source = source.replace("seen := x", "hit := x").replace("PROGRAM Main VAR", STARTS, 1)
+    found = asked(tmp_path, WhatIfWanted(20, search=True, candidates=("Main.x",), condition="hit", window=0), source)
+    assert found.best is not None, found.note
+    assert found.tries[found.best].values == (value("Main.x", nearest),)
+
+
+STARTS = """VAR_GLOBAL start AT CIO0.00 : BOOL; speed AT CIO2 : UINT; level AT CIO1 : INT; hit : BOOL; END_VAR
+PROGRAM Main VAR"""
+
+
+def test_what_is_set_alone_is_tried_before_a_change_is_looked_for(tmp_path: Path) -> None:
+    given = (value("door", "TRUE"), value("speed", "40"))
+    found = asked(tmp_path, WhatIfWanted(20, given, search=True, candidates=("level",), condition="motor", window=0))
+    assert (found.best, [each.met for each in found.tries]) == (None, [20])
+    assert "holds after scan 20 without any change" in found.note
+
+
+def test_from_a_run_time_error_on_nothing_can_be_tried(tmp_path: Path) -> None:
+    source = SOURCE.replace("n := n / divisor;", "n := n / (divisor - n / 50);")
+    with pytest.raises(BadWhatIf, match="begin with an earlier scan, 48 at the latest"):
+        asked(tmp_path, WhatIfWanted(49, (value("door", "TRUE"),)), source)
+    found = asked(tmp_path, WhatIfWanted(40, (value("door", "TRUE"), value("speed", "40"))), source)
+    assert (found.recorded.ran, found.tries[0].ran, found.tries[0].output_scan) == (9, 9, 40)
 
 
 def test_what_a_search_did_not_find_or_look_at_is_said(tmp_path: Path) -> None:

@@ -542,6 +542,36 @@ def test_a_statement_outside_of_the_range_that_differs_is_told_once(tmp_path: Pa
     ]
 
 
+LOOP = """\
+PROGRAM Main
+VAR k, i, sum, after : INT; END_VAR
+  k := 3;
+  FOR i := 1 TO k DO
+    sum := sum + i;
+  END_FOR;
+  after := k + sum;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("make", [on(flavours()), reference], ids=("native", "reference"))
+def test_what_follows_from_a_loop_that_goes_on_longer_is_no_further_cause(make: object, tmp_path: Path) -> None:
+    path = disturbed(tmp_path, Disturbance("result", site="main.st:3", bit=2, scan=7), source=LOOP)  # 7 rounds
+    found = stepped(verifier(path, program(LOOP), make=make), 7)  # type: ignore[arg-type]
+    wrong = [(row.place and row.place.line, [each.name for each in row.differences]) for row in found if row.differs]
+    assert wrong == [(3, ["Main.k"])]
+    assert any(each.cause == "order" for row in found for each in row.consequences)
+
+
+def test_a_statement_that_follows_outside_of_the_range_is_not_taken_for_one_of_it(tmp_path: Path) -> None:
+    path = disturbed(tmp_path, Disturbance("result", site="main.st:9", bit=3, scan=7))
+    found = stepped(verifier(path, program(BELTS), "Twice"), 7)
+    assert [list(row.outputs) for row in found] == [[], *[["Twice"]] * (len(found) - 1)]
+    told = [(each.name, each.cause, each.place) for row in found for each in row.differences]
+    assert told[0] == ("Main.belt[1].pos", "outside", None) or told[0][1:] == ("outside", None)
+    assert all(cause == "outside" for _, cause, _ in told)
+
+
 # ---- files that grow, and code that was not the same --------------------------------------------------------------
 
 

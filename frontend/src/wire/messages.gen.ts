@@ -9860,6 +9860,11 @@ export interface components {
          */
         WhatIfTry: {
             /**
+             * Compared
+             * @description Scans of which the outputs were compared: the recorded run may have ended before.
+             */
+            compared: number;
+            /**
              * Met
              * @description After this scan the condition held for the first time.
              */

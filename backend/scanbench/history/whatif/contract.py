@@ -76,6 +76,8 @@ class Try(Public):
     """A value that the PLC did not take, then nothing was run; or what had been entered later, and was not taken this time."""
     ran: int = 0
     """Scans."""
+    compared: int = 0
+    """Scans of which the outputs were compared: the recorded run may have ended before."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from scanbench.program.types import Elementary, Enumeration, Kind, Type
+from scanbench.program.types import Elementary, Enumeration, Kind, Subrange, Type
 from scanbench.program.untyped import bounds
 from scanbench.symbols.values import format_value
 
@@ -77,19 +77,21 @@ class Search:
                 yield 0.0, change
 
     def _nearest(self, candidate: Candidate, number: "Number") -> Iterator[tuple[float, Change]]:
-        below, distance = number.least * 0, number.least
-        for _ in range(_FARTHEST if number.real else 64):
-            inside = [
-                each for each in (number.now + distance, number.now - distance) if number.low <= each <= number.high
-            ]
-            if not inside:
+        distance, below = number.least, {1: number.least * 0, -1: number.least * 0}  # of each direction what did not do
+        for _ in range(_FARTHEST if number.real else 65):
+            for sign in tuple(below):
+                room = number.high - number.now if sign > 0 else number.now - number.low
+                step = min(distance, room)
+                if step > below[sign] and self._holds(number.change(candidate, number.now + sign * step)):
+                    best = self._between(candidate, number, below[sign], sign * step)
+                    yield abs(best) / max(abs(number.now), 1), number.change(candidate, number.now + best)
+                    return
+                below[sign] = step
+                if step == room:  # its bound was tried
+                    del below[sign]
+            if not below:
                 return
-            hit = next((each for each in inside if self._holds(number.change(candidate, each))), None)
-            if hit is not None:
-                best = self._between(candidate, number, below, hit - number.now)
-                yield abs(best) / max(abs(number.now), 1), number.change(candidate, number.now + best)
-                return
-            below, distance = distance, distance * 2
+            distance = distance * 2
 
     def _between(self, candidate: Candidate, number: "Number", fails: float, does: float) -> float:
         """Between a distance that does not do and one that does."""
@@ -141,10 +143,13 @@ def _number(candidate: Candidate) -> Number | None:
         return None
     if type.kind is Kind.REAL:
         (now,) = struct.unpack("<f" if type.size == 4 else "<d", data)
-        return Number(now, -3e38, 3e38, max(abs(now), 1.0) / 1000, True) if now == now else None
+        most = 3.4e38 if type.size == 4 else 1.7e308
+        return Number(now, -most, most, max(abs(now), 1.0) / 1000, True) if abs(now) <= most else None
     if type.kind in (Kind.INT, Kind.UINT, Kind.TIME):
         low, high = bounds(type)
         now = int.from_bytes(data, "little", signed=low < 0)
+        if isinstance(type, Subrange):
+            low, high = min(type.low, now), max(type.high, now)
         return Number(now, low, high, _MS if type.kind is Kind.TIME else 1, False)
     return None
 

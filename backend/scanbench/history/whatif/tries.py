@@ -8,6 +8,7 @@ from hashlib import blake2b
 
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
 from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.disturb import is_disturbance
 from scanbench.history.campaign.places import places
 from scanbench.history.campaign.trials import Bench
 from scanbench.history.entered import Entering, given_after
@@ -34,6 +35,8 @@ from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal, Swapped
 from scanbench.runtime.forces import Force
 from scanbench.runtime.resource import Resource
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.trap import Trapped
 from scanbench.runtime.write import Write
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.whole import bytes_of, worth_text
@@ -74,6 +77,8 @@ class _Tries:
         """What came of it."""
         wanted = self._wanted
         best, note = None, ""
+        if wanted.search and wanted.values:
+            self._try(())
         if wanted.search:
             best, note = self._search()
         elif wanted.vary:
@@ -87,15 +92,25 @@ class _Tries:
             else next((each for each in self._tries if each.met is not None), None)
         )
         text, why = self._scenario(kept) if kept is not None else ("", "")
-        notes = "; ".join(filter(None, (note, why)))
+        notes = "; ".join(filter(None, (note, why, self._left_out())))
         return WhatIf(wanted, self._recorded, tuple(self._tries), best, notes, text)
+
+    def _left_out(self) -> str:
+        """Disturbances came in the recorded run, and not in the tries."""
+        scans = [
+            each.scan
+            for each in self._reader.entries
+            if self._wanted.scan < each.scan < self._end and is_disturbance(each.command)
+        ]
+        return f"disturbances of scan {scans[0]} and later are left out, in the first row, too" if scans else ""
 
     # ---- a search -------------------------------------------------------------------------------------------------
 
     def _search(self) -> tuple[int | None, str]:
         """The index of the smallest change, and what was not looked at."""
-        if self._recorded.met is not None:
-            return None, f"`{self._wanted.condition}` holds after scan {self._recorded.met} without any change"
+        before = self._tries[0] if self._tries else self._recorded
+        if before.met is not None:
+            return None, f"`{self._wanted.condition}` holds after scan {before.met} without any change"
         left: list[str] = []
         candidates = []
         for path in self._wanted.candidates:
@@ -113,6 +128,8 @@ class _Tries:
             notes.append(f"it ended after {search.asked} tries: there may be a smaller change")
         elif not found:
             notes.append("no change of one of them, or of two that are BOOL, was found with which it holds")
+        if self._tries and not any(each.ran for each in self._tries):
+            return None, f"nothing could be tried: {self._tries[0].refused[0]}"
         if not found:
             return None, "; ".join(notes)
         best = tuple(SetValue(*each) for each in found[0])
@@ -163,8 +180,14 @@ class _Tries:
 
     def _through(self, timeline: Timeline, values: tuple[SetValue, ...], outputs: dict[int, bytes]) -> Try:
         entering, resource = Entering(self._given), timeline.resource
+        if resource.header.halted_by_trap:
+            raise BadWhatIf(
+                f"a run-time error has stopped the program in scan {timeline.live_scan}: begin with an earlier scan, "
+                f"{max(timeline.live_scan - 1, 0)} at the latest"
+            )
         met: int | None = None
         differs: int | None = None
+        compared = 0
         while timeline.live_scan < self._end and not resource.header.halted_by_trap:
             scan = timeline.live_scan
             entering.enter(timeline)
@@ -175,7 +198,9 @@ class _Tries:
             if timeline.live_scan == scan:  # a run-time error ended it
                 break
             outputs[scan] = _digest(resource)
-            if differs is None and outputs[scan] != self._outputs.get(scan):
+            known = self._outputs.get(scan)
+            compared += known is not None
+            if differs is None and known is not None and outputs[scan] != known:
                 differs = scan
             if met is None and self._condition is not None and resource.engine.holds(self._condition):
                 met = scan
@@ -183,7 +208,7 @@ class _Tries:
         return Try(
             values, met, differs, tuple(worth_text(resource.program, resource.memory, each) for each in self._watch),
             "" if trap is None else f"scan {trap.scan}, {trap.file}:{trap.line}: {trap.message}",
-            tuple(entering.refused.values()), timeline.live_scan - self._wanted.scan,
+            tuple(entering.refused.values()), timeline.live_scan - self._wanted.scan, compared,
         )  # fmt: skip
 
     # ---- a test of it ---------------------------------------------------------------------------------------------
@@ -262,10 +287,25 @@ def _check(reader: RunReader, wanted: WhatIfWanted) -> None:
         raise BadWhatIf("either the values of one variable are tried, or a change is looked for")
     if not (wanted.values or wanted.vary or wanted.search):
         raise BadWhatIf("say which variable is to have some other value")
+    twice = {each.path.upper() for each in wanted.values} & {each.upper() for each in wanted.candidates}
+    if twice:
+        raise BadWhatIf(f"{min(twice)} cannot have a fixed value and be searched among")
     gap = gap_between(reader.recording.gaps, wanted.scan, wanted.scan + wanted.window + 1)
     if gap is not None:
         raise BadWhatIf(f"scan {wanted.scan} and what follows cannot be run again: {gap}")
+    trapped = next(
+        (each.scan for each in reader.entries if isinstance(each.command, Trapped) and each.scan >= wanted.scan), None
+    )
     for each in reader.entries:
+        if (
+            trapped is not None
+            and trapped <= each.scan <= wanted.scan + wanted.window
+            and isinstance(each.command, Restart)
+        ):
+            raise BadWhatIf(
+                f"a run-time error stopped the program in scan {trapped}, and it was restarted there: go on for at most "
+                f"{max(trapped - wanted.scan - 1, 0)} scans"
+            )
         if wanted.scan < each.scan <= wanted.scan + wanted.window and isinstance(each.plan.effect, Swapped):
             raise BadWhatIf(
                 f"the program was changed before scan {each.scan}: go on for at most {each.scan - wanted.scan - 1} scans, "

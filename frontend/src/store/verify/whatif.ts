@@ -1,7 +1,7 @@
 /** What if: inputs of the recorded run of the selected PLC with other values: the form, and what came of it. */
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
-import { memberOf } from "../../logic/verify/verify";
+import { memberOf, variableOf } from "../../logic/verify/verify";
 import { shownValue } from "../../logic/verify/verifyValues";
 import { FORM, type WhatIfForm, wantedOf } from "../../logic/verify/whatif";
 import { t } from "../../text";
@@ -11,6 +11,7 @@ import { saveFile } from "../page/download";
 import { openPage } from "../page/navigate";
 import { useBench } from "../plc/bench";
 import { loadMembers } from "../plc/members";
+import { useVerifyRows } from "./verifyRows";
 
 interface WhatIfs {
   form: WhatIfForm;
@@ -37,14 +38,24 @@ export function showWhatIf(scan: number): void {
 /** Opens the page for a row of a verification: which change of its inputs makes the result what it should be? */
 export async function askWhatIf(row: VerifyRow, difference: VerifyDifference | null): Promise<void> {
   const inside = row.instance === "" ? [] : await loadMembers(row.instance);
+  const columns = useVerifyRows.getState().columns;
   const pathOf = (column: string) => memberOf(row.instance, inside, column.replace(/ \(global\)$/, ""));
-  const edited = Object.entries(row.inputs).filter(([, input]) => input.set !== null);
+  // The results of a function, the current result of IL and parts of a value are no paths of a variable that can be set.
+  const pathsOf = (names: readonly string[]) =>
+    row.instance.includes(".") || row.instance === "" || inside.length > 0
+      ? names.filter((name) => variableOf(null, `input:${name}`) !== null).map(pathOf)
+      : [];
+  const edited = Object.entries(row.inputs).flatMap(([name, { set }]) => {
+    const column = columns.find((each) => each.name === name);
+    return set === null || !column ? [] : [`${pathOf(name)} = ${shownValue(column, set).text}`];
+  });
   set({ found: null, trouble: null });
   changeWhatIf({
     mode: edited.length > 0 ? "set" : "search",
     scan: String(row.scan),
-    candidates: Object.keys(row.inputs).map(pathOf).join("; "),
-    watch: Object.keys(row.outputs).slice(0, WATCHED).map(pathOf).join("; "),
+    values: edited.join("; "),
+    candidates: pathsOf(Object.keys(row.inputs)).join("; "),
+    watch: pathsOf(Object.keys(row.outputs)).slice(0, WATCHED).join("; "),
     condition: difference === null ? "" : conditionOf(difference),
   });
   openPage("whatif");
@@ -52,7 +63,9 @@ export async function askWhatIf(row: VerifyRow, difference: VerifyDifference | n
 
 /** The result of the control device: a change of inputs that leads to it would explain it. */
 const conditionOf = (difference: VerifyDifference) =>
-  `${difference.name} = ${shownValue({ ...difference, values: [] }, difference.control).text}`;
+  variableOf(difference, null) === null || difference.control === ""
+    ? ""
+    : `${difference.name} = ${shownValue({ ...difference, values: [] }, difference.control).text}`;
 
 const WATCHED = 5;
 let asking: AbortController | null = null;

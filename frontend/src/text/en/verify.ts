@@ -261,6 +261,7 @@ export const verify = {
   "whatif.none":
     "Choose a scan and other values of inputs: the recorded run goes on from there, while the PLC goes on. The values are set before the scan; what the program writes itself before it reads it is not changed by that.",
   "whatif.output": "differ after scan {scan}",
+  "whatif.output.part": "as recorded in {scans} scans",
   "whatif.output.same": "as recorded",
   "whatif.recorded": "As recorded",
   "whatif.results": "What came of it",

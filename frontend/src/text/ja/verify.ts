@@ -257,6 +257,7 @@ export const verify: Record<keyof typeof english, string> = {
   "whatif.none":
     "スキャンと、入力の別の値を選びます。PLC は動き続け、記録した実行がそこから続きます。値はスキャンの前に設定されます。プログラム自身が読む前に書くものは、それでは変わりません。",
   "whatif.output": "スキャン {scan} の後から相違",
+  "whatif.output.part": "{scans} スキャンで記録のとおり",
   "whatif.output.same": "記録のとおり",
   "whatif.recorded": "記録のとおり",
   "whatif.results": "結果",

@@ -55,7 +55,7 @@ export function Results({ found }: { found: WhatIf }) {
 }
 
 function Line({ tried, found: { wanted }, best }: { tried: WhatIfTry; found: WhatIf; best: boolean }) {
-  const { met, output_scan: output, shown, trapped, refused, ran, values } = tried;
+  const { met, output_scan: output, shown, trapped, refused, ran, compared, values } = tried;
   const isRecorded = values.length === 0;
   return (
     <tr className={best ? "on" : ""} data-best={best || undefined}>
@@ -74,7 +74,8 @@ function Line({ tried, found: { wanted }, best }: { tried: WhatIfTry; found: Wha
         {ran > 0 &&
           !isRecorded &&
           (output === null || output === undefined
-            ? t("whatif.output.same")
+            ? compared > 0 &&
+              t(compared === ran ? "whatif.output.same" : "whatif.output.part", { scans: grouped(compared) })
             : t("whatif.output", { scan: grouped(output) }))}
       </td>
       {wanted.watch.map((path, at) => (

@@ -6,7 +6,16 @@ import { t } from "../../../text";
 import type { NewWhatIf, WhatIf, WhatIfTry } from "../../../wire/types";
 import { WhatIfPage } from "./WhatIfPage";
 
-const TRY: WhatIfTry = { values: [], met: null, output_scan: null, shown: ["0"], trapped: "", refused: [], ran: 101 };
+const TRY: WhatIfTry = {
+  values: [],
+  met: null,
+  output_scan: null,
+  shown: ["0"],
+  trapped: "",
+  refused: [],
+  ran: 101,
+  compared: 101,
+};
 
 test("the smallest change is asked for, marked among what was tried, and a refusal keeps what was typed", async () => {
   const asked: NewWhatIf[] = [];
