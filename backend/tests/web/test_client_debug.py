@@ -94,6 +94,19 @@ def test_steps_go_in_over_out_and_back(plc: Plc) -> None:
         assert debugger.step("scan").scan == 3
 
 
+def test_a_halt_that_somebody_else_ended_is_not_waited_for_in_vain(plc: Plc) -> None:
+    with plc.debug() as debugger, plc.debug() as other:
+        point = debugger.break_at("Main.st", FIRST)
+        debugger.go()
+        assert debugger.wait().breakpoints == (point.id,)
+        other.wait()
+        debugger.remove(point.id)
+        other.go()
+        plc.run(until="Main.n > 20")  # the debugger has been told by then that it goes on
+        with pytest.raises(TimeoutError):
+            debugger.wait(0.3)
+
+
 def test_data_violations_and_traps_halt(plc: Plc) -> None:
     with plc.debug() as debugger:
         point = debugger.break_on("Main.n", condition="Main.n = 3")

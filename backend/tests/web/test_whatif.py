@@ -1,5 +1,8 @@
 """What if, by REST: on the run of a PLC that goes on."""
 
+import httpx
+import pytest
+
 from tests.web.server import Server
 from tests.web.test_verify import MODEL, paused, scans
 
@@ -32,5 +35,10 @@ def test_the_smallest_change_is_asked_for(server: Server) -> None:
         assert (found["recorded"]["met"], found["recorded"]["shown"]) == (None, ["14"])
         assert found["tries"][found["best"]]["values"] == [{"path": "go", "value": "TRUE"}]
         assert "force go=TRUE" in found["scenario"]
+        many = {"scan": 1, "vary": "Main.n", "tried": ["0..199"], "window": 2400}
+        for _ in range(4):  # who goes away takes no place: three may be asked at a time
+            with pytest.raises(httpx.ReadTimeout):
+                server.http.post(f"/api/instances/{instance}/what-if", json=many, timeout=0.2)
+        browser.wait(lambda: server.http.post(f"/api/instances/{instance}/what-if", json=wanted).status_code == 200, 30)
         refused = server.http.post(f"/api/instances/{instance}/what-if", json={**wanted, "condition": "lmp"})
         assert (refused.status_code, "lamp" in refused.json()["near"]) == (422, True)

@@ -3,6 +3,7 @@
 import json
 from collections import deque
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Literal, cast
 
@@ -13,6 +14,8 @@ Step = Literal["in", "over", "out", "statement", "scan", "back", "reverse", "pau
 Access = Literal["read", "write", "change", "access"]
 Body = Mapping[str, object]
 SAID = 10_000
+_THERE_S = 0.02
+"""So long what has come by is looked for, before a halt that is known is believed."""
 _ANSWER_S = 60.0
 
 
@@ -210,6 +213,10 @@ class DebugRequests:
 
     def _wait(self, timeout_s: float) -> Steps[Stopped]:
         end = monotonic_ns() + int(timeout_s * 1e9)
+        there = monotonic_ns() + int(_THERE_S * 1e9)
+        with suppress(TimeoutError):  # what came meanwhile: somebody may have let it run on
+            while (now := monotonic_ns()) < there:
+                self._note(json.loads((yield Hear((there - now) / 1e9))))
         while self._stopped is None:
             if self._over:
                 raise Refused(self._over)

@@ -1,5 +1,6 @@
 """REST: questions about the past of a run: who wrote this, what changed, where two runs part, what if."""
 
+import asyncio
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
@@ -13,8 +14,11 @@ from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.reach import Bench
 from scanbench.wire.comparisons import Comparison, Rerun
+from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api", tags=["past"])
+_LOOK_S = 0.25
+"""How often it is looked whether somebody still waits for an answer that takes long."""
 
 
 @router.get("/instances/{instance}/last-write")
@@ -67,14 +71,21 @@ async def on_delete_comparison(bench: Bench, comparison: Id) -> None:
 
 
 @router.post("/instances/{instance}/what-if")
-async def on_what_if(bench: Bench, instance: Id, new: messages_whatif.NewWhatIf) -> WhatIf:
+async def on_what_if(bench: Bench, request: Request, instance: Id, new: messages_whatif.NewWhatIf) -> WhatIf:
     """Goes on with the recorded run from a scan with other values of some inputs: as given, each of several, or the smallest change with
     which a condition holds. The PLC goes on meanwhile. The answer comes when all is tried."""
     wanted = WhatIfWanted(
         new.scan, tuple(new.values), new.vary.strip(), tuple(new.tried), new.search, tuple(new.candidates), new.hold,
         new.window, new.condition.strip(), tuple(new.watch),
     )  # fmt: skip
-    return await bench.history.what_if(bench.session(instance), wanted)
+    trying = asyncio.ensure_future(bench.history.what_if(bench.session(instance), wanted))
+    try:
+        while not (await asyncio.wait({trying}, timeout=_LOOK_S))[0]:
+            if await request.is_disconnected():
+                raise Refused("nobody waits for the answer any more")
+        return trying.result()
+    finally:
+        trying.cancel()
 
 
 @router.post("/instances/{instance}/reruns", status_code=201)

@@ -93,6 +93,13 @@ export async function tryWhatIf(): Promise<void> {
   }
 }
 
+/** Gives up what is being tried. */
+export function cancelWhatIf(): void {
+  asking?.abort();
+  asking = null;
+  set({ busy: false });
+}
+
 /** Saves what was found as a scenario file: a test of the project. */
 export function saveTest(text: string): void {
   const name = useBench.getState().instance?.name ?? "plc";

@@ -240,6 +240,7 @@ export const verify = {
   "whatif.bad": "Fill in the field “{field}”.",
   "whatif.best": "Smallest change found",
   "whatif.busy": "Trying…",
+  "whatif.cancel": "Cancel",
   "whatif.candidates": "May change",
   "whatif.candidates.hint": "start; Main.level",
   "whatif.condition": "What should be",

@@ -236,6 +236,7 @@ export const verify: Record<keyof typeof english, string> = {
   "whatif.bad": "「{field}」を入力してください。",
   "whatif.best": "見つかった最小の変更",
   "whatif.busy": "試しています…",
+  "whatif.cancel": "中止",
   "whatif.candidates": "変えてよいもの",
   "whatif.candidates.hint": "start; Main.level",
   "whatif.condition": "成り立つべきこと",

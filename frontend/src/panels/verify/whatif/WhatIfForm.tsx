@@ -1,6 +1,6 @@
 import type { FormEvent } from "react";
 import { MODES } from "../../../logic/verify/whatif";
-import { changeWhatIf, tryWhatIf, useWhatIf } from "../../../store/verify/whatif";
+import { cancelWhatIf, changeWhatIf, tryWhatIf, useWhatIf } from "../../../store/verify/whatif";
 import { t } from "../../../text";
 import { Field } from "../../../ui/Field";
 import { Icon } from "../../../ui/Icon";
@@ -48,10 +48,17 @@ export function WhatIfForm() {
         <input type="checkbox" checked={form.hold} onChange={({ target }) => changeWhatIf({ hold: target.checked })} />
         {t("whatif.hold")}
       </label>
-      <button type="submit" className="btn primary sm" disabled={busy}>
-        <Icon name="play" small />
-        {t("whatif.do")}
-      </button>
+      {busy ? (
+        <button type="button" className="btn sm" onClick={cancelWhatIf}>
+          <Icon name="x" small />
+          {t("whatif.cancel")}
+        </button>
+      ) : (
+        <button type="submit" className="btn primary sm">
+          <Icon name="play" small />
+          {t("whatif.do")}
+        </button>
+      )}
     </form>
   );
 }
