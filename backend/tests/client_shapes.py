@@ -18,7 +18,7 @@ FILES = {
     "sweeps": ("how programs react to errors", "Reaction ProgramState SweepSummary Sweep"),
     "past": (
         "the past of a run, what was reached, and what left its subrange",
-        "LastWriter RunChanges Comparison Rerun Diagnostics Coverage",
+        "LastWriter RunChanges Comparison Rerun WhatIf Diagnostics Coverage",
     ),
     "disturbances": ("disturbances, and campaigns of them", "DisturbanceInfo CampaignState WholeCampaign"),
     "verification": (

@@ -111,7 +111,7 @@ RULES: dict[Allowance, Rule] = {
         "`i := DINT_TO_INT(REAL_TO_DINT(r))`",
     ),
     Allowance.TIME_NUMBERS: Rule(
-        "a DINT, UDINT or DWORD as a TIME or TIME_OF_DAY of so many milliseconds, and the other way round",
+        "a DINT, UDINT or DWORD as a TIME of so many milliseconds, and a TIME or TIME_OF_DAY as such a number",
         "a duration is no number",
         "`t := DINT_TO_TIME(d)`",
     ),

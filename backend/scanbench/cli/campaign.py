@@ -19,15 +19,14 @@ from scanbench.cli.progress import progress
 from scanbench.cli.run_options import Options
 from scanbench.cli.verify_subject import Given, is_run, program_of, ran
 from scanbench.engines.available import flavours
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
-from scanbench.faults.schedule import Schedule
+from scanbench.faults.agenda import agenda_of_faults
+from scanbench.history.bench import Bench
 from scanbench.history.campaign.contract import KINDS, BadCampaign, Campaign, CampaignWanted, Trial
-from scanbench.history.campaign.trials import Bench, Trials
+from scanbench.history.campaign.trials import Trials
 from scanbench.host.run_files import programs_by, texts_in
 from scanbench.recording.programs import on
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.reports.campaign_report import CampaignReport, campaign_json, campaign_junit, campaign_text, trial_text
-from scanbench.runtime.joined import Joined
 from scanbench.wire.codec import ENTRIES
 
 SCANS = 500
@@ -119,11 +118,7 @@ def _run(given: Given, wanted: CampaignWanted, numbers: list[int] | range, recor
 def _bench(reader: RunReader, folder: Path) -> Bench:
     make = programs_by(program_of, on(Leaving(flavours())))
     observed = flavours().observed
-
-    def agenda() -> Joined:
-        return Joined(Schedule(observed), DisturbanceSchedule())
-
-    return Bench(folder, ENTRIES, make(reader.kept), make(reader.kept), agenda, texts_in)
+    return Bench(folder, ENTRIES, make(reader.kept), make(reader.kept), lambda: agenda_of_faults(observed), texts_in)
 
 
 def _tried(trials: Trials, numbers: list[int] | range) -> list[Trial]:

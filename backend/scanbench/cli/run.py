@@ -23,15 +23,13 @@ from scanbench.engines.native.engine import NativeEngine, engine_for
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.engines.observe import MakeObserved
 from scanbench.engines.pair import Differs, PairEngine
+from scanbench.faults.agenda import agenda_of_faults
 from scanbench.faults.arm import Arm
 from scanbench.faults.detect import Detection
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
-from scanbench.faults.schedule import Schedule
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
 from scanbench.recording.headless import run_headless
 from scanbench.runtime.command import Command
-from scanbench.runtime.joined import Joined
 from scanbench.runtime.resource import Resource
 from scanbench.testing.said import with_near
 
@@ -97,7 +95,7 @@ def run(
         ):
             result = run_headless(
                 program, scans, _engine(engine, scans), commands, every, lambda plc: (values if as_json else texts)(plc, shown),
-                detect=Detection(), agenda=Joined(Schedule(OBSERVED[engine]), DisturbanceSchedule()), recording=recording, until=condition,
+                detect=Detection(), agenda=agenda_of_faults(OBSERVED[engine]), recording=recording, until=condition,
                 interrupt=interrupt, on_begin=begun.append,
             )  # fmt: skip
             if recording is not None:

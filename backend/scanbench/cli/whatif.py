@@ -12,15 +12,13 @@ from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.verify_subject import program_of
 from scanbench.engines.available import flavours
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
-from scanbench.faults.schedule import Schedule
-from scanbench.history.campaign.trials import Bench
-from scanbench.history.whatif.contract import BadWhatIf, SetValue, Try, WhatIf, WhatIfWanted
+from scanbench.faults.agenda import agenda_of_faults
+from scanbench.history.bench import Bench
+from scanbench.history.whatif.contract import MOST_TRIES, BadWhatIf, SetValue, Try, WhatIf, WhatIfWanted
 from scanbench.history.whatif.tries import what_if
 from scanbench.host.run_files import programs_by, texts_in
 from scanbench.recording.programs import on
 from scanbench.recording.reader import RunReader, Unreadable
-from scanbench.runtime.joined import Joined
 from scanbench.wire.codec import ENTRIES
 
 
@@ -61,20 +59,17 @@ def whatif(
 def _found(run: Path, wanted: WhatIfWanted) -> WhatIf:
     observed, done = flavours().observed, 0
 
-    def agenda() -> Joined:
-        return Joined(Schedule(observed), DisturbanceSchedule())
-
     def on_try(count: int, of: int) -> None:
         nonlocal done
         done = count
 
-    most = max(1, len(wanted.tried))
+    most = MOST_TRIES if wanted.search else max(1, len(wanted.tried))
     with tempfile.TemporaryDirectory() as folder:
         try:
             with RunReader(run, programs_by(program_of, on(flavours())), ENTRIES) as reader:
                 reader.follow()
                 programs = programs_by(program_of, on(flavours()))(reader.kept)
-                bench = Bench(Path(folder), ENTRIES, programs, programs, agenda, texts_in)
+                bench = Bench(Path(folder), ENTRIES, programs, programs, lambda: agenda_of_faults(observed), texts_in)
                 with progress(most, lambda: done, lambda: f"{done:,} tries"):
                     return what_if(reader, wanted, bench, on_try)
         except Unreadable as error:

@@ -4,9 +4,8 @@ import errno
 from collections.abc import Mapping
 from pathlib import Path
 
+from scanbench.faults.agenda import agenda_of_faults
 from scanbench.faults.detect import Detection
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
-from scanbench.faults.schedule import Schedule
 from scanbench.host.build import Builder, BuildFailed
 from scanbench.host.link import Link
 from scanbench.host.loop import Loop
@@ -18,7 +17,6 @@ from scanbench.recording.timeline import Timeline
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
-from scanbench.runtime.joined import Joined
 from scanbench.runtime.resource import is_no_space
 from scanbench.runtime.set_clock import SetClock
 from scanbench.wire import host as protocol
@@ -75,4 +73,4 @@ def _resumed(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timel
 
 
 def _agenda(builder: Builder) -> Agenda:
-    return Joined(Schedule(builder.flavours.observed), DisturbanceSchedule())
+    return agenda_of_faults(builder.flavours.observed)

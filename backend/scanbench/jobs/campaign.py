@@ -6,14 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from scanbench.engines.observe import MakeObserved
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
-from scanbench.faults.schedule import Schedule
+from scanbench.faults.agenda import agenda_of_faults
+from scanbench.history.bench import Bench
 from scanbench.history.campaign.contract import BadCampaign
-from scanbench.history.campaign.trials import Bench, Trials
+from scanbench.history.campaign.trials import Trials
 from scanbench.host.run_files import texts_in
 from scanbench.recording.programs import ProgramsOf
 from scanbench.recording.reader import RunReader
-from scanbench.runtime.joined import Joined
 from scanbench.wire.campaigns import CampaignDone, RunCampaign, TrialDone
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.refused import Refused
@@ -27,12 +26,8 @@ def run_campaign(
         reader.follow(ask.until or None)
         if ask.created and ask.created != reader.recording.about.created:
             raise Refused("the run was replaced since: begin a campaign on the new one")
-
-        def agenda() -> Joined:
-            return Joined(Schedule(observed), DisturbanceSchedule())
-
         programs = programs_of(reader.kept), programs_of(reader.kept)
-        bench = Bench(Path(folder), ENTRIES, *programs, agenda, texts_in)
+        bench = Bench(Path(folder), ENTRIES, *programs, lambda: agenda_of_faults(observed), texts_in)
         try:
             trials = Trials(reader, ask.wanted, bench)
             numbers = ask.only or range(1, len(trials.disturbances) + 1)

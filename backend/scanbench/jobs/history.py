@@ -5,8 +5,7 @@ from pathlib import Path
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.observe import MakeObserved
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
-from scanbench.faults.schedule import Schedule
+from scanbench.faults.agenda import agenda_of_faults
 from scanbench.history.changes import find_changes
 from scanbench.history.divergence import OnProgress, find_divergence
 from scanbench.history.rerun import rerun
@@ -16,7 +15,6 @@ from scanbench.history.writer import find_writer
 from scanbench.host.run_files import ProgramOf, programs_by, texts_in
 from scanbench.recording.programs import on
 from scanbench.recording.reader import RunReader
-from scanbench.runtime.joined import Joined
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.verification import (
     NOW,
@@ -65,7 +63,7 @@ class HistoryJob:
                 other = self._reader(ask.other, ask.other_until)
                 return RunsCompared(ask.ref, find_divergence(reader, other, on_progress))
             case RerunRun():
-                agenda = Joined(Schedule(self._observed), DisturbanceSchedule())
+                agenda = agenda_of_faults(self._observed)
                 made = rerun(
                     reader, Path(ask.to), ask.change, ask.author, self._programs_of, ENTRIES, agenda, on_progress
                 )

@@ -5,15 +5,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from scanbench.engines.observe import MakeObserved
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
-from scanbench.faults.schedule import Schedule
-from scanbench.history.campaign.trials import Bench
+from scanbench.faults.agenda import agenda_of_faults
+from scanbench.history.bench import Bench
 from scanbench.history.whatif.contract import BadWhatIf
 from scanbench.history.whatif.tries import what_if
 from scanbench.host.run_files import texts_in
 from scanbench.recording.programs import ProgramsOf
 from scanbench.recording.reader import RunReader
-from scanbench.runtime.joined import Joined
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.refused import Refused
 from scanbench.wire.whatif import RunWhatIf, TryDone, WhatIfDone
@@ -25,12 +23,8 @@ def run_what_if(
     """Each try is told when it is done."""
     with tempfile.TemporaryDirectory() as folder, RunReader(Path(ask.run), programs_of, ENTRIES, texts_in) as reader:
         reader.follow(ask.until or None)
-
-        def agenda() -> Joined:
-            return Joined(Schedule(observed), DisturbanceSchedule())
-
         programs = programs_of(reader.kept)
-        bench = Bench(Path(folder), ENTRIES, programs, programs, agenda, texts_in)
+        bench = Bench(Path(folder), ENTRIES, programs, programs, lambda: agenda_of_faults(observed), texts_in)
         try:
             found = what_if(reader, ask.wanted, bench, lambda done, of: say(TryDone(ask.ref, done, of)))
         except BadWhatIf as bad:

@@ -273,16 +273,14 @@ class Verification:
 
     def _poke_halt(self, live: int) -> None:
         halt = self.session.state.halt
-        trapped = (
-            halt is None and self._next < self._live_end and self._live_end > live
-        )  # the last step was a run-time error
+        # the last step was a run-time error
+        trapped = halt is None and self._next < self._live_end and self._live_end > live
         moved = halt is not None and not halt.past and halt.number != self._halt
         if not trapped and not moved:
             return
         if self._at[1] and (halt is None or halt.scan > self._at[0]) and self._at[0] == self._next:
-            self._step(
-                self._at[0], AT_END, live
-            )  # the last statement of that scan, before the scan is compared as a whole
+            # the last statement of that scan, before the scan is compared as a whole
+            self._step(self._at[0], AT_END, live)
         elif halt is None:
             self._scans(self._next, live, live)
         elif self._next < halt.scan:  # those that are over by now are compared as a whole

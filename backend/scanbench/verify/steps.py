@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 
 from scanbench.engines.debug import READ, WRITE, Frame, Listen
 from scanbench.engines.engine import Reason, Stop
-from scanbench.program.layout import Layout
 from scanbench.program.types import Elementary
 from scanbench.runtime.holds import held
 from scanbench.runtime.resource import Resource
@@ -282,14 +281,9 @@ class _Step:
 
     def _leaves_of(self, found: set[int]) -> Iterator[tuple[Leaf, int]]:
         """The variables that have these bytes, each once."""
-        control, monitor, layout = (
-            self.control.memory,
-            self.monitor.memory,
-            self.both.control.side.resource.program.layout,
-        )
-        state = sorted(
-            at for at in found if at < layout.state_size and not Layout.FORCE_COUNT <= at < Layout.FORCES_END
-        )
+        control, monitor = self.control.memory, self.monitor.memory
+        size = self.both.control.side.resource.program.layout.state_size
+        state = sorted(at for at in found if at < size)
         for leaf in self.both.leaves(self.view, state, control, monitor):
             yield leaf, _first_of(leaf, found)
         for pou in {each.pou for each in (*self.control.before, *self.control.frames)}:

@@ -8,20 +8,20 @@ import pytest
 from scanbench.engines.available import flavours
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observed import ObservedBuilds
+from scanbench.faults.agenda import agenda_of_faults
 from scanbench.faults.arm import Arm, Disarm
-from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Wanted
+from scanbench.history.bench import Bench
 from scanbench.history.campaign.contract import BadCampaign, Campaign, CampaignWanted, Trial
 from scanbench.history.campaign.plan import planned
-from scanbench.history.campaign.trials import Bench, Trials, run_campaign
+from scanbench.history.campaign.trials import Trials, run_campaign
 from scanbench.program.program import Program
 from scanbench.recording.programs import cached, on, programs_of
 from scanbench.recording.reader import RunReader
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import Force
-from scanbench.runtime.joined import Joined
 from scanbench.runtime.write import Write
 from scanbench.verify.contract import Range
 from scanbench.verify.run_subject import RunSubject
@@ -54,10 +54,8 @@ MAKE = on(flavours())
 
 
 def bench(folder: Path, checked: Program) -> Bench:
-    def agenda() -> Joined:
-        return Joined(Schedule(ObservedBuilds().engine), DisturbanceSchedule())
-
-    return Bench(folder, ENTRIES, cached({1: checked}, MAKE), cached({1: checked}, MAKE), agenda)
+    programs = cached({1: checked}, MAKE), cached({1: checked}, MAKE)
+    return Bench(folder, ENTRIES, *programs, lambda: agenda_of_faults(ObservedBuilds().engine))
 
 
 def reading(folder: Path, scans: int = 200) -> RunReader:

@@ -6,8 +6,9 @@ import pytest
 
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
+from scanbench.history.bench import Bench
 from scanbench.history.campaign.contract import BadCampaign, CampaignWanted
-from scanbench.history.campaign.trials import Bench, Trials
+from scanbench.history.campaign.trials import Trials
 from scanbench.history.changes import find_changes
 from scanbench.history.divergence import find_divergence
 from scanbench.history.scenario_of_run import scenario_of

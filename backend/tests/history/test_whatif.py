@@ -160,6 +160,16 @@ def test_what_a_search_did_not_find_or_look_at_is_said(tmp_path: Path) -> None:
     assert "holds after scan 20 without any change" in found.note
 
 
+def test_tries_that_all_end_by_a_run_time_error_are_no_fault_of_the_search(tmp_path: Path) -> None:
+    source = SOURCE.replace("n := n / divisor;", "IF door THEN n := n / (divisor - 1); END_IF;")
+    found = asked(
+        tmp_path, WhatIfWanted(20, search=True, candidates=("door",), condition="motor", window=0), source
+    )  # fmt: skip
+    assert [each.ran for each in found.tries] == [0]
+    assert found.tries[0].trapped
+    assert "no change of one of them" in found.note
+
+
 def test_a_test_is_made_of_it(tmp_path: Path) -> None:
     wanted = WhatIfWanted(20, (value("door", "TRUE"), value("speed", "40")), condition="motor", window=9)
     made = read_scenario(asked(tmp_path, wanted).scenario)
@@ -181,6 +191,7 @@ def test_a_test_is_made_of_it(tmp_path: Path) -> None:
         (WhatIfWanted(20, vary="door"), "say which values"),
         (WhatIfWanted(20, vary="speed", tried=("1",) * 201), "at most 200"),
         (WhatIfWanted(20, vary="speed", tried=("0..1000/2",)), "write a larger step"),
+        (WhatIfWanted(20, vary="speed", tried=("0..10/0",)), "the step is 0"),
         (WhatIfWanted(20, vary="speed", tried=("1",) * 200, window=9_000), "fewer values, or fewer scans"),
     ],
 )

@@ -1,9 +1,10 @@
 """The past of the run, what was reached of the program, and what left its subrange."""
 
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
-from scanbench.client.asking import Steps, asked, asked_value
-from scanbench.client.requests.base import Asks, waited
+from scanbench.client.asking import Json, Steps, asked, asked_value
+from scanbench.client.requests.base import Asks, Value, typed, waited
 from scanbench.client.shapes import past as shapes
 from scanbench.client.shapes.debugging import BreakpointInfo
 from scanbench.client.shapes.running import CommandResult
@@ -45,6 +46,20 @@ class Past(Asks):
                 lambda now: f"{now['done']} of {now['of']} scans are compared",
             )
         )  # fmt: skip
+
+    @asked
+    def what_if(
+        self, scan: int, values: Mapping[str, Value] | None = None, *, vary: str = "", tried: Sequence[Value] = (),
+        change: Sequence[str] = (), condition: str = "", window: int = 100, hold: bool = True, watch: Sequence[str] = (),
+    ) -> Steps[shapes.WhatIf]:  # fmt: skip
+        """Goes on with the recorded run from a scan with other values: `values` in every try, with `vary` each of those that are `tried`, with
+        `change` the smallest change of these variables with which `condition` holds (`tries[best]`, if there is one)."""
+        given: list[Json] = [{"path": path, "value": typed(value)} for path, value in (values or {}).items()]
+        wanted: Json = {
+            "scan": scan, "values": given, "vary": vary, "tried": [typed(each) for each in tried], "search": bool(change),
+            "candidates": list(change), "condition": condition, "window": window, "hold": hold, "watch": list(watch),
+        }  # fmt: skip
+        return self._send(shapes.WhatIf, "POST", "what-if", wanted)
 
     @asked
     def replay_with(

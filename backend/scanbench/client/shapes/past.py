@@ -136,6 +136,69 @@ class Rerun(TypedDict):
     type: Literal["rerun"]
 
 
+class WhatIfValue(TypedDict):
+    """A variable or address, and its value as typed."""
+
+    path: str
+    value: str
+
+
+class WhatIfWanted(TypedDict):
+    """What is tried: the `values` in every try; with `vary`, each of the values `tried`; with `search`, the smallest change of the variables `candidates` with which `condition` holds. None of them: one try."""
+
+    scan: int
+    """The values are set before this scan, after all that was entered there."""
+    values: list[WhatIfValue]
+    vary: str
+    tried: list[str]
+    """Values as typed, or ranges of whole numbers: `0..100/5`."""
+    search: bool
+    candidates: list[str]
+    hold: bool
+    """The values are forced all the time; else they are written once."""
+    window: int
+    """It goes on for so many scans after `scan`."""
+    condition: str
+    """What is to be, in ST: `Main.valve = 3`. It is met where it holds after one of the scans."""
+    watch: list[str]
+    """Variables and addresses whose values after the last scan are told."""
+
+
+class WhatIfTry(TypedDict):
+    """What came of one set of values."""
+
+    values: list[WhatIfValue]
+    """None: the run as it was recorded."""
+    met: int | None
+    """After this scan the condition held for the first time."""
+    output_scan: int | None
+    """After this scan an output (%Q) was different from the recorded run for the first time."""
+    shown: list[str]
+    """The values of what is watched."""
+    trapped: str
+    """The run-time error that stopped the program, and where."""
+    refused: list[str]
+    """A value that the PLC did not take, then nothing was run; or what had been entered later, and was not taken this time."""
+    ran: int
+    """Scans."""
+    compared: int
+    """Scans of which the outputs were compared: the recorded run may have ended before."""
+
+
+class WhatIf(TypedDict):
+    """All that was tried."""
+
+    wanted: WhatIfWanted
+    recorded: WhatIfTry
+    tries: list[WhatIfTry]
+    best: int | None
+    """Of a search: the index of the smallest change that was found."""
+    note: str
+    """What the search did not look at."""
+    scenario: str
+    """A scenario file that does the same from a cold start and expects the condition; empty where there can be none."""
+
+
 class Violation(TypedDict):
     """A place and instance at which a value left its subrange."""
 

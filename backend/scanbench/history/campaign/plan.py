@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from scanbench.faults.disturb.definition import WRITING, Disturbance, DisturbanceKind, bits_of
 from scanbench.history.campaign.contract import BadCampaign, CampaignWanted
-from scanbench.history.campaign.places import inputs as inputs_of
+from scanbench.history.places import inputs as inputs_of
 from scanbench.program.bodies import every
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, StringType

@@ -1,6 +1,5 @@
 """Tries the disturbances of a campaign, each alone, on the run as it was recorded; and looks who noticed."""
 
-import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import blake2b
@@ -8,10 +7,10 @@ from itertools import chain
 from pathlib import Path
 
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
-from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.definition import Disturbance, describe
 from scanbench.faults.disturb.disturb import DISTURBED, Disturb, told
 from scanbench.faults.inject import Generate
+from scanbench.history.bench import Bench, outputs_of
 from scanbench.history.campaign.contract import (
     MOST_SCANS,
     MOST_TRIALS,
@@ -22,21 +21,16 @@ from scanbench.history.campaign.contract import (
     Outcome,
     Trial,
 )
-from scanbench.history.campaign.places import places
 from scanbench.history.campaign.plan import planned
 from scanbench.history.entered import Entering, given_after
+from scanbench.history.places import places
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.recording.blocks import Codec
-from scanbench.recording.format import RunFileError
 from scanbench.recording.gaps import gap_between
-from scanbench.recording.reader import RunReader, TextsOf, Unreadable
-from scanbench.recording.stump import write_stump
+from scanbench.recording.reader import RunReader
 from scanbench.recording.timeline import Timeline
-from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Refusal, Swapped
 from scanbench.runtime.holds import held
-from scanbench.runtime.programs import Programs
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.violations import Violation, read_violations
 from scanbench.verify.contract import Mismatch, Range
@@ -48,20 +42,6 @@ _LOOKED = 25
 """Scans with a disturbance that are verified, at most."""
 OnTrial = Callable[[Trial, int], None]
 """A trial that is done, and of how many; may raise to end it."""
-
-
-@dataclass(frozen=True, slots=True)
-class Bench:
-    """What trials run on. The programs have a memory of their own; all trials of a campaign share it."""
-
-    folder: Path
-    codec: Codec
-    runs: Programs
-    """For the control device while it is disturbed, ..."""
-    verifies: Programs
-    """... and when that is verified."""
-    agenda: Callable[[], Agenda]
-    texts_of: TextsOf | None = None
 
 
 @dataclass(slots=True)
@@ -108,9 +88,7 @@ class Trials:
     def __init__(self, reader: RunReader, wanted: CampaignWanted, bench: Bench) -> None:
         _check(reader, wanted)
         self._wanted, self._bench = wanted, bench
-        self._stump, self._path = bench.folder / "begin.run", bench.folder / "trial.run"
-        self._stump.unlink(missing_ok=True)
-        write_stump(reader, self._stump, wanted.first, AUTHOR, bench.codec)
+        bench.begin(reader, wanted.first, AUTHOR)
         self._given = given_after(reader, wanted.first)
         with reader.reading():
             self.program = reader.programs.get(reader.version(wanted.first)).program
@@ -146,24 +124,13 @@ class Trials:
     @property
     def file(self) -> Path:
         """The run file of the trial that was run last."""
-        return self._path
+        return self._bench.file
 
     # ---- running --------------------------------------------------------------------------------------------------
 
     def _run(self, wanted: Disturbance | None, end: int) -> _Seen:
         """The run from its beginning to a scan, with the disturbance or without."""
-        shutil.copy(self._stump, self._path)
-        try:
-            timeline = Timeline.resume(
-                self._path,
-                lambda kept: self._bench.runs,
-                self._bench.codec,
-                0,
-                Detection(),
-                agenda=self._bench.agenda(),
-            )
-        except RunFileError as error:
-            raise Unreadable(f"the run cannot be gone on with: {error}") from error
+        timeline = self._bench.gone_on()
         seen = _Seen()
         begin = timeline.live_scan if wanted is None or wanted.scan is None else wanted.scan
         known = len(timeline.live_journal)
@@ -195,11 +162,7 @@ class Trials:
         seen.refused = entering.refused
 
     def _look(self, resource: Resource, seen: _Seen, scan: int) -> None:
-        memory = resource.memory
-        outputs = blake2b(digest_size=8)
-        for stretch in places(resource.program, "Q"):
-            outputs.update(memory[stretch.start : stretch.stop])
-        seen.outputs[scan] = outputs.digest()
+        seen.outputs[scan] = outputs_of(resource)
         kept, inputs = bytearray(resource.state), b""
         kept[Layout.FORCE_COUNT : Layout.FORCES_END] = bytes(Layout.FORCES_END - Layout.FORCE_COUNT)
         for stretch in places(resource.program, "I"):
@@ -288,7 +251,7 @@ class Trials:
         return None, None
 
     def _reader(self) -> RunReader:
-        return RunReader(self._path, lambda kept: self._bench.verifies, self._bench.codec, self._bench.texts_of)
+        return RunReader(self._bench.file, lambda kept: self._bench.verifies, self._bench.codec, self._bench.texts_of)
 
 
 def _outcome(verification: bool, program: bool, changed: bool) -> Outcome:

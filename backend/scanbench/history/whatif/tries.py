@@ -1,16 +1,12 @@
 """Goes on with a recorded run from a scan, with some inputs set to other values; again and again."""
 
 import re
-import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from hashlib import blake2b
 
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
-from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.disturb import is_disturbance
-from scanbench.history.campaign.places import places
-from scanbench.history.campaign.trials import Bench
+from scanbench.history.bench import Bench, outputs_of
 from scanbench.history.entered import Entering, given_after
 from scanbench.history.scenario import Expectation, Step, write_scenario
 from scanbench.history.scenario_of_run import scenario_of
@@ -27,14 +23,11 @@ from scanbench.history.whatif.contract import (
 )
 from scanbench.history.whatif.search import Candidate, Change, Search, searchable
 from scanbench.program.program import Program
-from scanbench.recording.format import RunFileError
 from scanbench.recording.gaps import gap_between
 from scanbench.recording.reader import RunReader, Unreadable
-from scanbench.recording.stump import write_stump
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal, Swapped
 from scanbench.runtime.forces import Force
-from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.trap import Trapped
 from scanbench.runtime.write import Write
@@ -58,9 +51,7 @@ class _Tries:
         _check(reader, wanted)
         self._reader, self._wanted, self._bench, self._on_try = reader, wanted, bench, on_try
         self._end = wanted.scan + wanted.window + 1
-        self._stump, self._path = bench.folder / "begin.run", bench.folder / "try.run"
-        self._stump.unlink(missing_ok=True)
-        write_stump(reader, self._stump, wanted.scan, AUTHOR, bench.codec)
+        bench.begin(reader, wanted.scan, AUTHOR)
         self._given = [each for each in given_after(reader, wanted.scan) if each.scan < self._end]
         with reader.reading():
             self._program = reader.programs.get(reader.version(wanted.scan)).program
@@ -113,9 +104,10 @@ class _Tries:
             return None, f"`{self._wanted.condition}` holds after scan {before.met} without any change"
         left: list[str] = []
         candidates = []
+        memory = self._reader.at(self._wanted.scan).memory
         for path in self._wanted.candidates:
             symbol = _symbol(self._program, path)
-            data = self._begin_value(symbol)
+            data = bytes_of(memory, symbol)
             if data is None or not searchable(symbol.type):
                 left.append(path)
             else:
@@ -128,16 +120,13 @@ class _Tries:
             notes.append(f"it ended after {search.asked} tries: there may be a smaller change")
         elif not found:
             notes.append("no change of one of them, or of two that are BOOL, was found with which it holds")
-        if self._tries and not any(each.ran for each in self._tries):
-            return None, f"nothing could be tried: {self._tries[0].refused[0]}"
+        refused = [each.refused[0] for each in self._tries if each.refused and not each.ran]
+        if refused and len(refused) == len(self._tries):
+            return None, f"nothing could be tried: {refused[0]}"
         if not found:
             return None, "; ".join(notes)
         best = tuple(SetValue(*each) for each in found[0])
         return next(at for at, each in enumerate(self._tries) if each.values[-len(best) :] == best), "; ".join(notes)
-
-    def _begin_value(self, symbol: Symbol) -> bytes | None:
-        resource = self._reader.at(self._wanted.scan)
-        return bytes_of(resource.memory, symbol)
 
     # ---- one try --------------------------------------------------------------------------------------------------
 
@@ -149,18 +138,7 @@ class _Tries:
         return done
 
     def _run(self, values: tuple[SetValue, ...], outputs: dict[int, bytes]) -> Try:
-        shutil.copy(self._stump, self._path)
-        try:
-            timeline = Timeline.resume(
-                self._path,
-                lambda kept: self._bench.runs,
-                self._bench.codec,
-                0,
-                Detection(),
-                agenda=self._bench.agenda(),
-            )
-        except RunFileError as error:
-            raise Unreadable(f"the run cannot be gone on with: {error}") from error
+        timeline = self._bench.gone_on()
         try:
             refused = self._set(timeline, values)
             if refused:
@@ -197,7 +175,7 @@ class _Tries:
                 resource.idle(1)
             if timeline.live_scan == scan:  # a run-time error ended it
                 break
-            outputs[scan] = _digest(resource)
+            outputs[scan] = outputs_of(resource)
             known = self._outputs.get(scan)
             compared += known is not None
             if differs is None and known is not None and outputs[scan] != known:
@@ -229,13 +207,6 @@ class _Tries:
         return write_scenario(replace(made, scans=self._end, steps=tuple(steps), expect=(expected,))), ""
 
 
-def _digest(resource: Resource) -> bytes:
-    found = blake2b(digest_size=8)
-    for stretch in places(resource.program, "Q"):
-        found.update(resource.memory[stretch.start : stretch.stop])
-    return found.digest()
-
-
 def _symbol(program: Program, path: str) -> Symbol:
     try:
         return resolve(program, path)
@@ -259,7 +230,9 @@ def spread(tried: Sequence[str]) -> tuple[str, ...]:
             found.append(text.strip())
             continue
         first, last, step = int(span[1]), int(span[2]), int(span[3] or 1)
-        if step == 0 or abs(last - first) // step >= MOST_TRIES:
+        if step == 0:
+            raise BadWhatIf(f"{text}: the step is 0")
+        if abs(last - first) // step >= MOST_TRIES:
             raise BadWhatIf(f"{text}: at most {MOST_TRIES} values can be tried: write a larger step, as in 0..1000/10")
         found += map(str, range(first, last + 1, step) if first <= last else range(first, last - 1, -step))
     return tuple(found)
