@@ -65,13 +65,7 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
     <>
       <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>
       {cell.note && <p className="muted">{inNames(errors, cell.note)}</p>}
-      {reaction && <Required {...reaction} />}
-      {reaction && <Evidence reaction={reaction} onOpen={openFile} />}
-      {reaction ? (
-        <Facts reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
-      ) : (
-        <p className="hint">{refused ?? t("sweep.loading")}</p>
-      )}
+      {/* Above what is fetched: a button that moves while it is pressed would not act. */}
       <Deeds sweep={sweep} error={error} cell={cell} />
       {isOpen(cell) && isFinding(cell.verdict) && (
         <p className="hint">
@@ -79,6 +73,13 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
             flag: flag || t("errors.flag"),
           })}
         </p>
+      )}
+      {reaction && <Required {...reaction} />}
+      {reaction && <Evidence reaction={reaction} onOpen={openFile} />}
+      {reaction ? (
+        <Facts reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
+      ) : (
+        <p className="hint">{refused ?? t("sweep.loading")}</p>
       )}
       {reaction && <Found reaction={reaction} />}
     </>
