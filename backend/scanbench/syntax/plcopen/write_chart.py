@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from scanbench.syntax import chart, networks
-from scanbench.syntax.plcopen.write_objects import CannotWrite, End, Objects, add, text
+from scanbench.syntax.plcopen.write_objects import ROW, CannotWrite, End, Objects, add, text
 from scanbench.syntax.xml_tree import Element
 
 
@@ -53,7 +53,7 @@ class _Writer:
         id, made = self._objects.make("selectionDivergence")
         self._objects.connect(made, [end])
         for _ in leading:
-            add(made, "connectionPointOut")
+            add(made, "connectionPointOut", formalParameter="")
         return id, ""
 
     def _transition(self, each: chart.Transition) -> None:
@@ -81,7 +81,7 @@ class _Writer:
             id, made = self._objects.make("simultaneousDivergence")
             self._objects.connect(made, [end])
             for _ in targets:
-                add(made, "connectionPointOut")
+                add(made, "connectionPointOut", formalParameter="")
             end = (id, "")
         for name in targets:
             if self._order[name] > above:
@@ -95,9 +95,11 @@ class _Writer:
             return
         _, made = self._objects.make("actionBlock")
         self._objects.connect(made, [(self._steps[step.name.name.upper()], "")])
-        for each in step.actions:
+        for number, each in enumerate(step.actions):
             time = {"duration": text(each.duration)} if each.duration is not None else {}
-            add(add(made, "action", qualifier=each.qualifier, **time), "reference", name=each.name)
+            action = add(made, "action", localId=self._objects.local_id(), qualifier=each.qualifier, **time)
+            add(action, "relPosition", x="0", y=str(number * ROW))
+            add(action, "reference", name=each.name)
 
 
 def paragraph(parent: Element, written: str) -> None:

@@ -46,10 +46,14 @@ class Objects:
         self._row = (self._row // NETWORK + 1) * NETWORK if self._count else 0
         self._column = 0
 
+    def local_id(self) -> str:
+        """One that no other object of the body has."""
+        self._count += 1
+        return str(self._count)
+
     def make(self, kind: str, **attributes: str) -> tuple[str, Element]:
         """A new object with its place."""
-        self._count += 1
-        id = str(self._count)
+        id = self.local_id()
         made = add(self.body, kind, localId=id, **attributes)
         self._row, self._column = self._row + ROW, self._column + 1
         add(made, "position", x=str(self._column * COLUMN), y=str(self._row))

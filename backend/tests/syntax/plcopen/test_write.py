@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 from hypothesis import assume, given, settings
+from lxml import etree
 
 from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.server.samples import templates
 from scanbench.syntax.plcopen.project import read_project
 from scanbench.syntax.plcopen.write import write_project
 from tests import test_random_charts, test_random_diagrams, test_random_ladder
@@ -18,6 +20,9 @@ from tests.caseformat import MODELS, Case, find, read_cases, run_case, write
 LINE = (Path(__file__).parent / "line.xml").read_bytes()
 CASES = Path(__file__).parent.parent.parent / "cases"
 GRAPHICAL = [case for topic in ("ladder", "diagrams", "charts") for case in read_cases(CASES / f"{topic}.case")]
+ALL = [case for path in sorted(CASES.glob("*.case")) for case in read_cases(path)]
+SCHEMA = etree.XMLSchema(etree.parse(Path(__file__).parent / "tc6_xml_v201.xsd"))
+"""As PLCopen published it for TC6 2.01; this copy is that of the package plcopen 1.0.1."""
 NOT_WRITTEN = 8
 """So many of these cases have something that PLCopen has no form for. Whoever writes one makes the number smaller."""
 
@@ -71,9 +76,28 @@ def after(source: str, sets: list[dict[str, str]], names: Iterable[str]) -> list
     return found
 
 
+def test_files_are_as_the_schema_says() -> None:
+    files = {"this test's own": LINE} | {
+        f"{case.name} {number}": write_project("Case", {"case.st": case.source}).data for number, case in enumerate(ALL)
+    }
+    files |= {each.id: write_project(each.name, each.files).data for each in templates()}
+    wrong = {name: why for name, data in files.items() if (why := against_the_schema(data))}
+    assert wrong == {}
+
+
+def against_the_schema(data: bytes) -> str:
+    """The first thing that the schema does not allow; empty for none."""
+    try:
+        SCHEMA.assertValid(etree.fromstring(data))
+    except etree.DocumentInvalid as why:
+        return str(why)
+    return ""
+
+
 def same(source: str, sets: list[dict[str, str]], names: Iterable[str]) -> None:
     written = write_project("Random", {"main.st": source})
     assume(not written.left_out)
+    assert against_the_schema(written.data) == ""
     read = "".join(read_project(written.data).files.values())
     assert after(read, sets, names) == after(source, sets, names), f"{source}\n{read}"
 
