@@ -3,7 +3,7 @@
 ABOUT      first: JSON of `About`
 PROGRAM    u32 version, digest (64 characters), the sources as they were given; before whatever needs the program
            (both are there twice, the second time after the next state, so that no damaged block costs the whole run)
-ENTRY      an entry of the journal, as the codec packs it
+ENTRY      an entry of the journal, as the codec packs it; in a short block as `alike.py` does
 KEYFRAME   u32 program version, the state before `scan`; the entries before it in the file are in it
 DELTA      the same, xor the state of the last keyframe before it, whose checksum is in the head of the block
 MARK       nothing: only its scan, the last that is known to have been reached; or how the PLC is driven from there on (its
@@ -19,12 +19,13 @@ from dataclasses import asdict, dataclass, field
 from datetime import datetime
 from pathlib import Path
 from struct import Struct
-from typing import Protocol
+from typing import NoReturn, Protocol
 
 import numpy as np
 
 from scanbench.program.program import Program
 from scanbench.public import iso
+from scanbench.recording.alike import Slots, is_brief
 from scanbench.recording.block import NUMBERED
 from scanbench.recording.fingerprints import libm_fingerprint, model_fingerprint
 from scanbench.recording.format import Block, Damage, Damaged, Kind, RunFile, RunFileError
@@ -42,6 +43,8 @@ _DIGEST = 64
 _HEADER = 64
 """Bytes of a state in which its scan is."""
 _ABOUT_MOST = _DRIVEN_MOST = 1 << 16
+_IN_MEMORY = 1 << 9
+"""Bytes that a brief entry is counted for: in the file it has much fewer."""
 _UNPACKED = 1 << 28
 """Bytes of all programs and entries together: they are in memory as long as the run is open."""
 
@@ -209,6 +212,28 @@ def _read_on_after(file: RunFile, codec: Codec, damage: Damage) -> "Reader | Non
     return reader
 
 
+def entry_of(file: RunFile, block: Block, codec: Codec, slots: Slots) -> Entry:
+    """The entry that a block holds; `RunFileError`. Those before it were read with the same slots."""
+    return _entry_in(file, block, file.payload(block), codec, slots) or _unknown(file, block)
+
+
+def _entry_in(file: RunFile, block: Block, data: bytes, codec: Codec, slots: Slots) -> Entry | None:
+    """None where it repeats one that is not known."""
+    try:
+        if is_brief(block):
+            return slots.read(block, data)
+        entry = codec.unpack(data)
+    except Exception as error:
+        raise file.unreadable(block, str(error)) from error
+    if block.slot:
+        slots.put(block.slot, entry)
+    return entry
+
+
+def _unknown(file: RunFile, block: Block) -> NoReturn:
+    raise file.unreadable(block, "the command that it repeats is not before it")
+
+
 @dataclass(frozen=True, slots=True)
 class _Loss:
     """Entries are missing: what was known before them."""
@@ -236,6 +261,7 @@ class Reader:
         self._base: Block | None = None
         self._version = self._scan = 0
         self._left = _UNPACKED
+        self._slots = Slots()
 
     def read_on(self) -> list[Entry]:
         """Takes the blocks that were appended since; the entries among them. `Misplaced` where it has to be read again from
@@ -265,8 +291,9 @@ class Reader:
         match block.kind:
             case Kind.ENTRY:
                 entry = self._entry(block)
-                found.entries.append(entry)
-                self._entries += 1
+                if entry is not None:
+                    found.entries.append(entry)
+                    self._entries += 1
             case Kind.KEYFRAME:
                 self._keyframe(block)
             case Kind.DELTA if self._base is not None and block.base in (self._base.crc, 0):
@@ -314,6 +341,7 @@ class Reader:
 
     def _miss(self) -> None:
         """From here on the state is not known."""
+        self._slots.clear()
         if self._loss is None and self._last is not None:
             self._loss = _Loss(self._scan, self._last, self._entries, self.found.driven)
 
@@ -348,7 +376,7 @@ class Reader:
 
     def _payload(self, block: Block) -> bytes:
         payload = self._file.payload(block)
-        self._left -= len(payload)
+        self._left -= _IN_MEMORY if is_brief(block) else len(payload)
         if self._left < 0:
             raise self._file.unreadable(block, f"programs and commands of more than {_UNPACKED >> 20} MiB are too many")
         return payload
@@ -361,12 +389,14 @@ class Reader:
         (version,) = _VERSION.unpack_from(payload)
         return KeptProgram(version, payload[begin:], payload[_VERSION.size : begin].decode("ascii", "replace"))
 
-    def _entry(self, block: Block) -> Entry:
-        data = self._payload(block)
-        try:
-            entry = self._codec.unpack(data)
-        except Exception as error:
-            raise self._file.unreadable(block, str(error)) from error
+    def _entry(self, block: Block) -> Entry | None:
+        """None where it is lost, as the one is that it repeats."""
+        entry = _entry_in(self._file, block, self._payload(block), self._codec, self._slots)
+        if entry is None:
+            if not self._damaged:
+                _unknown(self._file, block)
+            self._miss()
+            return None
         kinds = (int, datetime, Command, Plan)
         if not all(map(isinstance, (entry.scan, entry.at, entry.command, entry.plan), kinds)):
             raise self._file.unreadable(block, "it is no entry of a journal")

@@ -1,7 +1,7 @@
 """The bytes of a run file: blocks with checksums, one after the other. What they mean is `blocks.py`'s.
 
     0   14 bytes  "scanbench run\\n"
-    14  u16       format version, 2
+    14  u16       format version, 3
     16  blocks
 
 A block, little endian:
@@ -9,7 +9,7 @@ A block, little endian:
     0   4 bytes   F5 'R' 'B' 0A, so that the next good block is found after damage
     4   u8        kind, see `Kind`
     5   u8        packing of the payload: 0 as it is, 1 Zstandard
-    6   u16       0
+    6   u16       of an entry that short blocks may repeat: its slot, 1 to 255; else 0
     8   u32       bytes of the payload as stored
     12  u64       scan that the block belongs to
     20  u64       entries that were made before it since the run began: whether one is missing is seen from that
@@ -17,7 +17,17 @@ A block, little endian:
     32  u32       CRC-32 of bytes 0 to 31 and the payload
     36  payload
 
-In format 1 the two fields before the CRC-32 were missing: the head had 24 bytes. A file of format 1 is read, and gone on with in
+An entry that repeats the one of a slot but for its time and values (`alike.py`) is a short block:
+
+    0   u8        F6
+    1   u8        slot
+    2   u8        bytes of the payload
+    3   u16       scans since the entry before it
+    5   u32       CRC-32 of two u64 (the entries that were made before it, its scan), bytes 0 to 4 and the payload
+    9   payload
+
+It is not searched for after damage: it can be read if all is there from the entry of its slot on, which is after the last state.
+Format 2 had no short blocks and no slots. In format 1 the two fields before the CRC-32 were missing: the head had 24 bytes. A file of format 1 is read, and gone on with in
 format 1; it ends at its first bad block, as nobody can tell what is missing there.
 
 Blocks are only ever appended, but for one: a mark without a payload (the last known scan) at the very end is overwritten by
@@ -37,16 +47,22 @@ import zstandard
 from scanbench.recording.block import (
     FORMAT,
     PACKED,
+    SHORT,
     SYNC,
     Block,
     Head,
     Kind,
+    Place,
     checksum_begun,
     decode,
+    decode_short,
     encode,
+    encode_short,
     head_size,
+    is_short,
     pack_head,
     read_head,
+    short_checksum_begun,
 )
 
 __all__ = ["FORMAT", "LARGEST", "Block", "Damage", "Damaged", "Kind", "RunFile", "RunFileError", "is_run_file"]
@@ -114,8 +130,8 @@ class RunFile:
         """After the last block that is no trailing mark."""
         self._upto = self.end
         """After the last block."""
-        self.entries = 0
-        """So many entries were made since the run began: the number that the next block gets."""
+        self.place = Place(0)
+        """How many entries were made since the run began: the number that the next block gets; and the scan of the last."""
         self.damage: Damage | None = None
         """What `scan_blocks` came upon."""
         self.mended: Mended | None = None
@@ -150,19 +166,38 @@ class RunFile:
         """Closes the file."""
         os.close(self.fd)
 
-    def append(self, kind: Kind, scan: int, payload: bytes, base: int = 0) -> Block:
-        """Writes a block after all others; `base`: the checksum of the keyframe that a delta belongs to. On `OSError` the file is
-        as it was."""
+    @property
+    def entries(self) -> int:
+        """So many entries were made since the run began."""
+        return self.place.entries
+
+    def append(self, kind: Kind, scan: int, payload: bytes, base: int = 0, slot: int = 0) -> Block:
+        """Writes a block after all others; `base`: the checksum of the keyframe that a delta belongs to; `slot`: see above. On
+        `OSError` the file is as it was."""
         packing = 0
         if len(payload) >= _WORTH_PACKING:
             payload, packing = self._packer.compress(payload), PACKED
-        data, crc = encode(self.format, kind, packing, scan, self.entries, base, payload)
+        data, crc = encode(self.format, kind, packing, scan, self.entries, base, payload, slot)
         self._put(data)
         block = Block(
-            kind, scan, self.end, len(payload), packing, head_size(self.format), self.entries, base, crc
+            kind, scan, self.end, len(payload), packing, head_size(self.format), self.entries, base, crc, slot
         )  # fmt: skip
-        self.end, self.entries, self._marked = block.end, block.entries_after, None
+        self.end, self.place, self._marked = block.end, self.place.after(block), None
         return block
+
+    def append_short(self, slot: int, scan: int, payload: bytes) -> bool:
+        """Writes an entry as a short block; false where that is not possible. On `OSError` the file is as it was."""
+        made = encode_short(slot, scan, self.place, payload)
+        if made is None:
+            return False
+        data, _ = made
+        place = Place(self.entries + 1, scan)
+        marked = (
+            self._marked is not None
+        )  # it may be longer than what takes its place: there is to be nothing left of it
+        self._put(data + self._mark(scan, place.entries) if marked else data)
+        self.end, self.place, self._marked = self.end + len(data), place, scan if marked else None
+        return True
 
     def append_raw(self, data: bytes) -> None:
         """Appends whole blocks that were copied from a different run file."""
@@ -212,48 +247,51 @@ class RunFile:
 
     def walk(self, end: int) -> Iterator[Block]:
         """The blocks from the first up to the byte `end`, which were good."""
-        offset = _HEAD.size
+        offset, place = _HEAD.size, Place(0)
         if self.mended is not None:
-            yield from (each for each in self.mended.blocks if each.end <= end)
+            for block in self.mended.blocks:
+                if block.end <= end:
+                    yield block
+                    place = place.after(block)
             offset = max(offset, self.mended.end)
         while offset < end:
-            block = decode(self.format, os.pread(self.fd, head_size(self.format), offset), offset)
-            if block is None:
+            found = self._decode(os.pread(self.fd, head_size(self.format), offset), offset, place)
+            if found is None:
                 raise RunFileError(f"{self.path.name} was damaged at byte {offset} while it was in use")
-            yield block
-            offset = block.end
+            yield found
+            offset, place = found.end, place.after(found)
 
     def scan_blocks(self) -> Iterator[Block]:
         """Every good block after `end`, each with a right checksum: all blocks of a file just opened. `end` moves past them,
         and `damage` says why they end. `RunFileError` at one that only a newer version knows: that is no damage."""
         size = os.fstat(self.fd).st_size
-        offset, block = self.end, None
+        offset, block, place = self.end, None, self.place
         self.damage = None
         while offset < size:
-            good = self._good_block(offset, size)
+            good = self._good_block(offset, size, place)
             if good is None:
                 self._refuse_newer(offset, size)
-                self.damage = self._damage(offset, size)
+                self.damage = self._damage(offset, size, place)
                 break
             yield good
-            block, offset = good, good.end
-        self.end_after(block, offset)
+            block, offset, place = good, good.end, place.after(good)
+        self.end_after(block, offset, place)
 
-    def end_after(self, block: Block | None, offset: int) -> None:
+    def end_after(self, block: Block | None, offset: int, place: Place) -> None:
         """What is appended next is written at `offset`, where this block ends; over it, should it be a mark."""
-        self.end, self._upto, self._marked = offset, offset, None
+        self.end, self._upto, self._marked, self.place = offset, offset, None, place
         if block is None:
             return
-        self.entries = block.entries_after
         if block.kind is Kind.MARK and not block.length:
             self.end, self._marked = block.offset, block.scan
 
     def go_on_with(self, blocks: Sequence[Block]) -> None:
         """Takes these for its blocks, which are in order, not without damage between them; `damage` is then what is after all."""
         size, last = os.fstat(self.fd).st_size, max(blocks, key=lambda each: each.offset)
-        self.damage = self._damage(last.end, size) if last.end < size else None
-        self.end_after(last, last.end)
-        self.entries = blocks[-1].entries_after
+        scan = next((each.scan for each in reversed(blocks) if each.kind is Kind.ENTRY), None)
+        place = Place(blocks[-1].entries_after, scan)
+        self.damage = self._damage(last.end, size, place) if last.end < size else None
+        self.end_after(last, last.end, place)
         self._mend(blocks)
 
     def end_before_loss(self, block: Block) -> None:
@@ -262,7 +300,7 @@ class RunFile:
         at = next(index for index, each in enumerate(blocks) if each.offset == block.offset)
         end = max(each.end for each in blocks[: at + 1])
         self.damage = Damage(end, False, (*blocks[at + 1 :], *(self.damage.after if self.damage is not None else ())))
-        self.end_after(block, end)
+        self.end_after(block, end, Place(block.entries_after))
         if self.mended is not None:
             self._mend(blocks[: at + 1])
 
@@ -288,23 +326,30 @@ class RunFile:
                     _write(self.fd, self._mark(self._marked), self.end)
             raise
 
-    def _mark(self, scan: int) -> bytes:
-        return encode(self.format, Kind.MARK, 0, scan, self.entries, 0, b"")[0]
+    def _mark(self, scan: int, entries: int | None = None) -> bytes:
+        return encode(self.format, Kind.MARK, 0, scan, self.entries if entries is None else entries, 0, b"")[0]
+
+    def _decode(self, head: bytes, offset: int, place: Place) -> Block | None:
+        """The block with this head, whatever its checksum."""
+        if is_short(self.format, head):
+            return decode_short(head, offset, place)
+        return decode(self.format, head, offset)
 
     def _head(self, offset: int, size: int) -> bytes:
         """The head of a block, as far as it lies before `size`: another process may have appended since that was asked."""
         return os.pread(self.fd, min(head_size(self.format), size - offset), offset)
 
-    def _good_block(self, offset: int, size: int) -> Block | None:
+    def _good_block(self, offset: int, size: int, place: Place) -> Block | None:
         head = self._head(offset, size)
-        block = decode(self.format, head, offset)
+        block = self._decode(head, offset, place)
         if block is None or block.end > size:
             return None
-        return block if self._is_right(head, block.crc, block.payload_offset, block.end) else None
+        short = block.packing == SHORT
+        begun = short_checksum_begun(head, block.entries, block.scan) if short else checksum_begun(head)
+        return block if self._is_right(begun, block.crc, block.payload_offset, block.end) else None
 
-    def _is_right(self, head: bytes, crc: int, begin: int, end: int) -> bool:
-        """Whether this is the checksum of the block with this head."""
-        found = checksum_begun(head)
+    def _is_right(self, found: int, crc: int, begin: int, end: int) -> bool:
+        """Whether this is the checksum of a block, of which `found` was begun with its head."""
         for at in range(begin, end, _CHUNK):
             found = zlib.crc32(os.pread(self.fd, min(_CHUNK, end - at), at), found)
         return found == crc
@@ -318,7 +363,7 @@ class RunFile:
         if (
             head.sync == SYNC
             and begin + head.length <= size
-            and self._is_right(data, head.crc, begin, begin + head.length)
+            and self._is_right(checksum_begun(data), head.crc, begin, begin + head.length)
         ):
             raise RunFileError(
                 f"{self.path.name}: the block at byte {offset} is of kind {head.kind}, packed in way {head.packing}, with "
@@ -326,10 +371,15 @@ class RunFile:
                 "version of scanbench that wrote it"
             )
 
-    def _damage(self, offset: int, size: int) -> Damage:
+    def _damage(self, offset: int, size: int, place: Place) -> Damage:
         after = tuple(self._after(offset + 1, size))
-        head = read_head(self.format, self._head(offset, size))
-        short = head is None or (head.known and offset + head_size(self.format) + head.length > size)
+        data = self._head(offset, size)
+        head = read_head(self.format, data)
+        if is_short(self.format, data):
+            block = self._decode(data, offset, place)
+            short = block is None or block.end > size
+        else:
+            short = head is None or (head.known and offset + head_size(self.format) + head.length > size)
         torn = short and not after and not (head is not None and self._has_wrong_length(head, offset, size))
         return Damage(offset, torn, after)
 
@@ -340,7 +390,7 @@ class RunFile:
         if length > LARGEST:
             return False
         right = pack_head(self.format, replace(head, length=length))
-        return self._is_right(right, head.crc, begin, size)
+        return self._is_right(checksum_begun(right), head.crc, begin, size)
 
     def _after(self, offset: int, size: int) -> Iterator[Block]:
         """The good blocks after damage, as far as they are found with reasonable trouble."""
@@ -350,13 +400,17 @@ class RunFile:
                 continue
             if left <= 0 or most <= 0:
                 return
-            block = self._good_block(at, size)
+            block = self._good_block(at, size, Place(0))
             if block is None:
                 claimed = decode(self.format, self._head(at, size), at)
                 left -= max(_LOOK, claimed.length if claimed is not None and claimed.end <= size else 0)
                 continue
-            after, most = block.end, most - 1
-            yield block
+            place = Place(0)
+            while block is not None:  # short blocks are not searched for: they follow
+                yield block
+                after, most, place = block.end, most - 1, place.after(block)
+                follows = is_short(self.format, self._head(after, size)) if most > 0 and after < size else False
+                block = self._good_block(after, size, place) if follows else None
 
     def _places(self, offset: int, size: int) -> Iterator[int]:
         """Where blocks may begin."""

@@ -405,7 +405,7 @@ class Recording:
         gone = made.cut - len(made.roots)
         try:
             made.rewritten.follow(old.end)
-            new.entries = old.entries
+            new.place = old.place
             checkpoints = [
                 replace(each, block=block, base=base, entries=each.entries - gone)
                 for each in self.checkpoints

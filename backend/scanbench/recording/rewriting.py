@@ -89,7 +89,7 @@ def _copy(source: RunFile, made: Rewritten, keep: Callable[[Block, int], bool]) 
         entries += block.kind is Kind.ENTRY
         if not wanted:
             continue
-        made.file.entries = block.entries_after
+        made.file.place = made.file.place.after(block)
         if block.offset != end or end - begin > _CHUNK:
             _copy_range(source, made.file, begin, end)
             begin = block.offset

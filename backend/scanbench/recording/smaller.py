@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
-from scanbench.recording.blocks import About, Codec, keyframe
+from scanbench.recording.alike import Slots
+from scanbench.recording.blocks import About, Codec, entry_of, keyframe
 from scanbench.recording.format import Block, Kind, RunFile, RunFileError
 from scanbench.recording.gaps import Gap
 from scanbench.recording.journal_roots import journal_roots
@@ -113,7 +114,8 @@ def _states(seen: Seen) -> frozenset[int]:
 def _roots(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
     """Which of the entries before the cut stay."""
     blocks = (block for block in file.walk(cut.block.offset) if block.kind is Kind.ENTRY)
-    return journal_roots([codec.unpack(file.payload(block)) for block in blocks], codec.folds)
+    slots = Slots()
+    return journal_roots([entry_of(file, block, codec, slots) for block in blocks], codec.folds)
 
 
 @dataclass(frozen=True, slots=True)

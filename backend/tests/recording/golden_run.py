@@ -40,6 +40,7 @@ from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
+from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 from scanbench.wire.codec import ENTRIES, pack_body
 from scanbench.wire.host import Sources
 
@@ -68,6 +69,13 @@ END_PROGRAM
 """
 SECOND = TEXT.replace("long : LREAL", "more : DWORD; long : LREAL").replace("n := n + 1", "n := n + 2")
 BATTERY, UNIT = ErrorRef("battery-error"), ErrorRef("cpu-bus-unit-error", (("unit", "3"),))
+
+
+def tool_write(value: int) -> WriteAreas:
+    """D10 as a client writes it."""
+    return WriteAreas("FINS client, node 5", (AreaWrite("D", 20, value.to_bytes(2, "little")),))
+
+
 COMMANDS: tuple[tuple[int, Command], ...] = (
     (2, Write("Ada", "Main.level", "7")),
     (3, Force("Ada", "Main.start", "TRUE")),
@@ -79,6 +87,9 @@ COMMANDS: tuple[tuple[int, Command], ...] = (
     (24, Recover("Bob", ("battery-error",))),
     (26, Arm("Ada", Wanted((BATTERY,), Start("scan", scan=30), Shape("intermittent", scans=2, period=5, times=4)))),
     (40, Arm("Ada", Wanted((UNIT,), Start("condition", condition="Main.n > 45"), Shape("for", scans=6)))),
+    (50, tool_write(0x0001)),
+    (51, tool_write(0x0002)),
+    (53, tool_write(0x0102)),
     (60, Arm("Ada", Wanted((BATTERY,), Start("scan", scan=1_000)))),
     (62, Disarm("Ada", None)),
     (64, Generate("Ada", (BATTERY, UNIT))),
@@ -143,7 +154,8 @@ def make(path: Path) -> None:
                 timeline.run(scan - timeline.live_scan)
             else:
                 timeline.resource.pass_time(1)
-        timeline.recording.checkpoint(timeline.live_scan, timeline.live.version, timeline.resource.state)
+        if not isinstance(command, WriteAreas):  # those after the first repeat it, in few bytes
+            timeline.recording.checkpoint(timeline.live_scan, timeline.live.version, timeline.resource.state)
         if command is not None:
             outcome = timeline.submit(command)
             assert not isinstance(outcome, Refusal), (command, outcome)

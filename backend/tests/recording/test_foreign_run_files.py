@@ -140,7 +140,7 @@ def test_what_was_recorded_may_say_more_or_less(told: bytes, tmp_path: Path) -> 
         assert recording.about == ABOUT
 
 
-@pytest.mark.parametrize(("kind", "packing", "reserved"), [(7, 0, 0), (0, 0, 0), (3, 2, 0), (3, 0, 1)])
+@pytest.mark.parametrize(("kind", "packing", "reserved"), [(7, 0, 0), (0, 0, 0), (3, 2, 0), (3, 0, 256), (4, 0, 1)])
 def test_a_block_of_a_newer_version_is_no_damage(kind: int, packing: int, reserved: int, tmp_path: Path) -> None:
     """What is damaged is cut off when the run goes on."""
     path = write(tmp_path / "run", [*FIRST, STATE])

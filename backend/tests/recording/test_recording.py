@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from scanbench.recording import checkpoints
 from scanbench.recording import recording as recordings
+from scanbench.recording.block import Place
 from scanbench.recording.format import Kind, RunFile, RunFileError
 from scanbench.recording.reader import Unreadable
 from scanbench.recording.recording import Recording
@@ -127,7 +128,7 @@ def test_what_was_lost_is_counted(tmp_path: Path) -> None:
     blocks = list(file.scan_blocks())
     hit = [each for each in blocks if each.kind is Kind.ENTRY][-1]
     file.cut(hit.end, None)  # no state comes after it
-    file.end_after(hit, hit.end)
+    file.end_after(hit, hit.end, Place(hit.entries_after))
     file.mark(SCANS)
     file.close()
     data = path.read_bytes()
