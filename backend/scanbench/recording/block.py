@@ -132,8 +132,14 @@ def pack_head(format: int, head: Head) -> bytes:
     )  # fmt: skip
 
 
-def decode(format: int, data: bytes, offset: int) -> Block | None:
+NOWHERE = Place(0)
+"""Where no short block can be read."""
+
+
+def decode(format: int, data: bytes, offset: int, place: Place = NOWHERE) -> Block | None:
     """The block that begins with these bytes, or None where none can begin. Its checksum is not looked at."""
+    if is_short(format, data):
+        return _decode_short(data, offset, place)
     head = read_head(format, data)
     if head is None or not head.known:
         return None
@@ -148,8 +154,7 @@ def is_short(format: int, data: bytes) -> bool:
     return format >= BRIEF and data[:1] == bytes((_SHORT_SYNC,))
 
 
-def decode_short(data: bytes, offset: int, place: Place) -> Block | None:
-    """The short block that begins with these bytes at this place, or None where none can. Its checksum is not looked at."""
+def _decode_short(data: bytes, offset: int, place: Place) -> Block | None:
     if len(data) < _SHORT.size or data[0] != _SHORT_SYNC or place.scan is None:
         return None
     _, slot, length, scans, crc = _SHORT.unpack_from(data)

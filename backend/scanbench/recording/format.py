@@ -55,7 +55,6 @@ from scanbench.recording.block import (
     Place,
     checksum_begun,
     decode,
-    decode_short,
     encode,
     encode_short,
     head_size,
@@ -255,7 +254,7 @@ class RunFile:
                     place = place.after(block)
             offset = max(offset, self.mended.end)
         while offset < end:
-            found = self._decode(os.pread(self.fd, head_size(self.format), offset), offset, place)
+            found = decode(self.format, os.pread(self.fd, head_size(self.format), offset), offset, place)
             if found is None:
                 raise RunFileError(f"{self.path.name} was damaged at byte {offset} while it was in use")
             yield found
@@ -329,19 +328,13 @@ class RunFile:
     def _mark(self, scan: int, entries: int | None = None) -> bytes:
         return encode(self.format, Kind.MARK, 0, scan, self.entries if entries is None else entries, 0, b"")[0]
 
-    def _decode(self, head: bytes, offset: int, place: Place) -> Block | None:
-        """The block with this head, whatever its checksum."""
-        if is_short(self.format, head):
-            return decode_short(head, offset, place)
-        return decode(self.format, head, offset)
-
     def _head(self, offset: int, size: int) -> bytes:
         """The head of a block, as far as it lies before `size`: another process may have appended since that was asked."""
         return os.pread(self.fd, min(head_size(self.format), size - offset), offset)
 
     def _good_block(self, offset: int, size: int, place: Place) -> Block | None:
         head = self._head(offset, size)
-        block = self._decode(head, offset, place)
+        block = decode(self.format, head, offset, place)
         if block is None or block.end > size:
             return None
         short = block.packing == SHORT
@@ -376,7 +369,7 @@ class RunFile:
         data = self._head(offset, size)
         head = read_head(self.format, data)
         if is_short(self.format, data):
-            block = self._decode(data, offset, place)
+            block = decode(self.format, data, offset, place)
             short = block is None or block.end > size
         else:
             short = head is None or (head.known and offset + head_size(self.format) + head.length > size)
