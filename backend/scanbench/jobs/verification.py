@@ -17,19 +17,22 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.verify.contract import BadRange, Begun, Column, Row, ScanVerified
 from scanbench.verify.run_subject import RunSubject
-from scanbench.verify.trace.mapping import BadMapping
-from scanbench.verify.trace.subject import open_trace
+from scanbench.verify.trace.growing import GrowingTrace, controller_table
+from scanbench.verify.trace.mapping import BadMapping, TraceMapping
+from scanbench.verify.trace.subject import TraceSubject, open_trace
 from scanbench.verify.trace.table import BadTraceFile
 from scanbench.verify.verifier import BadEdit, Verifier
 from scanbench.wire.codec import ENTRIES, pack_body
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
+    BeginController,
     BeginTrace,
     BeginVerify,
     PackedRow,
     ScansDone,
     ScansVerified,
     SetInputs,
+    TakeSamples,
     UseRow,
     UsesAre,
     UsesOf,
@@ -40,7 +43,7 @@ from scanbench.wire.verification import (
 
 S = TypeVar("S", bound=ScansVerified)
 _TELL_NS = 100_000_000
-Request = BeginVerify | BeginTrace | VerifyScans | VerifyStep | SetInputs | UsesOf
+Request = BeginVerify | BeginTrace | BeginController | TakeSamples | VerifyScans | VerifyStep | SetInputs | UsesOf
 REFUSALS = (Unreadable, NoProgram, RunFileError, BadEdit, BadMapping, BadTraceFile, OSError)
 
 
@@ -53,6 +56,7 @@ class VerifyJob:
         """`asked`: whether a further request waits."""
         self._program_of, self._cache, self._say, self._asked = program_of, cache, say, asked
         self._verifier: Verifier | None = None
+        self._growing: GrowingTrace | None = None
 
     def answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre:
         """The answer; `Refused`."""
@@ -69,8 +73,14 @@ class VerifyJob:
                 return self._begin(request)
             case BeginTrace():
                 return self._begin_trace(request)
+            case BeginController():
+                return self._begin_controller(request)
+            case TakeSamples():
+                return self._take(request)
             case VerifyScans():
-                return self._scans(request)
+                verifier = self._begun()
+                verifier.follow(request.until)
+                return self._scans(request.ref, verifier, range(request.first, request.last + 1))
             case VerifyStep():
                 verifier = self._begun()
                 verifier.follow(request.until)
@@ -101,22 +111,36 @@ class VerifyJob:
         begun = replace(verifier.begin(ask.range, ask.limit), version=ask.sources.version)
         return _begun(ask.ref, begun)
 
-    def _scans(self, ask: VerifyScans) -> ScansDone:
-        verifier = self._begun()
-        verifier.follow(ask.until)
+    def _begin_controller(self, ask: BeginController) -> VerifyBegun:
+        program, table = self._program_of(ask.sources), controller_table(ask.address, ask.columns, ask.cells)
+        self._growing = GrowingTrace(table, TraceMapping.from_json(ask.mapping), program)
+        self._verifier = Verifier(TraceSubject(program, self._growing.trace, ask.sources.files))
+        begun = replace(self._verifier.begin(ask.range, ask.limit), version=ask.sources.version)
+        return _begun(ask.ref, begun)
+
+    def _take(self, ask: TakeSamples) -> ScansDone:
+        verifier, growing = self._begun(), self._growing
+        if growing is None:
+            raise Unreadable("this is no verification of a controller that runs")
+        growing.add(ask.samples)
+        until = growing.until(ask.last)
+        verifier.follow(until)
+        return self._scans(ask.ref, verifier, range(ask.first, until))
+
+    def _scans(self, ref: int, verifier: Verifier, scans: Sequence[int]) -> ScansDone:
         batch: list[ScanVerified] = []
         told = monotonic_ns()
-        for scan in range(ask.first, ask.last + 1):
+        for scan in scans:
             try:
                 batch.append(verifier.verify(scan))
             except REFUSALS as why:
-                return replace(_told(ScansDone, ask.ref, batch), failed=_words(why))
+                return replace(_told(ScansDone, ref, batch), failed=_words(why))
             if self._asked():
                 break
             if monotonic_ns() - told > _TELL_NS:
-                self._say(_told(ScansVerified, ask.ref, batch))
+                self._say(_told(ScansVerified, ref, batch))
                 batch, told = [], monotonic_ns()
-        return replace(_told(ScansDone, ask.ref, batch), coverage=verifier.coverage)
+        return replace(_told(ScansDone, ref, batch), coverage=verifier.coverage)
 
     def _uses(self, ask: UsesOf) -> UsesAre:
         verifier = self._begun()

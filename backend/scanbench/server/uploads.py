@@ -2,10 +2,12 @@
 
 import asyncio
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
+from scanbench.comm.controller.contract import Connection, Unreachable
+from scanbench.comm.controller.sampling import Sampler
 from scanbench.engines.cache import BlobCache
 from scanbench.host.program_cache import key_of, recall
 from scanbench.jobs.starting import checked_program, model_of
@@ -13,13 +15,15 @@ from scanbench.program.program import Program
 from scanbench.public import Public
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.runtime.programs import NoProgram
+from scanbench.server.controller_verification import open_source
 from scanbench.server.kept import readable, unreadable
 from scanbench.session.session import Session
 from scanbench.store.records import MappingRow, NotFound
 from scanbench.store.store import Store
 from scanbench.typed import BadValue, make_kept
 from scanbench.verify.trace.bind import check
-from scanbench.verify.trace.mapping import BadMapping, TraceMapping, fits
+from scanbench.verify.trace.growing import TIME, controller_table
+from scanbench.verify.trace.mapping import MAX_LATE_MS, BadMapping, TraceMapping, fits
 from scanbench.verify.trace.propose import Guess, Proposal, propose
 from scanbench.verify.trace.read import MAX_BYTES, read_trace
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
@@ -53,6 +57,10 @@ class TraceFile:
     left_out: tuple[str, ...] = ()
     """What the file has besides its columns."""
     at: int = 0
+    connection: Connection | None = None
+    """It is no file, but a controller that is read while it is verified."""
+    table: Table | None = None
+    """Its first sample."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,13 +125,37 @@ class TraceFiles:
         )  # fmt: skip
         return file
 
+    async def connect(self, project: int, connection: Connection, sources: Sources | None) -> TraceFile:
+        """Asks a controller what there is to read, and reads it once; a mapping is proposed as for a file. Outputs may come as
+        late as the time between two samples."""
+        sampler = Sampler(connection, open_source, lambda _: None)
+        try:
+            found = await sampler.begin()
+            first = await sampler.once(range(len(found.columns)))
+        except Unreachable as error:
+            raise Refused(error.message) from error
+        finally:
+            await sampler.close()
+        table = controller_table(connection.address, (TIME, *found.columns), ("0", *first.cells))
+        saved = await self.mappings(project)
+        async with self._reading:
+            proposal = await asyncio.to_thread(self._proposal, table, saved, sources)
+        await self._forget()
+        handle = fresh_token()
+        file = self._files[handle] = TraceFile(
+            handle, connection.address, self._directory / handle, table.columns, 1, tuple(table.rows),
+            _sampled(proposal.mapping, connection.interval_ms), (), proposal.guesses, connection.protocol, found.left_out,
+            monotonic_ns(), connection, table,
+        )  # fmt: skip
+        return file
+
     async def check(self, session: Session, file: TraceFile, mapping: TraceMapping) -> Checked:
         """Whether it can be verified with this mapping, and if not, where it cannot."""
         sources = session.instance.sources
 
         def work() -> Checked:
             try:
-                table = read_trace(file.path.read_bytes(), file.name)
+                table = file.table or read_trace(file.path.read_bytes(), file.name)
                 found = check(table, mapping, self._program(sources))
             except OSError as error:
                 raise Refused(f"the file cannot be read: {error.strerror}: choose it again") from error
@@ -179,6 +211,19 @@ class TraceFiles:
     async def delete_mapping(self, mapping: int) -> None:
         """Forgets one."""
         await asyncio.to_thread(self._store.mappings.delete, mapping)
+
+
+def _sampled(mapping: TraceMapping, interval_ms: int) -> TraceMapping:
+    """What is proposed for a controller that is read again and again: it has much that is no variable of the program."""
+    columns = tuple(
+        replace(each, role="ignore") if not each.path
+        else replace(each, late_ms=max(each.late_ms, min(2.0 * interval_ms, MAX_LATE_MS))) if each.role == "output"
+        else each
+        for each in mapping.columns
+    )  # fmt: skip
+    return replace(
+        mapping, gaps="hold", axis=mapping.axis or TIME, unit=mapping.unit if mapping.axis else "ms", columns=columns
+    )
 
 
 def mapping_of(row: MappingRow) -> TraceMapping:

@@ -18,6 +18,7 @@ from scanbench.server.verify_status import begun, verified, with_stretches
 from scanbench.session.session import Session
 from scanbench.verify.contract import AT_END, Memory
 from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
+from scanbench.wire.host import Sources
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     BeginTrace,
@@ -80,8 +81,8 @@ class Verification:
         self._trace, self._on_change = trace, on_change
         self._job = Job(cache, self._on_end)
         self._run = session.instance.runs
-        self._gone = False
-        """Its process has ended."""
+        self._gone = self._elsewhere = False
+        """Its process has ended; its control device is not the PLC."""
         self._busy = False
         """A request for scans is under way."""
         self._next = 0
@@ -106,12 +107,7 @@ class Verification:
         session, wanted, live = self.session, self.status.wanted, self._live_scan
         first = live if wanted.first is None else wanted.first
         if self._trace is not None:
-            trace = self._trace
-            file, sources = str(trace.file), session.instance.sources
-            answer = await self._ask(
-                lambda ref: BeginTrace(ref, sources, file, trace.name, trace.mapping, wanted.range, wanted.limit),
-                VerifyBegun,
-            )
+            answer = await self._begun_trace(self._trace, session.instance.sources)
         else:
             if wanted.first is not None and not wanted.first < self._live_end:
                 raise Refused(f"scan {wanted.first:,} is not over yet: the PLC is at scan {live:,}")
@@ -128,10 +124,12 @@ class Verification:
             await self.hold.hold(self.status.by)
         self._poke()
 
-    async def leave(self, author: str) -> None:
-        """Ends it; a PLC that waits because of it goes on."""
-        await self.hold.let_go(author)
-        await self.end()
+    async def _begun_trace(self, trace: TraceSource, sources: Sources) -> VerifyBegun:
+        file, wanted = str(trace.file), self.status.wanted
+        return await self._ask(
+            lambda ref: BeginTrace(ref, sources, file, trace.name, trace.mapping, wanted.range, wanted.limit),
+            VerifyBegun,
+        )
 
     async def end(self) -> None:
         """Ends its process."""
@@ -394,7 +392,11 @@ class Verification:
         going = status.state in ("verifying", "waiting", "starting")
         state = "failed" if failed else status.state
         if going and done and not failed:
-            state = "waiting" if status.pace != "free" or self._next >= self._live_end else "verifying"
+            state = (
+                "waiting"
+                if status.pace != "free" or (self._next >= self._live_end and not self._elsewhere)
+                else "verifying"
+            )
         self._change(
             verified(status, came), state=state, message=failed or (_TRAPPED if self._cut is not None else ""),
             rows=self.rows.count, forgotten=self.rows.first,

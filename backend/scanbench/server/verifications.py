@@ -7,12 +7,14 @@ from pathlib import Path
 from typing import Literal, TypeVar
 
 from scanbench import __version__
+from scanbench.comm.controller.contract import Connection
 from scanbench.public import iso
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
 from scanbench.runtime.clock import monotonic_ns, wall_time
+from scanbench.server.controller_verification import ControllerVerification
 from scanbench.server.kept import readable, unreadable
 from scanbench.server.uploads import TraceFile
 from scanbench.server.verification import TraceSource, Verification
@@ -106,17 +108,22 @@ class Verifications:
     ) -> VerificationStatus:  # fmt: skip
         """Verifies a controller log with the program of an instance."""
         trace = TraceSource(file.path, file.name, mapping.to_json())
-        return await self._begin(session, VerifyWish(range, "free", 0, None, limit), trace, author)
+        return await self._begin(session, VerifyWish(range, "free", 0, None, limit), trace, author, file.connection)
 
     async def _begin(
-        self, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str
+        self, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str,
+        connection: Connection | None = None,
     ) -> VerificationStatus:  # fmt: skip
         async with self._room:
             await self._make_room()
             id, self._next = self._next, self._next + 1
-            made = self._all[id] = Verification(
-                id, session, wanted, trace, author, self._cache, self._on_change, self._hand_over
-            )
+            if trace is not None and connection is not None:
+                made: Verification = ControllerVerification(
+                    id, session, wanted, trace, connection, author, self._cache, self._on_change, self._hand_over
+                )
+            else:
+                made = Verification(id, session, wanted, trace, author, self._cache, self._on_change, self._hand_over)
+            self._all[id] = made
         try:
             await made.begin()
         except BaseException:
@@ -151,7 +158,7 @@ class Verifications:
     async def delete(self, id: int, author: str) -> None:
         """Ends one, and forgets its rows."""
         verification = self.one(id)
-        await verification.leave(author)
+        await verification.hold.let_go(author)  # a PLC that waits because of it goes on
         await self._drop(id)
 
     async def set_cells(self, id: int, edits: tuple[tuple[int, int, str, str], ...], author: str) -> VerificationStatus:

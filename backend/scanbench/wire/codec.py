@@ -74,6 +74,7 @@ from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.typed import check
 from scanbench.verify.contract import Column, Compared, Input, Mismatch, Output, Place, Range, Row, VerifyCoverage
+from scanbench.verify.trace.growing import Sample
 from scanbench.wire import campaigns as campaign_protocol
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events, memory, opcua, symbols, variables
@@ -122,7 +123,7 @@ _CLASSES: dict[str, type] = {
         trace_protocol.RecordRetrospective, trace_protocol.RetrospectiveAt, trace_protocol.RetrospectiveDone,
         Calm, Corrupt, Disturb, Disturbance, DisturbanceInfo, Flip, Freed, Held, Hold, Unfired, Unhold,
         Column, Compared, VerifyCoverage, Input, Mismatch, Output, Place, Range, Row, BetweenEntry, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
-        verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
+        verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.BeginController, verify_protocol.TakeSamples, Sample, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.ScansDone,
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
         verify_protocol.MakeScenario, verify_protocol.ScenarioMade, verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,

@@ -10,6 +10,7 @@ from typing import ClassVar
 from scanbench.history.contract import Changes, Divergence, RerunChange, Writer
 from scanbench.public import Public
 from scanbench.verify.contract import Column, Mismatch, Range, VerifyCoverage
+from scanbench.verify.trace.growing import Sample
 from scanbench.wire.host import Sources
 
 NOW = (1 << 63) - 1
@@ -45,6 +46,31 @@ class BeginTrace:
     mapping: str
     range: Range
     limit: int
+
+
+@dataclass(frozen=True, slots=True)
+class BeginController:
+    """As `BeginTrace`, for a controller that runs, of which this is the first sample. Answered with `VerifyBegun`."""
+
+    ref: int
+    sources: Sources
+    address: str
+    columns: tuple[str, ...]
+    cells: tuple[str, ...]
+    mapping: str
+    range: Range
+    limit: int
+
+
+@dataclass(frozen=True, slots=True)
+class TakeSamples:
+    """More samples of the controller; scans from `first` on that they tell of are verified. Answered as `VerifyScans`."""
+
+    ref: int
+    samples: tuple[Sample, ...]
+    first: int
+    last: bool = False
+    """No more of them come: the last scans are verified, too, of which later values might have come in time."""
 
 
 @dataclass(frozen=True, slots=True)

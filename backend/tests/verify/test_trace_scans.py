@@ -39,7 +39,7 @@ def checked(text: str, mapping: TraceMapping | None = None) -> Checked:
 def scans(text: str) -> tuple[int, ...]:
     found = checked(text)
     assert found.trace is not None, found.problems
-    return found.trace.scans.of_rows
+    return tuple(found.trace.scans.of_rows)
 
 
 def rows_of(text: str, mapping: TraceMapping) -> list[Row]:

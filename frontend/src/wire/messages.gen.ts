@@ -1823,6 +1823,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/controllers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Asks a controller that runs what it has to read
+         * @description Asks a controller that runs what it has to read. What comes of it is verified as an uploaded trace is, while the controller runs.
+         */
+        post: operations["create_project_controller"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/dialect": {
         parameters: {
             query?: never;
@@ -6150,6 +6170,40 @@ export interface components {
             other: number;
         };
         /**
+         * NewController
+         * @description A controller that runs elsewhere, to be read as the control device. Nothing is written to it.
+         */
+        NewController: {
+            /**
+             * Address
+             * @description opc.tcp://HOST:PORT of an OPC UA server, or fins://HOST:PORT
+             */
+            address: string;
+            /**
+             * Interval Ms
+             * @description from one sample to the next
+             * @default 100
+             */
+            interval_ms: number;
+            /**
+             * Nodes
+             * @description ids of OPC UA nodes, or addresses for FINS; none: all that the server shows, or all variables of the program that have an address
+             * @default []
+             */
+            nodes: string[];
+            /**
+             * Password
+             * @default
+             */
+            password: string;
+            /**
+             * User
+             * @description OPC UA; empty: nobody in particular
+             * @default
+             */
+            user: string;
+        };
+        /**
          * NewDisturbance
          * @description flip: one bit of memory. late: an input refresh comes so many scans late (1: it is lost). stuck: an input stays as it is.
          *     result: what a statement writes has bits turned over.
@@ -8709,7 +8763,7 @@ export interface components {
         };
         /**
          * UploadedTrace
-         * @description A trace file that the server has read; nothing is kept of one that has problems.
+         * @description A trace file that the server has read, or the first sample of a controller; nothing is kept of one that has problems.
          */
         UploadedTrace: {
             /** Columns */
@@ -13413,6 +13467,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CheckResult"];
+                };
+            };
+        };
+    };
+    create_project_controller: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewController"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UploadedTrace"];
                 };
             };
         };

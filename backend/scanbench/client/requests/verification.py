@@ -52,6 +52,18 @@ class Verifications(Asks):
         return (yield from self._send(shapes.UploadedTrace, "POST", f"/api/projects/{project}/traces", data, name=name))
 
     @asked
+    def connect_controller(
+        self, address: str, *, interval_ms: int = 100, nodes: Sequence[str] = (), user: str = "", password: str = ""
+    ) -> Steps[shapes.UploadedTrace]:  # fmt: skip
+        """Asks a controller that runs (opc.tcp://HOST:PORT, fins://HOST:PORT) what it has to read. Give it to
+        `begin_trace_verification`: then it is read every so many ms, and compared while it runs."""
+        project = (yield from self._get(Instance, ""))["project"]["id"]
+        body = {
+            "address": address, "interval_ms": interval_ms, "nodes": list(nodes), "user": user, "password": password,
+        }  # fmt: skip
+        return (yield from self._send(shapes.UploadedTrace, "POST", f"/api/projects/{project}/controllers", body))
+
+    @asked
     def begin_trace_verification(
         self, trace: shapes.UploadedTrace, mapping: shapes.TraceMapping | None = None, *, pou: str = "", file: str = "",
         lines: tuple[int, int] = (0, 0), instance: str = "", limit: int = 4096,

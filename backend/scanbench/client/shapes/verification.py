@@ -174,7 +174,7 @@ class TraceGuess(TypedDict):
 
 
 class UploadedTrace(TypedDict):
-    """A trace file that the server has read; nothing is kept of one that has problems."""
+    """A trace file that the server has read, or the first sample of a controller; nothing is kept of one that has problems."""
 
     file: str
     """handle for NewTraceVerification, good for an hour."""

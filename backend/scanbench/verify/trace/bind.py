@@ -1,6 +1,6 @@
 """A table and its mapping, checked against a program: what the monitor is to be given in each scan, and what is compared."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
@@ -42,6 +42,13 @@ class Trace:
     outputs: tuple[Signal, ...]
     ignored: tuple[str, ...] = ()
     """Columns that are mapped to nothing: they were not compared."""
+    breaks: Mapping[int, int] = field(default_factory=dict)
+    """Stretches in which nobody looked at the controller: the first scan of each, and that of the row after it. Nothing is run
+    there, and that row is taken over."""
+
+    def unseen(self, scan: int) -> bool:
+        """Whether it lies in such a stretch."""
+        return any(first <= scan < after for first, after in self.breaks.items())
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,7 +81,7 @@ class TraceMonitor:
         self.side = Side(Resource(reference(1, program)))
         scans = trace.scans
         self.first, self.end = scans.first, scans.last + 1
-        self._rows: Mapping[int, int] = {scan: row for row, scan in enumerate(scans.of_rows)}
+        self._rows = {scan: row for row, scan in enumerate(scans.of_rows)}
         self._inputs = [(each, _filled(each.values)) for each in trace.inputs]
         if self.first:
             pass_time(self.side.memory, self.first, program.interval_ns)
@@ -103,9 +103,9 @@ class TraceMonitor:
         skips = self.trace.gaps == "skip"
         row = self._rows.get(scan)
         if row is None:
-            return Recorded(scan, None, skipped=skips)
+            return Recorded(scan, None, skipped=skips or self.trace.unseen(scan))
         begins = (scan == self.first and not self.trace.scans.cold) or (
-            skips and scan > self.first and scan - 1 not in self._rows
+            scan > self.first and scan - 1 not in self._rows and (skips or self.trace.unseen(scan - 1))
         )
         return Recorded(scan, row, taken_over=begins)
 
@@ -119,6 +119,17 @@ class TraceMonitor:
             self._open.take_up(others)
         while self.scan < scan:
             self.pass_scan()
+
+    def grow(self) -> None:
+        """The trace has more rows at its end."""
+        rows = self.trace.scans.of_rows
+        for row in range(len(self._rows), len(rows)):
+            self._rows[rows[row]] = row
+            for signal, filled in self._inputs:
+                value = signal.values[row]
+                filled.append(filled[-1] if value is None else value)
+        self.end = self.trace.scans.last + 1
+        self._skip()
 
     def assume(self, patches: Sequence[Patch]) -> None:
         """From now on these values are there after the first scan, beside those that are taken over."""
@@ -223,7 +234,7 @@ class TraceMonitor:
 
     def _skip(self) -> None:
         """Over a gap in which nothing runs."""
-        if self.trace.gaps != "skip" or self.scan >= self.end or self.scan in self._rows:
+        if self.scan >= self.end or not self.recorded(self.scan).skipped:
             return
         rows = self.trace.scans.of_rows
         pass_time(self.side.memory, rows[bisect_right(rows, self.scan)] - self.scan, self._program.interval_ns)

@@ -27,7 +27,7 @@ FOLLOW = 0.1
 class Scans:
     """The scan of each row, in order; `cold`: the first one is the first scan after a cold start."""
 
-    of_rows: tuple[int, ...]
+    of_rows: Sequence[int]
     cold: bool
     missing: int
 

@@ -81,7 +81,8 @@ class TraceSubject:
         return self._tally.made(self._rows.unrecorded)
 
     def follow(self, until: int) -> None:
-        """A trace does not grow."""
+        """The trace of a controller that runs has more rows; any other one does not grow."""
+        self._monitor.grow()
 
     def begin(self, range: Range, limit: int, scan: int | None) -> Begun:
         """See `Subject`."""

@@ -7,6 +7,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
+from scanbench.comm.controller.contract import Connection
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.server.kept import readable
 from scanbench.server.uploads import LAST, Checked
@@ -193,6 +194,16 @@ async def on_upload(
     data = await file_body(request, MAX_BYTES)
     built = await bench.projects.built(project)
     return translate_verify.uploaded(await bench.trace_files.upload(project, name, data, built))
+
+
+@router.post("/projects/{project}/controllers", status_code=201)
+async def on_controller(bench: Bench, project: Id, new: wire.NewController) -> wire.UploadedTrace:
+    """Asks a controller that runs what it has to read. What comes of it is verified as an uploaded trace is, while the controller runs."""
+    connection = Connection(
+        new.address.strip(), new.interval_ms, tuple(each.strip() for each in new.nodes), new.user, new.password
+    )
+    built = await bench.projects.built(project)
+    return translate_verify.uploaded(await bench.trace_files.connect(project, connection, built))
 
 
 @router.post("/instances/{instance}/trace-check")

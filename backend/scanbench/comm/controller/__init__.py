@@ -1,0 +1,1 @@
+"""Controllers that run elsewhere, read as the control device of a verification."""
