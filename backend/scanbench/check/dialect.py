@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from enum import Enum, auto
 
 from scanbench.check.libraries.catalogue import library_of_file
-from scanbench.syntax.language_file import DialectName, language_of
+from scanbench.syntax.language_file import BYTES_SINCE, DialectName, language_of
 
 
 class Allowance(Enum):
@@ -25,6 +25,7 @@ class Allowance(Enum):
     NUMBER_OF_BITS = auto()
     WIDE_RESULTS = auto()
     STRING_FROM_ZERO = auto()
+    STRING_BYTES = auto()
     ARGUMENT_NAMES = auto()
     CHAINED_ASSIGNMENT = auto()
     RETURN_CONDITION = auto()
@@ -144,6 +145,11 @@ RULES: dict[Allowance, Rule] = {
         "characters of a string counted from 0, and read as BYTE or WORD",
         "the first character has number 1, and is a CHAR",
         "`s[i + 1]`",
+    ),
+    Allowance.STRING_BYTES: Rule(
+        "a STRING as its bytes up to the first 16#00: written by index, and read and written by a POINTER TO BYTE",
+        "a string has a length, and no bytes",
+        "`s := REPLACE(s, 'x', 1, 3)`",
     ),
     Allowance.ARGUMENT_NAMES: Rule(
         "the vendor's names for the arguments of string functions: STR, STR1, STR2, SIZE, LEN, POS",
@@ -347,6 +353,8 @@ def dialect_in(sources: Mapping[str, str]) -> Dialect:
     """What these files are written in, with the names of the libraries that they have or name."""
     language = language_of(sources)[0]
     dialect = DIALECTS[language.dialect]
+    if language.version < BYTES_SINCE:
+        dialect = replace(dialect, allows=dialect.allows - {Allowance.STRING_BYTES})
     named = {*language.namespaces, *(library for file in sources if (library := library_of_file(file)))}
     return replace(dialect, prefixes=dialect.prefixes | {each.upper() for each in named}) if named else dialect
 

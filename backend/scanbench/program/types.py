@@ -2,8 +2,8 @@
 
 Sizes are bytes. All values are little endian: BOOL is a byte 0 or 1 (or one bit of an area when it is located
 there); durations, dates and times of day are an i64 of nanoseconds (dates since 1970-01-01, times of day since
-midnight); STRING[n] is a u16 with the current length in characters, then n bytes (WSTRING: n units of UTF-16), of
-which those beyond the length mean nothing; an in-out takes a slot of `SLOT_BYTES`; so does a reference.
+midnight); STRING[n] is a u16 with the current length in characters, then n bytes (WSTRING: n units of UTF-16), of which those
+beyond the length mean nothing (but see `StringType.zero`); an in-out takes a slot of `SLOT_BYTES`; so does a reference.
 """
 
 from dataclasses import dataclass, field, fields
@@ -112,14 +112,16 @@ class StringType:
     capacity: int
     width: int = 1
     kind: Kind = Kind.STRING
+    zero: bool = False
+    """As CODESYS has it: characters of one byte up to the first 0, for which there is room after `capacity` of them."""
 
     @property
     def size(self) -> int:
-        return (2 + self.capacity * self.width + 1) // 2 * 2
+        return self.capacity + 1 if self.zero else 2 + (self.capacity * self.width + 1) // 2 * 2
 
     @property
     def align(self) -> int:
-        return 2
+        return 1 if self.zero else 2
 
     @property
     def name(self) -> str:
@@ -234,8 +236,7 @@ class Member:
     hidden: bool = False
     """Made by the compiler (a name with `$` in it): never shown."""
     copied: bool = False
-    """Of an in-out by value: it holds a copy of what was passed, which goes back when its block has run. What was passed, the
-    hidden in-out beside it refers to (`actual_name`)."""
+    """Of an in-out by value: a copy of what was passed, which goes back afterwards, and to which the hidden `actual_name` refers."""
     note: "Member | None" = None
     """The hidden variable beside it that keeps what was written before a check limited it; see `check/body/notes.py`."""
     output: bool = False

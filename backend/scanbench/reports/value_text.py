@@ -38,7 +38,8 @@ def type_of(column: Column) -> Type | None:
     if column.kind == Kind.STRING:
         width = 2 if column.type.upper().startswith("W") else 1
         said = re.search(r"\[(\d+)\]", column.type)
-        return StringType(int(said.group(1)) if said else (column.size - 2) // width, width)
+        capacity = int(said.group(1)) if said else (column.size - 2) // width
+        return StringType(capacity, width, zero=column.size == capacity + 1)
     if column.size not in (1, 2, 4, 8):
         return None
     if column.values:

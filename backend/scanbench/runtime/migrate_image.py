@@ -13,6 +13,7 @@ from scanbench.check.declare.classes import TYPE_NUMBER
 from scanbench.program.copies import BYTE_OFFSET
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.program.strings import characters, stored
 from scanbench.program.types import (
     ArrayType,
     Elementary,
@@ -155,7 +156,7 @@ class _Carrier:
             plain = isinstance(new.element, Elementary | StringType) and not isinstance(new.element, Reference)
             if plain and new.element == old.element:
                 self._copy(old_offset, new_offset, new.size)
-            elif plain and not _same_numbers(old.element, new.element):
+            elif plain and not (_same_numbers(old.element, new.element) or _same_text(old.element, new.element)):
                 self._lose_type(path, old, new)
             else:
                 for index, shown in enumerate(_indices(new)):
@@ -165,6 +166,10 @@ class _Carrier:
                     )  # fmt: skip
         elif isinstance(new, Elementary | StringType) and (new == old or _same_numbers(old, new)):
             self._copy(old_offset, new_offset, new.size)
+        elif isinstance(new, StringType) and isinstance(old, StringType) and _same_text(old, new):
+            text = stored(new, characters(old, self._old[old_offset : old_offset + old.size]))
+            self._new[new_offset : new_offset + len(text)] = text
+            self.change.kept += 1
         else:
             self._lose_type(path, old, new)
 
@@ -250,6 +255,11 @@ def _refers_to(reference: Reference, type: Type) -> bool:
     if isinstance(target, Record) and target.kind in (Kind.BLOCK, Kind.INTERFACE):
         return type.kind is Kind.BLOCK
     return target is not None and type.name == target.name
+
+
+def _same_text(old: Type, new: Type) -> bool:
+    """Strings of one capacity, which a different dialect stores differently."""
+    return isinstance(old, StringType) and isinstance(new, StringType) and old.name == new.name
 
 
 def _same_numbers(old: Type, new: Type) -> bool:

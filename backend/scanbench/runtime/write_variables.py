@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
+from scanbench.program.strings import characters, stored
 from scanbench.program.types import BOOL, ArrayType, Elementary, Enumeration, Kind, StringType
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
@@ -72,8 +73,7 @@ def _wrong(symbol: Symbol, write: VariableWrite) -> str:
         if isinstance(type, ArrayType):
             fits = len(data) == type.size
         else:
-            length = int.from_bytes(data[:2], "little")
-            fits = len(data) == 2 + length * element.width and length <= element.capacity
+            fits = data == stored(element, characters(element, data))
         return "" if fits else f"{symbol.path}: {len(data)} bytes are no {type.name}"
     if not isinstance(element, Elementary) or element.kind is Kind.REF:
         return f"{symbol.path} is {type.name}, which cannot be written as a whole: write one of its members"

@@ -7,6 +7,7 @@ from datetime import date as calendar_date
 from typing import Literal
 
 from scanbench.program.numbers import round_real
+from scanbench.program.strings import characters, stored
 from scanbench.program.types import (
     ArrayType,
     Elementary,
@@ -156,15 +157,16 @@ def _parse_string(type: StringType, text: str) -> bytes:
     length = len(data) // type.width
     if length > type.capacity:
         raise ValueError(f"{length} characters do not fit {type}; at most {type.capacity}")
-    return length.to_bytes(2, "little") + data
+    if type.zero and b"\0" in data:
+        raise ValueError(f"A {type} ends at its first 16#00: write no `$00`")
+    return stored(type, data)
 
 
 def python_value(type: Type, data: bytes) -> bool | int | float | str | None:
     """A value for JSON: durations, dates and references as integers (ns, ns, address), characters and values of
     enumerations as text; NaN and infinities as text, since JSON has no such numbers."""
     if isinstance(type, StringType):
-        length = min(int.from_bytes(data[:2], "little"), type.capacity)
-        text = data[2 : 2 + length * type.width]
+        text = characters(type, data)
         return text.decode("utf-16-le", "replace") if type.width == 2 else text.decode("latin-1")
     if isinstance(type, ArrayType | OpenArray | Record):
         return None

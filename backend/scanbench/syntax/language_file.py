@@ -17,8 +17,11 @@ from scanbench.syntax.scl import is_scl
 
 LANGUAGE_FILE = "language.json"
 """The name of the file, at the top of a project."""
-FORMAT = 2
-"""Version 1 had no `namespaces`; a file without them is still written in it."""
+FORMAT = 3
+"""Version 1 had no `namespaces`. Before version 3 the strings of CODESYS and TwinCAT began with their length here, and a project
+keeps that: its programs were laid out so. A file to which neither matters is written in version 1."""
+BYTES_SINCE = 3
+"""The version since which a string is its bytes up to the first 0, where the dialect has that."""
 DialectName = Literal["iec", "codesys", "twincat", "siemens", "rockwell", "omron"]
 DIALECTS: tuple[DialectName, ...] = get_args(DialectName)
 STRICT: DialectName = "iec"
@@ -42,11 +45,14 @@ class Language:
     dialect: DialectName = STRICT
     namespaces: tuple[str, ...] = ()
     """Names of libraries whose texts are among the project's own: `Lib.Name` is `Name`."""
+    version: int = FORMAT
 
 
-def language_text(dialect: DialectName, namespaces: Collection[str] = ()) -> str:
-    """The text of the file for a dialect."""
-    said: dict[str, object] = {"version": FORMAT if namespaces else 1, "dialect": dialect}
+def language_text(dialect: DialectName, namespaces: Collection[str] = (), version: int = FORMAT) -> str:
+    """The text of the file for a dialect, in this version or in the first one that says the same."""
+    least = 2 if namespaces else 1
+    written = max(least, version) if dialect in ("codesys", "twincat") else least
+    said: dict[str, object] = {"version": written, "dialect": dialect}
     if namespaces:
         said["namespaces"] = sorted(namespaces)
     return json.dumps(said, indent=2) + "\n"
@@ -55,7 +61,9 @@ def language_text(dialect: DialectName, namespaces: Collection[str] = ()) -> str
 def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = LANGUAGE_FILE) -> dict[str, str]:
     """The sources, in this dialect whatever they say themselves; `name` is that of the file if they have none."""
     own = next((each for each in sources if is_language_file(each)), name)
-    return {**sources, own: language_text(dialect, language_of(sources)[0].namespaces)}
+    said = language_of(sources)[0]
+    version = said.version if said.dialect == dialect else FORMAT
+    return {**sources, own: language_text(dialect, said.namespaces, version)}
 
 
 def with_namespaces(
@@ -66,7 +74,7 @@ def with_namespaces(
         return dict(sources)
     own = next((each for each in sources if is_language_file(each)), name)
     said = language_of(sources)[0]
-    return {**sources, own: language_text(said.dialect, {*said.namespaces, *namespaces})}
+    return {**sources, own: language_text(said.dialect, {*said.namespaces, *namespaces}, said.version)}
 
 
 def dialect_named(name: str) -> DialectName | None:
@@ -94,15 +102,17 @@ def language_of(sources: Mapping[str, str]) -> tuple[Language, list[Problem]]:
 
 
 def _read(text: str, file: str) -> Language | Problem:
-    choice = f'Write {{"version": 1, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
+    choice = f'Write {{"version": {FORMAT}, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
     try:
         content = json.loads(text)
     except (ValueError, RecursionError) as error:
         return _problem(file, f"This is no JSON ({error}). {choice}", getattr(error, "lineno", 1))
     if not isinstance(content, dict):
         return _problem(file, f"This does not name a dialect. {choice}")
-    version = content.get("version", FORMAT)
-    if isinstance(version, int) and version > FORMAT:
+    version = content.get("version", 1)
+    if not isinstance(version, int):
+        return _problem(file, f"`version` is a number. {choice}")
+    if version > FORMAT:
         return _problem(file, f"This is version {version} of {LANGUAGE_FILE}, which a newer Scanbench reads.")
     unknown = next((key for key in content if key not in _KEYS), None)
     if unknown is not None:
@@ -116,7 +126,7 @@ def _read(text: str, file: str) -> Language | Problem:
         isinstance(each, str) and each.isidentifier() for each in namespaces
     ):
         return _problem(file, '`namespaces` is a list of names, as ["Tc2_Utilities"].')
-    return Language(dialect, tuple(namespaces))
+    return Language(dialect, tuple(namespaces), version)
 
 
 def _problem(file: str, message: str, line: int = 1) -> Problem:

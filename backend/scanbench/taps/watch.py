@@ -11,13 +11,13 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from scanbench.program.strings import characters
 from scanbench.program.types import Elementary, StringType
 from scanbench.symbols.symbols import Symbol
 
 VALUES = 1
 _HEAD = struct.Struct("<BBHIQq")
 _U32 = struct.Struct("<I")
-_U16 = struct.Struct("<H")
 _TEXT = struct.Struct("<II")
 _EIGHT = np.arange(8, dtype=np.int64)
 
@@ -138,5 +138,4 @@ def _text(memory: bytearray, symbol: Symbol) -> bytes | None:
     if place is None or not isinstance(symbol.type, StringType):
         return None
     start = place[0]
-    length = min(_U16.unpack_from(memory, start)[0], symbol.type.capacity)
-    return bytes(memory[start + 2 : start + 2 + length * symbol.type.width])
+    return characters(symbol.type, bytes(memory[start : start + symbol.type.size]))

@@ -9,6 +9,10 @@ from scanbench.check.dialect import DIALECTS, RULES, Allowance
 from scanbench.check.incremental import Checks
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
 from scanbench.problems import Severity
+from scanbench.runtime.header import Mode, fresh_image
+from scanbench.runtime.migrate_image import migrate
+from scanbench.symbols.symbols import resolve
+from scanbench.symbols.values import parse_value, python_value
 from scanbench.syntax.language_file import (
     DIALECTS as NAMES,
 )
@@ -21,6 +25,7 @@ from scanbench.syntax.language_file import (
     language_of,
     language_text,
     with_dialect,
+    with_namespaces,
 )
 from tests.caseformat import MODELS
 
@@ -49,6 +54,7 @@ USES = [
     (Allowance.BIT_NUMBERS, "FOR b := 1 TO 3 DO i := i + 1; END_FOR", "b : USINT"),
     (Allowance.BIT_NUMBERS, "t := t * w;", "WORD_TO_UINT"),
     (Allowance.STRING_FROM_ZERO, "ok := s[i] = 65;", "i + 1"),
+    (Allowance.STRING_BYTES, "s[i] := 65;", "REPLACE"),
     (Allowance.BIT_CONVERSION, "i := w;", "WORD_TO_INT(...)"),
     (Allowance.BIT_CONVERSION, "w := i;", "INT_TO_WORD(...)"),
     (Allowance.SIGNED_BITS, "dw := i;", "INT_TO_DWORD(...)"),
@@ -176,11 +182,47 @@ def test_a_bit_string_and_a_number_have_the_type_of_both_as_arguments() -> None:
     assert "WORD_TO_DINT" in found[0].message
 
 
-def test_where_strings_are_bytes_that_end_with_zero_what_depends_on_it_is_refused() -> None:
+def test_a_project_keeps_the_strings_that_it_was_laid_out_with() -> None:
     for body, code in (("s[0] := 65;", "T003"), ("p := ADR(s);", "T013")):
         text = HEAD.replace("ok : BOOL;", "ok : BOOL; p : POINTER TO BYTE;")
-        found = check_sources(with_dialect({"a.st": f"{text}{body}\nEND_PROGRAM\n"}, "codesys"), MODEL).problems
-        assert [each.code for each in found if each.severity is Severity.ERROR] == [code]
+        sources = {"a.st": f"{text}{body}\nEND_PROGRAM\n", LANGUAGE_FILE: language_text("codesys", (), 1)}
+        found = [each for each in check_sources(sources, MODEL).problems if each.severity is Severity.ERROR]
+        assert [each.code for each in found] == [code]
+        assert '"version": 3' in found[0].message
+        same = with_namespaces(with_dialect(sources, "codesys"), ["MyLib"])
+        assert language_of(same)[0] == Language("codesys", ("MyLib",), 2)
+        assert check_sources(same, MODEL).program is None
+        assert check_sources(with_dialect(sources, "twincat"), MODEL).program is not None
+
+
+def test_a_change_of_the_dialect_carries_strings_over() -> None:
+    text = """TYPE Line : STRUCT name : STRING(10); n : INT; END_STRUCT END_TYPE
+PROGRAM Main
+VAR s : STRING := 'pump'; l : ARRAY[1..2] OF Line := [(name := 'a'), (name := 'full length')]; t : ARRAY[0..1] OF STRING(4) := ['ab', 'cd']; END_VAR
+END_PROGRAM
+"""
+    programs = [
+        check_sources({"a.st": text, LANGUAGE_FILE: language_text("codesys", (), version)}, MODEL).program
+        for version in (1, 3)
+    ]
+    for old, new in (programs, programs[::-1]):
+        assert old is not None
+        assert new is not None
+        before, after = fresh_image(old, Mode.RUN), fresh_image(new, Mode.RUN)
+        for name, value in (("s", "valve"), ("l[1].name", "1234567890"), ("t[1]", "")):
+            place = resolve(old, f"Main.{name}")
+            data = parse_value(place.type, f"'{value}'")
+            before[place.offset : place.offset + len(data)] = data
+        assert not migrate(old, bytes(before), new, after).lost
+        for name, value in (
+            ("s", "valve"),
+            ("l[1].name", "1234567890"),
+            ("l[2].name", "full lengt"),
+            ("t[0]", "ab"),
+            ("t[1]", ""),
+        ):
+            place = resolve(new, f"Main.{name}")
+            assert python_value(place.type, bytes(after[place.offset : place.offset + place.type.size])) == value
 
 
 APART = {
@@ -211,7 +253,8 @@ def test_the_library_is_strict_in_every_dialect() -> None:
         ("{", "This is no JSON"),
         ("[]", "This does not name a dialect"),
         ('{"version": 1, "dialect": "codesis"}', "There is no dialect `codesis`"),
-        ('{"version": 3, "dialect": "codesys"}', "which a newer Scanbench reads"),
+        ('{"version": 4, "dialect": "codesys"}', "which a newer Scanbench reads"),
+        ('{"version": "3", "dialect": "codesys"}', "`version` is a number"),
         ('{"dialekt": "codesys"}', "There is no setting `dialekt`"),
     ],
 )
@@ -315,7 +358,9 @@ def test_the_golden_file_is_read() -> None:
     golden = Path(__file__).parents[1] / "syntax/golden" / LANGUAGE_FILE
     assert dialect_of({LANGUAGE_FILE: golden.read_text("utf-8")}) == ("twincat", [])
     second = golden.parent / "2" / LANGUAGE_FILE
-    assert language_of({LANGUAGE_FILE: second.read_text("utf-8")}) == (Language("twincat", ("MyLib",)), [])
+    assert language_of({LANGUAGE_FILE: second.read_text("utf-8")}) == (Language("twincat", ("MyLib",), 2), [])
+    third = golden.parent / "3" / LANGUAGE_FILE
+    assert language_of({LANGUAGE_FILE: third.read_text("utf-8")}) == (Language("codesys", ("MyLib",), 3), [])
 
 
 def test_the_first_uses_of_a_rule_in_a_file_are_told_and_the_others_counted() -> None:

@@ -81,13 +81,13 @@ def _told(
 
 
 def is_different(type: Type) -> bool:
-    """Whether it is stored differently there: strings begin with their length here, times and dates have 64 bits."""
+    """Whether it is stored differently there: some strings begin with their length here, times and dates have 64 bits."""
     match type:
         case ArrayType():
             return is_different(type.element)
         case Record():
             return any(is_different(each.type) for each in type.members.values())
-    return isinstance(type, StringType) or type.kind in (Kind.TIME, Kind.DATE)
+    return not type.zero if isinstance(type, StringType) else type.kind in (Kind.TIME, Kind.DATE)
 
 
 def class_of(type: Type) -> str:
@@ -103,6 +103,8 @@ def class_of(type: Type) -> str:
             return "ARRAY"
         case Record():
             return "USERDEF"
+        case StringType():
+            return "STRING" if type.width == 1 else "WSTRING"
         case Elementary():
             return CLASSES.get(type.name, type.name)
     return ""

@@ -13,6 +13,7 @@ from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place
 from scanbench.program.shown import shown
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
+    BYTE,
     CHAR,
     LINT,
     SLOT_BYTES,
@@ -37,6 +38,8 @@ def element(body: Body, place: Place, member: Member | None, node: tree.IndexOf)
         return target_of(body, address, node.span, shown(node.array)), None
     while indices:
         if isinstance(type, StringType) and len(indices) == 1:
+            if type.zero:
+                return byte_of(body, replace(place, type=type), type, indices[0]), member
             return _character_place(body, replace(place, type=type), type, indices[0]), member
         if not isinstance(type, ArrayType | OpenArray):
             raise body.report.reject("T010", f"{type} is not an array and has no index.", node.span)
@@ -50,6 +53,21 @@ def element(body: Body, place: Place, member: Member | None, node: tree.IndexOf)
                 place = _open_index(body, place, type, dimension, index)
         type, indices = type.element, indices[count:]
     return replace(place, type=type), member
+
+
+def byte_of(body: Body, place: Place, type: StringType, node: tree.Expression, read: bool = False) -> Place:
+    """A byte of a string that ends at its first 0, counted from 0; the 0 may be written, too, and whatever is after it read."""
+    index = fold.convert(LINT, _index_value(body, node))
+    if isinstance(index, Const) and not 0 <= int(index.value) <= type.capacity:
+        why = f"A {type} has the bytes 0..{type.capacity}, the last one for the 16#00 at its end; not {index.value}."
+        raise body.report.reject("T012", why, node.span)
+    if read:
+        used(body, Allowance.STRING_FROM_ZERO, node.span, f"`{shown(node)}` counts from 0", f"`{shown(node)} + 1`")
+    else:
+        used(body, Allowance.STRING_BYTES, node.span, f"`{shown(node)}` is the index of a byte of this string")
+    trap = body.trap(TrapKind.BOUNDS, node.span, f"the string has the bytes 0..{type.capacity}")
+    one = Index(index, 0, type.capacity, 1, trap)
+    return replace(place, type=BYTE, indices=(*place.indices, one))
 
 
 def character_index(body: Body, node: tree.Expression, type: StringType) -> Expr:
@@ -74,10 +92,14 @@ def character_index(body: Body, node: tree.Expression, type: StringType) -> Expr
 def _character_place(body: Body, place: Place, type: StringType, node: tree.Expression) -> Place:
     """A character that is there: what is beyond the current length cannot be written or referred to."""
     if may(body, Allowance.STRING_FROM_ZERO):
+        title = body.dialect.title
         raise body.report.reject(
             "T003",
-            f"In {body.dialect.title} a string ends at its first 16#00, which can be written by index; here a string has a length. "
-            "Make the text with LEFT, MID, REPLACE and CONCAT.",
+            f"In {title} a string ends at its first 16#00, which can be written by index; here a WSTRING has a length. Make the "
+            "text with LEFT, MID, REPLACE and CONCAT."
+            if type.width == 2
+            else f"In {title} a string ends at its first 16#00, which can be written by index; in this project it has a length. Write "
+            '`"version": 3` into language.json, or make the text with LEFT, MID, REPLACE and CONCAT.',
             node.span,
         )
     index = character_index(body, node, type)

@@ -6,7 +6,7 @@ from scanbench.check.body import fold
 from scanbench.check.body.allowed import may
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.elements import character_index, character_of, element
+from scanbench.check.body.elements import byte_of, character_index, character_of, element
 from scanbench.check.body.enumerations import enumeration_value, is_value_name, typed, value_of_type
 from scanbench.check.body.forms import form
 from scanbench.check.body.harmless import harmless
@@ -158,6 +158,8 @@ def _element(body: Body, node: tree.IndexOf) -> Expr:
         return part
     place, member = body.place(node.array)
     if isinstance(place.type, StringType) and len(node.indices) == 1:
+        if place.type.zero:
+            return Load(byte_of(body, place, place.type, node.indices[0], read=True))
         return _character_at(body, place, place.type, node.indices[0])
     place, member = automatic(body, *element(body, place, member, node), node)
     return _value_at(body, place, member, node)

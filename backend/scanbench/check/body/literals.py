@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from scanbench.check.body.allowed import allowed
+from scanbench.check.body.allowed import allowed, may
 from scanbench.check.body.context import Body
 from scanbench.check.body.enumerations import typed
 from scanbench.check.body.lenient import enumerated
@@ -61,7 +61,7 @@ def literal(body: Body, node: tree.Literal, wanted: Type | None) -> Const:
             return Const(ANY_REAL, node.value)
         case "bool":
             return Const(BOOL, node.value)
-    return _text(node)
+    return _text(body, node)
 
 
 def in_64_bits(body: Body, expr: Const, span: Span) -> Const:
@@ -74,9 +74,9 @@ def in_64_bits(body: Body, expr: Const, span: Span) -> Const:
 def _typed(body: Body, node: tree.Literal, name: str) -> Const:
     """`INT#5`, `CHAR#'a'`, `STRING#'text'`, `Level#5` of a type of the user."""
     if isinstance(node.value, bytes):
-        text = _text(node)
+        text = _text(body, node)
         if name.upper().startswith("W") and node.kind == "string":
-            text = _text(replace(node, kind="wstring", value=node.value.decode("latin-1").encode("utf-16-le")))
+            text = _text(body, replace(node, kind="wstring", value=node.value.decode("latin-1").encode("utf-16-le")))
         if name.upper() in ("CHAR", "WCHAR"):
             return _character(body, text, CHAR if name.upper() == "CHAR" else WCHAR, node.span)
         if name.upper() in ("STRING", "WSTRING"):
@@ -158,10 +158,14 @@ def as_text(body: Body, expr: Expr, type: Type, span: Span) -> Expr | None:
     return None
 
 
-def _text(node: tree.Literal) -> Const:
-    assert isinstance(node.value, bytes)
+def _text(body: Body, node: tree.Literal) -> Const:
+    """Where strings end at their first 0, a literal does."""
+    value = node.value
+    assert isinstance(value, bytes)
     width = 2 if node.kind == "wstring" else 1
-    return Const(StringType(max(len(node.value) // width, 1), width), node.value)
+    if width == 1 and may(body, Allowance.STRING_BYTES):
+        value = value.partition(b"\0")[0]
+    return Const(StringType(max(len(value) // width, 1), width), value)
 
 
 def _upper(name: str | None) -> str:

@@ -1,7 +1,7 @@
 """Values that refer to a variable: references, pointers, interfaces; their comparison, and arithmetic in bytes."""
 
 from scanbench.check.body import fold
-from scanbench.check.body.allowed import may
+from scanbench.check.body.allowed import may, used
 from scanbench.check.body.context import Body
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
@@ -56,12 +56,18 @@ def as_reference(body: Body, expr: Expr, type: Reference, span: Span) -> Expr | 
         return Const(NULL, 0)
     if isinstance(expr.type, Reference) and _fits(expr.type, type):
         source = expr.type.target
-        if isinstance(source, StringType) and type.target is not None and not isinstance(type.target, StringType):
+        if isinstance(source, StringType) and source.zero and not isinstance(type.target, StringType):
+            used(body, Allowance.STRING_BYTES, span, f"This points to the bytes of a {source}")
+        elif isinstance(source, StringType) and type.target is not None and not isinstance(type.target, StringType):
             if may(body, Allowance.STRING_FROM_ZERO):
+                title = body.dialect.title
                 raise body.report.reject(
                     "T013",
-                    f"In {body.dialect.title} the first byte of a string is its first character; here a {source} begins with its "
-                    "length, so this pointer would read different bytes. Take characters with `s[0]` or MID.",
+                    f"In {title} the first bytes of a string are its first character; here a WSTRING begins with its length, so this "
+                    "pointer would read different bytes. Take characters with MID."
+                    if source.width == 2
+                    else f"In {title} the first byte of a string is its first character; in this project a string begins with its "
+                    'length. Write `"version": 3` into language.json, or take characters with `s[0]` or MID.',
                     span,
                 )
             body.report.warn(

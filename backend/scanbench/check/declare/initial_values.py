@@ -10,6 +10,7 @@ from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Const
+from scanbench.program.strings import stored
 from scanbench.program.types import ArrayType, Elementary, Kind, Member, Record, Section, StringType, Type, initial_of
 from scanbench.syntax import tree
 
@@ -125,8 +126,7 @@ def encode(type: Elementary | StringType, constant: Const) -> bytes:
     value = constant.value
     if isinstance(type, StringType):
         assert isinstance(value, bytes)
-        text = value[: type.capacity * type.width]
-        return ((len(text) // type.width).to_bytes(2, "little") + text).ljust(type.size, b"\0")
+        return stored(type, value[: type.capacity * type.width]).ljust(type.size, b"\0")
     if type.kind is Kind.REAL:
         number = round_real(float(value), type)
         return struct.pack("<f" if type.size == 4 else "<d", math.nan if math.isnan(number) else number)

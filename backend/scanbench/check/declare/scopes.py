@@ -9,6 +9,7 @@ from scanbench.check.life.code import Code
 from scanbench.plcmodel.model import Who
 from scanbench.program.own_variables import SYSTEM
 from scanbench.program.program import Base, Const, Place, Pou, Stmt
+from scanbench.program.strings import characters
 from scanbench.program.types import (
     SLOT_BYTES,
     ULINT,
@@ -93,8 +94,7 @@ def place_of(member: Member, base: Base, owner: Record, null_trap: int) -> Place
 def decode(type: Type, data: bytes) -> Const | None:
     """A constant from its bytes in the image; None for arrays and structures."""
     if isinstance(type, StringType):
-        length = int.from_bytes(data[:2], "little")
-        return Const(type, data[2 : 2 + length * type.width])
+        return Const(type, characters(type, data))
     if not isinstance(type, Elementary):
         return None
     if type.kind is Kind.REAL:

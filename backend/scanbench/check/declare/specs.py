@@ -1,8 +1,12 @@
 """Type specifications -> types."""
 
+from dataclasses import replace
+
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import MAX_BYTES, declare
+from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
+from scanbench.program.origin import in_library
 from scanbench.program.types import (
     ELEMENTARY,
     MAX_STRING,
@@ -58,11 +62,17 @@ def type_of(declared: Declarations, spec: tree.TypeSpec) -> Type:
 
 def _string(declared: Declarations, length: tree.Expression | None, span: Span, width: int) -> Type:
     if length is None:
-        return StringType(DEFAULT_STRING, width)
+        return _of_dialect(declared, StringType(DEFAULT_STRING, width), span)
     value = declared.constant_of(length, None).value
     if not isinstance(value, int) or not 1 <= value <= MAX_STRING:
         raise declared.report.reject("D006", f"A STRING holds 1 to {MAX_STRING} characters, not {value!r}.", span)
-    return StringType(value, width)
+    return _of_dialect(declared, StringType(value, width), span)
+
+
+def _of_dialect(declared: Declarations, type: StringType, span: Span) -> StringType:
+    """A string as the dialect stores it, and as the standard library does."""
+    zero = Allowance.STRING_BYTES in declared.dialect.allows and type.width == 1 and not in_library(span)
+    return replace(type, zero=True) if zero else type
 
 
 def _element(declared: Declarations, spec: tree.TypeSpec) -> Type:

@@ -9,6 +9,7 @@ from typing import Any
 from asyncua import ua
 
 from scanbench.comm.opcua.ids import standard
+from scanbench.program.strings import characters, stored
 from scanbench.program.types import ArrayType, Elementary, Enumeration, Kind, StringType, Type, base_of
 
 MOST_ELEMENTS = 65_536
@@ -153,18 +154,16 @@ def _text(type: StringType) -> Form:
     coding = "utf-16-le" if type.width == 2 else "latin-1"
 
     def read(data: bytes) -> str:
-        length = min(int.from_bytes(data[:2], "little"), type.capacity)
-        return data[2 : 2 + length * type.width].decode(coding, "replace")
+        return characters(type, data).decode(coding, "replace")
 
     def write(value: Any) -> bytes:
         try:
             data = ("" if value is None else str(value)).encode(coding)
         except UnicodeEncodeError:
             raise NoValue from None
-        length = len(data) // type.width
-        if length > type.capacity:
+        if len(data) > type.capacity * type.width or (type.zero and b"\0" in data):
             raise NoValue
-        return length.to_bytes(2, "little") + data
+        return stored(type, data)
 
     return Form(ua.VariantType.String, standard(ua.ObjectIds.String), type.size, read, write)
 

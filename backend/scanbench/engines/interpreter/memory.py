@@ -85,15 +85,24 @@ def putter(memory: bytearray, type: Type) -> Put:
 def _string_getter(memory: bytearray, type: StringType) -> Get:
     capacity, width = type.capacity, type.width
 
+    def get_zero(at: int) -> Value:
+        end = memory.find(0, at, at + capacity)
+        return decode(bytes(memory[at : at + capacity if end < 0 else end]), 1)
+
     def get_string(at: int) -> Value:
         length = min(memory[at] | memory[at + 1] << 8, capacity)
         return decode(bytes(memory[at + 2 : at + 2 + length * width]), width)
 
-    return get_string
+    return get_zero if type.zero else get_string
 
 
 def _string_putter(memory: bytearray, type: StringType) -> Put:
     capacity, width = type.capacity, type.width
+
+    def put_zero(at: int, value: Value) -> None:
+        assert isinstance(value, str)
+        data = encode(value[:capacity], 1) + b"\0"
+        memory[at : at + len(data)] = data
 
     def put_string(at: int, value: Value) -> None:
         assert isinstance(value, str)
@@ -101,4 +110,4 @@ def _string_putter(memory: bytearray, type: StringType) -> Put:
         memory[at : at + 2] = (len(data) // width).to_bytes(2, "little")
         memory[at + 2 : at + 2 + len(data)] = data
 
-    return put_string
+    return put_zero if type.zero else put_string

@@ -79,6 +79,9 @@ def of_place(body: Body, place: Place) -> Piece:
 
 def of_pointer(body: Body, pointer: str, type: StringType, tag: str = "") -> Piece:
     """The characters of a STRING at an address. Its length may have been overwritten as a number: a union, a pointer."""
+    if type.zero:
+        length = body.text.op(f"call i64 {helper(body, 'length')}(ptr {pointer}, i64 {type.capacity}){tag}")
+        return Piece(pointer, length, type.capacity, "")
     short = body.text.op(f"load i16, ptr {pointer}, align 1{tag}")
     length = pick(body, "umin", body.text.op(f"zext i16 {short} to i64"), str(type.capacity))
     data = body.text.address(pointer, STRING_HEAD)
@@ -141,9 +144,10 @@ def settled(body: Body, pieces: list[Piece]) -> list[Piece]:
 
 def assign(body: Body, target: Place, pieces: list[Piece]) -> Address:
     """Stores the whole in a variable, of which the pieces may be parts; gives its address."""
-    pieces = cut(body, pieces, string(target.type).capacity)
+    type = string(target.type)
+    pieces = cut(body, pieces, type.capacity)
     where = address(body, target)
-    data = body.text.address(where.pointer, STRING_HEAD)
+    data = where.pointer if type.zero else body.text.address(where.pointer, STRING_HEAD)
     if not any(_may_overlap(piece, target) for piece in pieces[1:]):
         length = _in_order(body, target, data, pieces, where.tag)
     elif not any(_may_overlap(piece, target) for piece in pieces[1:-1]) and _starts(body, pieces[0], target):
@@ -152,12 +156,16 @@ def assign(body: Body, target: Place, pieces: list[Piece]) -> Address:
         one = copied(body, pieces)
         length = one.length
         copy(body, data, one, where.tag)
-    store_length(body, where, length)
+    _store_length(body, where, type, length)
     return where
 
 
-def store_length(body: Body, where: Address, length: str) -> None:
-    """Stores the current length."""
+def _store_length(body: Body, where: Address, type: StringType, length: str) -> None:
+    """Stores the current length, or ends the characters with a 0."""
+    if type.zero:
+        end = shifted(body, where.pointer, length, 1)
+        body.text.do(f"store i8 0, ptr {end}, align 1{where.tag}")
+        return
     short = length if length.isdigit() else body.text.op(f"trunc nuw i64 {length} to i16")
     body.text.do(f"store i16 {short}, ptr {where.pointer}, align 1{where.tag}")
 

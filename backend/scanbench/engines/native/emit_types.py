@@ -9,7 +9,7 @@ NAN = {4: "0x7FF8000000000000", 8: "0x7FF8000000000000"}
 """The canonical NaN; LLVM writes a float constant as the double of the same value."""
 
 STRING_HEAD = 2
-"""Bytes of the length before the characters."""
+"""Bytes of the length before the characters, where there is one."""
 
 
 def stored(type: Elementary) -> str:

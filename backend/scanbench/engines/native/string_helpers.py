@@ -71,6 +71,19 @@ done:
   ret void
 }"""
 
+LENGTH = """\
+declare ptr @memchr(ptr, i32, i64)
+define internal i64 @s.length(ptr %a, i64 %n) #0 {
+; characters before the first 0, at most %n
+  %found = call ptr @memchr(ptr %a, i32 0, i64 %n)
+  %none = icmp eq ptr %found, null
+  %foundat = ptrtoint ptr %found to i64
+  %aat = ptrtoint ptr %a to i64
+  %distance = sub i64 %foundat, %aat
+  %result = select i1 %none, i64 %n, i64 %distance
+  ret i64 %result
+}"""
+
 ORDER = """\
 declare i32 @memcmp(ptr, ptr, i64)
 define internal i64 @s.order(ptr %a, i64 %n, ptr %b, i64 %m) #0 {
@@ -256,6 +269,7 @@ FIND_WIDE = _FIND.format(name="findwide", char="i16", shift=1, far="  br label %
 
 HELPERS: dict[str, tuple[str, tuple[str, ...]]] = {
     "copy": (COPY, ()),
+    "length": (LENGTH, ()),
     "order": (ORDER, ()),
     "equal": (EQUAL, ()),
     "orderwide": (ORDER_WIDE, ()),

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Literal
 
+from scanbench.program.strings import characters, stored
 from scanbench.program.types import StringType
 from scanbench.runtime.command import Patch
 from scanbench.verify.trace.bind import Signal
@@ -27,8 +28,7 @@ def value_of(signal: Signal, memory: bytes | bytearray) -> bytes:
         return bytes((memory[symbol.offset] >> symbol.bit & 1,))
     value = bytes(memory[symbol.offset : symbol.offset + signal.type.size])
     if isinstance(signal.type, StringType):  # bytes after its end have no meaning
-        used = 2 + signal.type.width * min(int.from_bytes(value[:2], "little"), signal.type.capacity)
-        return value[:used].ljust(len(value), b"\0")
+        return stored(signal.type, characters(signal.type, value)).ljust(len(value), b"\0")
     return value
 
 

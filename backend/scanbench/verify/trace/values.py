@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
+from scanbench.program.strings import characters
 from scanbench.program.types import Elementary, Enumeration, Kind, StringType
 from scanbench.symbols.values import parse_value
 from scanbench.syntax.literals import UNITS_NS
@@ -65,8 +66,7 @@ class Exactness:
     def same(self, type: Leaf, recorded: bytes, found: bytes) -> bool:
         """Whether the cell can mean the value that was found."""
         if isinstance(type, StringType):
-            size = 2 + int.from_bytes(recorded[:2], "little") * type.width
-            return recorded[:size] == found[:size]
+            return characters(type, recorded) == characters(type, found)
         if recorded == found or not self.digits:
             return recorded == found
         one, other = number_of(type, recorded), number_of(type, found)

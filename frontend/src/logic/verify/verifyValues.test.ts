@@ -28,6 +28,9 @@ describe("values of a verification", () => {
     expect(shownValue(text, "02004f4b586161").text).toBe("'OK'");
     expect(shownValue(text, "0000").text).toBe("''");
     expect(shownValue({ type: "WSTRING[2]", kind: "string", size: 6 }, "0100c4301234").text).toBe('"ツ"');
+    const ended = { type: "STRING[5]", kind: "string", size: 6 };
+    expect(shownValue(ended, "4f4b00586161").text).toBe("'OK'");
+    expect(shownValue(ended, "68656c6c6f00").text).toBe("'hello'");
     // A wrong length does not go beyond the bytes.
     expect(shownValue(text, "ff004f4b").text).toBe("'OK'");
   });

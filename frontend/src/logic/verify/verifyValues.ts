@@ -24,7 +24,7 @@ export function shapeOf({ type, kind, size, values = [] }: ValueType): ValueShap
 export function shownValue(of: ValueType, hex: string | null, format: Format = "default"): ShownValue {
   if (hex === null || hex === "") return { text: NOTHING, lamp: null };
   const bytes = bytesOf(hex);
-  if (of.kind === "string") return { text: stringText(bytes, of.type.startsWith("WSTRING")), lamp: null };
+  if (of.kind === "string") return { text: stringText(bytes, of), lamp: null };
   if (bytes.length > 8) return { text: `16#${hex.toUpperCase()}`, lamp: null };
   const view = new DataView(new ArrayBuffer(8));
   bytes.forEach((byte, at) => {
@@ -34,12 +34,16 @@ export function shownValue(of: ValueType, hex: string | null, format: Format = "
   return { text: formatValue(shape, view, 0, format) || `16#${hex.toUpperCase()}`, lamp: lampOf(shape, view, 0) };
 }
 
-/** A STRING is its length in two bytes, then the characters. */
-function stringText(bytes: Uint8Array, wide: boolean): string {
-  const length = (bytes[0] ?? 0) | ((bytes[1] ?? 0) << 8);
+/** A STRING is its length in two bytes, then the characters; in some dialects the characters up to the first 0, in one byte more than it has room for. */
+function stringText(bytes: Uint8Array, { type, size }: ValueType): string {
+  const wide = type.startsWith("WSTRING");
+  const ended = !wide && size === Number(/\[(\d+)\]/.exec(type)?.[1]) + 1;
+  const zero = bytes.indexOf(0);
+  const head = ended ? 0 : 2;
+  const length = !ended ? (bytes[0] ?? 0) | ((bytes[1] ?? 0) << 8) : zero < 0 ? bytes.length : zero;
   let text = "";
   for (let at = 0; at < length; at += 1) {
-    const from = wide ? 2 + 2 * at : 2 + at;
+    const from = head + (wide ? 2 * at : at);
     if (from >= bytes.length) break;
     text += String.fromCharCode((bytes[from] ?? 0) | (wide ? (bytes[from + 1] ?? 0) << 8 : 0));
   }
