@@ -167,7 +167,7 @@ class _Carrier:
         elif isinstance(new, Elementary | StringType) and (new == old or _same_numbers(old, new)):
             self._copy(old_offset, new_offset, new.size)
         elif isinstance(new, StringType) and isinstance(old, StringType) and _same_text(old, new):
-            text = stored(new, characters(old, self._old[old_offset : old_offset + old.size]))
+            text = stored(new, characters(old, bytes(self._old[old_offset : old_offset + old.size])))
             self._new[new_offset : new_offset + len(text)] = text
             self.change.kept += 1
         else:

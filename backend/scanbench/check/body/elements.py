@@ -59,7 +59,7 @@ def byte_of(body: Body, place: Place, type: StringType, node: tree.Expression, r
     """A byte of a string that ends at its first 0, counted from 0; the 0 may be written, too, and whatever is after it read."""
     index = fold.convert(LINT, _index_value(body, node))
     if isinstance(index, Const) and not 0 <= int(index.value) <= type.capacity:
-        why = f"A {type} has the bytes 0..{type.capacity}, the last one for the 16#00 at its end; not {index.value}."
+        why = f"A {type} has the bytes 0..{type.capacity}, the last one for the 16#00 at its end; not {index.value!r}."
         raise body.report.reject("T012", why, node.span)
     if read:
         used(body, Allowance.STRING_FROM_ZERO, node.span, f"`{shown(node)}` counts from 0", f"`{shown(node)} + 1`")
