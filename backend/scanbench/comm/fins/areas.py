@@ -85,6 +85,20 @@ def swapped(data: bytes) -> bytes:
     return bytes(turned)
 
 
+def word_code(area: str) -> int | None:
+    """The code of the words of an area, by its name: CIO, W, H, A, D, or a bank E0 to E18; None where there is none."""
+    code = next((code for code, name in _WORDS.items() if name == area), None)
+    if code is not None or area[:1] != "E":
+        return code
+    try:
+        bank = int(area[1:], 16)
+    except ValueError:
+        return None
+    if bank < _BANKS:
+        return _BANK_WORDS + bank
+    return _UPPER_WORDS + bank - _BANKS if bank < _BANKS + _UPPER_BANKS else None
+
+
 def element(model: Model, code: int, address: int, bit: int) -> Element:
     """What an area code and an address mean; `Refused` where the model has no such memory."""
     if code in (_FLAG, _FORCED_FLAG):
