@@ -273,8 +273,10 @@ def _property(
     if word == "PROPERTY":
         _variables_of_property(c, name)
     while word == "PROPERTY" and (part := _part(c)):
+        before, _ = _modifiers(c)
         c.take()
         own_access, _ = _modifiers(c)
+        own_access = before if own_access == "PUBLIC" else own_access
         sections = parse_declaration.sections(c)
         body = _whole_body(c) if not _part(c) else ()
         shown = own_access if own_access != "PUBLIC" else access
@@ -301,9 +303,10 @@ def _variables_of_property(c: Cursor, name: int) -> None:
 
 
 def _part(c: Cursor) -> str:
-    """GET or SET, when that begins a part of a property."""
-    word = c.word()
-    return word if word in ("GET", "SET") and c.texts[c.at + 1] not in (":=", "(", ".", "[") else ""
+    """GET or SET, when that begins a part of a property; before it or after it is who may use it."""
+    at = c.at + (c.word() in parse_declaration.ACCESS)
+    word = c.texts[at].upper()
+    return word if word in ("GET", "SET") and c.texts[at + 1] not in (":=", "(", ".", "[") else ""
 
 
 def _missing(c: Cursor, end: str, of: str) -> None:

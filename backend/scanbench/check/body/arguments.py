@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 from scanbench.check.body import fold, targets
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.direct import as_argument
@@ -14,6 +15,7 @@ from scanbench.check.body.targets import declared_target
 from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import decode
+from scanbench.check.dialect import Allowance
 from scanbench.check.system.system_text import STOP
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
@@ -40,6 +42,7 @@ from scanbench.program.types import (
     INT,
     ArrayType,
     Elementary,
+    Enumeration,
     Kind,
     Member,
     OpenArray,
@@ -48,6 +51,7 @@ from scanbench.program.types import (
     StringType,
     Subrange,
     Type,
+    base_of,
     initial_of,
     is_derived,
 )
@@ -278,6 +282,10 @@ def _bindable(body: Body, member: Member, place: Place, value: tree.Expression) 
         count = actual.dimensions if isinstance(actual, OpenArray) else len(actual.bounds)
         if count == formal.dimensions and actual.element == formal.element:
             return place
+    if isinstance(actual, Enumeration) and formal == base_of(actual) and not member.constant:
+        told = f"The in-out `{member.name}` is {formal}, and may write any number to `{shown(value)}`"
+        if allowed(body, Allowance.ENUM_NUMBERS, value.span, told, f"`{formal.name}_TO_{actual.name}(...)`"):
+            return replace(place, type=formal)
     raise body.report.reject(
         "T005", f"The in-out `{member.name}` is {formal}; {actual} cannot be bound to it.", value.span
     )

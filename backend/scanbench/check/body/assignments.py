@@ -169,9 +169,12 @@ def condition(body: Body, node: tree.Expression) -> Expr:
 
 
 def _copied(body: Body, type: Type, node: tree.Assignment) -> bool:
-    """Whether the dialect copies all that an instance has to one of the same block, and `value` is such a one."""
-    if not isinstance(type, Record) or type.kind is not Kind.BLOCK or not isinstance(node.value, VARIABLES):
+    """Whether the dialect copies all that an instance has to one of the same block, and `value` is such a one; or a structure
+    with instances in it."""
+    if not isinstance(type, Record) or not isinstance(node.value, VARIABLES):
         return False
+    if type.kind is not Kind.BLOCK and body.declarations.incomplete:
+        return False  # links of what waits for an address are not copied
     mark = body.report.mark()
     given = body.place(node.value)[0].type
     body.report.undo(mark)

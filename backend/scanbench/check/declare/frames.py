@@ -79,9 +79,12 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
 
 
 def _temporary_block(declared: Declarations, member: Member, where: str) -> None:
-    """An instance that lasts for one call, where the dialect has that; not where its references are to have a start value."""
-    bound = any(owner is part for owner, _, _ in declared.start_references for part in _parts(member.type))
-    if Allowance.BLOCK_TEMPORARIES not in declared.dialect.allows or bound or declared.incomplete:
+    """An instance that lasts for one call, where the dialect has that; not where something in it is to have a reference of its
+    own from the start."""
+    parts = [*_parts(member.type)]
+    bound = any(owner is part for owner, _, _ in declared.start_references for part in parts)
+    waits = declared.incomplete and any(each.incomplete for part in parts for each in part.members.values())
+    if Allowance.BLOCK_TEMPORARIES not in declared.dialect.allows or bound or waits:
         declared.report.error(
             "D008", f"An instance of {member.type.name} must keep its state; not in a {where}.", member.span
         )

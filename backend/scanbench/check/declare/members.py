@@ -158,15 +158,18 @@ def _incomplete(
             return _declare(declared, owner, replace(variable, address=None), section, False, False)
         declared.report.error("D005", "`AT %I*` is for elementary data in VAR and VAR_GLOBAL.", span)
         return None
-    if variable.initial is not None:
+    starts = initial_of(made)
+    if variable.initial is not None and Allowance.UNLINKED_ADDRESSES in declared.dialect.allows:
+        used = f"`{variable.name}` waits for an address, and has a value until then"
+        declared.report.warn("W006", said(declared.dialect, Allowance.UNLINKED_ADDRESSES, used), span)
+        starts = initial_image(declared, variable.initial, made)
+    elif variable.initial is not None:
         declared.report.error("D004", "Give this its initial value in VAR_CONFIG, with its address.", span)
     type = Reference(f"REFERENCE TO {made.name}", Kind.REF, SLOT_BYTES, made, automatic=True)
     member = Member(variable.name, type, section, variable.span, incomplete=(variable.address or "").upper())
     declared.incomplete = True
     owner.place(member)
-    owner.place(
-        Member(own_memory(variable.name), made, Section.VAR, variable.span, initial=initial_of(made), hidden=True)
-    )
+    owner.place(Member(own_memory(variable.name), made, Section.VAR, variable.span, initial=starts, hidden=True))
     return member
 
 

@@ -12,7 +12,7 @@ from scanbench.check.declare.members import own_memory
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import Program
 from scanbench.program.tasks import AccessPath
-from scanbench.program.types import SLOT_BYTES, ArrayType, Member, Record, Section, Type
+from scanbench.program.types import SLOT_BYTES, ArrayType, Member, Record, Section, Type, initial_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.syntax import tree
 
@@ -69,6 +69,9 @@ class Settings:
             reference = offset | (bit or 0) << 32
             slot = symbol.slots[0]
             self._image[slot : slot + SLOT_BYTES] = reference.to_bytes(SLOT_BYTES, "little")
+            declared = bytes(self._image[waiting[2] : waiting[2] + type.size])
+            if declared != initial_of(type):  # a value that the declaration itself gives
+                self._write(offset, bit, declared)
             del self._open[slot]
         elif symbol.slots:
             raise self._report.reject("D005", f"`{setting.name}` needs an address here: `AT %...`.", setting.span)
