@@ -25,6 +25,9 @@ class State:
     seen: dict[int, bool] = field(default_factory=dict)
     """By edge, what it saw last."""
     links: dict[str, bool] = field(default_factory=dict)
+    noted: list[tuple[bool, bool | None]] = field(default_factory=list)
+    """Of each contact and coil in the order of the text: the value of its variable, as it is read or written there, and the power
+    after a contact; None of a coil."""
 
 
 Run = Callable[[State, bool], bool | None]
@@ -99,10 +102,12 @@ class Maker:
         number = next(self.numbers)
 
         def run(state: State, power: bool) -> bool:
-            value = state.values[name]
+            value = seen = state.values[name]
             if mode in ("P", "N"):
                 value = self._edge(state, number, mode, value)
-            return power and value != (mode == "/")
+            after = power and value != (mode == "/")
+            state.noted.append((seen, after))
+            return after
 
         return run
 
@@ -116,6 +121,7 @@ class Maker:
                 state.values[name] = self._edge(state, number, mode, power)
             else:
                 state.values[name] = power != (mode == "/")
+            state.noted.append((state.values[name], None))
             return power
 
         return run

@@ -91,7 +91,7 @@ class Debugging:
                 return bool(message.breakpoints or self.debugger.breakpoints.placed or self._waiting)
             case debug_protocol.SetCoverage():
                 return message.on or bool(self._waiting)
-            case debug_protocol.Step() | debug_protocol.WantPlaces():
+            case debug_protocol.Step() | debug_protocol.WantPlaces() | debug_protocol.WantFlow():
                 return True
         return False
 

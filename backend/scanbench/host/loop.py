@@ -19,6 +19,7 @@ from scanbench.host.covering import Covering
 from scanbench.host.debugcode import Debuggable, Probed
 from scanbench.host.debugging import Debugging
 from scanbench.host.driving import Driving, driven_of
+from scanbench.host.flows import FlowsOf
 from scanbench.host.link import Link
 from scanbench.host.lookup import words_found
 from scanbench.host.observed import Observable
@@ -65,6 +66,7 @@ class Loop:
         self._services = Services(timeline, self._pacer, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
         self._answers = Answers(timeline, self._services, link, self._wants_tick)
+        self._flows = FlowsOf(timeline, link)
         self._communication = Communication(timeline, self._debugger, self._services, link)
         self._driving = Driving(
             timeline, self._pacer, self._debugger, self._services, self._answers, self.traces, driven
@@ -137,6 +139,9 @@ class Loop:
                 self._driving.move()
                 self._tick = True
             elif self._driving.waits:
+                if self._flows.waiting:
+                    self._flows.answer()
+                    continue
                 self._wake.wait()
                 self._wake.clear()
                 self._rested = True
@@ -162,7 +167,8 @@ class Loop:
     def _run(self) -> None:
         resource, pacer = self.resource, self._pacer
         first, busy = resource.header.scan, resource.measured.busy_ns
-        stop = self._debugger.run(pacer.scans, pacer.pace)
+        begin = self._flows.begin()
+        stop = self._debugger.run(pacer.scans if begin is None else 1, pacer.pace)
         self.traces.drain()
         scan = resource.header.scan
         pacer.ran(scan - first, stop.reason is Reason.CONDITION, scan)
@@ -171,6 +177,8 @@ class Loop:
         if pacer.paused or stop.reason is Reason.HALTED:
             self._tick = True
         pacer.worked(resource.measured.busy_ns - busy)
+        if begin is not None:
+            self._flows.ran(begin)
 
     def _serve(self, message: object) -> None:
         match message:
@@ -220,6 +228,8 @@ class Loop:
         elif self.debugging.ready(message):
             if isinstance(message, debug_protocol.Step):
                 self._driving.step(message)
+            elif isinstance(message, debug_protocol.WantFlow):
+                self._flows.ask(message)
             else:
                 self.debugging.serve(message)
                 self._services.entered()

@@ -61,6 +61,17 @@ class Onlooker(Hook, Protocol):
         """Something was entered before the statement that is to begin."""
 
 
+class OfScan(Onlooker, Protocol):
+    """Listens to one scan that is run again."""
+
+    @property
+    def listen(self) -> Listen:
+        """What it is called for as the scan begins."""
+
+    def over(self) -> None:
+        """The scan has run, or is halted; the image is still that of then."""
+
+
 class Insider(Protocol):
     """Enters something by itself after a statement of one scan, having seen what that wrote."""
 

@@ -7,6 +7,7 @@ from typing import Protocol, TypeVar
 
 from scanbench.debug.bound_to import Bound
 from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.debug.flow_shown import FlowAsked, Flows
 from scanbench.store.records import Json
 from scanbench.typed import BadValue, make_kept
 from scanbench.wire import debugging as debug_protocol
@@ -118,6 +119,10 @@ class Debugging:
     async def binding(self, path: str) -> Bound:
         """What an in-out is bound to; `Refused` when there is none of this path."""
         return (await self._ask(lambda ref: debug_protocol.WantBinding(ref, path), debug_protocol.BindingIs)).bound
+
+    async def flow(self, asked: FlowAsked) -> Flows:
+        """What the code of an instance saw; `Refused` where there is no such instance."""
+        return (await self._ask(lambda ref: debug_protocol.WantFlow(ref, asked), debug_protocol.FlowIs)).flows
 
     # ---- from the host --------------------------------------------------------------------------------------------
 

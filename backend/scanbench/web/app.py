@@ -31,6 +31,7 @@ from scanbench.web.routes import communication as routes_communication
 from scanbench.web.routes import debug as routes_debug
 from scanbench.web.routes import dialects as routes_dialects
 from scanbench.web.routes import errors as routes_errors
+from scanbench.web.routes import flow as routes_flow
 from scanbench.web.routes import git as routes_git
 from scanbench.web.routes import instances as routes_instances
 from scanbench.web.routes import invitations as routes_invitations
@@ -100,7 +101,7 @@ def bare_app() -> FastAPI:
     )  # fmt: skip
     for routes in (
         routes_instances, routes_dap, routes_lsp, routes_errors, routes_sweeps, routes_records, routes_projects, routes_archives, routes_git, routes_user_errors,
-        routes_models, routes_invitations, routes_memory, routes_communication, routes_binding, routes_debug, routes_dialects, routes_libraries, routes_traces, routes_values, routes_watch, routes_verify,
+        routes_models, routes_invitations, routes_memory, routes_communication, routes_binding, routes_flow, routes_debug, routes_dialects, routes_libraries, routes_traces, routes_values, routes_watch, routes_verify,
         routes_past,
         routes_campaigns,
     ):  # fmt: skip

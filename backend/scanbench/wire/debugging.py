@@ -8,6 +8,7 @@ from typing import Literal
 
 from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.debug.flow_shown import FlowAsked, Flows
 from scanbench.debug.shown import FrameInfo, ScopeInfo, VariableInfo
 from scanbench.public import Public
 from scanbench.taps.covered import CoveredFile
@@ -136,6 +137,15 @@ class WantBinding:
 
 
 @dataclass(frozen=True, slots=True)
+class WantFlow:
+    """What the code of an instance saw in the last scan, and in the one that is halted; answered with `FlowIs`. While the PLC
+    runs it is the scan that runs next."""
+
+    ref: int
+    asked: FlowAsked
+
+
+@dataclass(frozen=True, slots=True)
 class SetCoverage:
     """Notes what is reached from now on, or no longer; `reset` forgets what was noted. Answered with `Ack`."""
 
@@ -238,6 +248,14 @@ class BindingIs:
 
 
 @dataclass(frozen=True, slots=True)
+class FlowIs:
+    """Answer to `WantFlow`."""
+
+    ref: int
+    flows: Flows
+
+
+@dataclass(frozen=True, slots=True)
 class Coverage(Public):
     """Told while coverage is on, whenever something more was reached, and when it is switched."""
 
@@ -259,6 +277,6 @@ class CoverageIs:
 
 DebugRequest = (
     SetBreakpoints | Step | WantStack | WantTasks | WantScopes | WantVariables | Evaluate | SetExpression | WantPlaces | WantBinding
-    | SetCoverage | WantCoverage
+    | SetCoverage | WantCoverage | WantFlow
 )  # fmt: skip
 __all__ = ["BoundTo", "FrameInfo", "ScopeInfo", "VariableInfo"]

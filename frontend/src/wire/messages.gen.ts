@@ -821,6 +821,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/flow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Power and values at each element of a POU (a PROGRAM, a block, a FUNCTION, a method) as the code of the instance `path` saw them: in the scan that runs next while the PLC runs, in the last one and in the halted one while it waits, in that of the past that is shown
+         * @description Power and values at each element of a POU (a PROGRAM, a block, a FUNCTION, a method) as the code of the instance `path` saw them: in the scan that
+         *     runs next while the PLC runs, in the last one and in the halted one while it waits, in that of the past that is shown. `call`: which of several
+         *     calls in the scan, 0 for the last one; `first` and `last`: the lines whose values are wanted.
+         */
+        get: operations["get_instance_flow"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/force": {
         parameters: {
             query?: never;
@@ -5228,6 +5250,103 @@ export interface components {
             text: string;
             /** Version */
             version: number;
+        };
+        /**
+         * Flow
+         * @description One call of the instance in one scan, up to its end or to where the scan is halted.
+         */
+        Flow: {
+            /**
+             * Call
+             * @description Which of these is told here, from 1; 0 where there is none.
+             */
+            call: number;
+            /**
+             * Calls
+             * @description How often the scan has called the instance; 0: it was not called, so no element ran.
+             */
+            calls: number;
+            /**
+             * Elements
+             * @description Those that ran, in the order of the text. Whatever is not here was jumped over, or left out as EN or a condition said so.
+             */
+            elements: components["schemas"]["FlowElement"][];
+            /** Scan */
+            scan: number;
+            /**
+             * Whole
+             * @description The scan ran to its end. False: it is halted, and what comes later is not in here.
+             */
+            whole: boolean;
+            /**
+             * Wires
+             * @description The wires of the function block diagrams that ran.
+             */
+            wires: components["schemas"]["FlowValue"][];
+        };
+        /**
+         * FlowElement
+         * @description A contact, coil, box, line or step that ran.
+         */
+        FlowElement: {
+            /**
+             * Column
+             * @description Where it begins in the text, from 1.
+             */
+            column: number;
+            /** Line */
+            line: number;
+            /**
+             * Power
+             * @description The power after a contact, a box or a link; None where the element has none of its own (a coil hands on what it gets),
+             *     or where it is not known.
+             */
+            power: boolean | null;
+            /**
+             * Runs
+             * @description How often it ran in this call: several times where a jump goes back. Values and power are those of the last time.
+             */
+            runs: number;
+            /**
+             * Values
+             * @description In the order of use; of a variable that is read and written both.
+             */
+            values: components["schemas"]["FlowValue"][];
+        };
+        /**
+         * Flows
+         * @description What is known now.
+         */
+        Flows: {
+            /** File */
+            file: string;
+            /**
+             * Flows
+             * @description The newest first. Where a scan is halted that scan, as far as it has come, and then the one before it, which was whole.
+             */
+            flows: components["schemas"]["Flow"][];
+            /**
+             * Program Version
+             * @description The program that ran: the lines are those of its text.
+             */
+            program_version: number;
+            /**
+             * Refused
+             * @description Why there are none, or not both.
+             */
+            refused: string;
+        };
+        /**
+         * FlowValue
+         * @description A variable, as the POU names it, and its value when the element read it, or after the element wrote it.
+         */
+        FlowValue: {
+            /** Name */
+            name: string;
+            /** Text */
+            text: string;
+            /** Written */
+            written: boolean;
         };
         /**
          * Force
@@ -11710,6 +11829,43 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    get_instance_flow: {
+        parameters: {
+            query: {
+                call?: number;
+                first?: number;
+                last?: number;
+                path?: string;
+                pou: string;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Flows"];
+                };
             };
         };
     };

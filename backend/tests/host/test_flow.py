@@ -1,0 +1,88 @@
+"""What the code saw, asked of the process of a PLC: while it runs, halted, in the past, on native code."""
+
+from pathlib import Path
+
+from scanbench.debug.flow_shown import FlowAsked, Flows
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import host as protocol
+from tests.host.child import Child
+from tests.host.test_host_debugging import at_line, set_breakpoints
+
+BELT = """\
+FUNCTION_BLOCK Belt
+VAR_INPUT go : BOOL; END_VAR
+VAR on, off, done : BOOL; END_VAR
+RUNG
+    [go] (on)
+END_RUNG
+RUNG
+    [on] (off)
+    (R on)
+END_RUNG
+RUNG
+    [on] (done)
+END_RUNG
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n : DINT; a, b : Belt; END_VAR
+n := n + 1;
+a(go := n MOD 2 = 0);
+b(go := n MOD 2 = 1);
+END_PROGRAM
+"""
+
+
+def flow_of(child: Child, instance: str = "Main.a", pou: str = "Belt") -> Flows:
+    asked = FlowAsked(pou, instance)
+    return child.ask(lambda ref: debug_protocol.WantFlow(ref, asked), debug_protocol.FlowIs).flows
+
+
+def powers(flows: Flows, number: int = 0) -> dict[int, bool | None]:
+    """Of the first element of each line."""
+    found: dict[int, bool | None] = {}
+    for each in flows.flows[number].elements:
+        found.setdefault(each.line, each.power)
+    return found
+
+
+def test_a_plc_that_runs_tells_of_the_scan_that_it_runs_next(tmp_path: Path) -> None:
+    with Child(tmp_path / "a.run", BELT, tmp_path / "cache") as child:
+        one, other = flow_of(child), flow_of(child)
+        assert [each.whole for each in (*one.flows, *other.flows)] == [True, True]
+        assert one.flows[0].scan < other.flows[0].scan
+        even = one.flows[0].scan % 2 == 1  # n is the scan's number and one
+        assert powers(one) == {5: even, 8: even, 9: None, 12: False}
+        assert one.file == "main.st"
+        child.ask(lambda ref: protocol.Drive(ref, "pause", None, "Ann"), protocol.Ack)
+        child.until(lambda state: state.paused)
+        last = flow_of(child)
+        state = child.until(lambda state: state.paused)
+        assert [each.scan for each in last.flows] == [state.scan - 1]
+        assert flow_of(child) == last
+
+
+def test_a_halted_plc_tells_of_this_scan_and_of_the_one_before(tmp_path: Path) -> None:
+    with Child(tmp_path / "a.run", BELT, tmp_path / "cache") as child:
+        flow_of(child)
+
+        set_breakpoints(child, at_line(8, instance="Main.b"))
+        halt = child.halted()
+        flows = flow_of(child, "Main.b")
+        assert [(each.scan, each.whole) for each in flows.flows] == [(halt.scan, False), (halt.scan - 1, True)]
+        odd = halt.scan % 2 == 0
+        assert powers(flows) == {5: odd}
+        assert powers(flows, 1) == {5: not odd, 8: not odd, 9: None, 12: False}
+        assert [len(each.elements) for each in flow_of(child, "Main.a").flows] == [7, 7]
+        answer = child.ask(lambda ref: protocol.Travel(ref, halt.scan - 1, "Ann"), protocol.Ack)
+        assert answer.ok, answer.message
+        past = flow_of(child, "Main.b")
+        assert [(each.scan, each.whole) for each in past.flows] == [(halt.scan - 2, True)]
+        assert powers(past)[5] is odd
+
+
+def test_what_is_not_there_is_refused(tmp_path: Path) -> None:
+    with Child(tmp_path / "a.run", BELT, tmp_path / "cache") as child:
+        asked = FlowAsked("Belt", "Main.nobody")
+        answer = child.ask(lambda ref: debug_protocol.WantFlow(ref, asked), protocol.Ack)
+        assert not answer.ok
+        assert "nobody" in answer.message
