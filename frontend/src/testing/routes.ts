@@ -38,6 +38,7 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "", () => someApp(instance()));
   on("GET", "/instances", () => [instance()]);
   on("GET", "/instances/*/model", () => MODEL);
+  on("GET", "/instances/*/flow", () => ({ file: "", program_version: 1, flows: [], refused: "" }));
   for (const what of [
     "symbols",
     "complete",

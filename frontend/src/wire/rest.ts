@@ -13,6 +13,7 @@ import type {
   CommunicationServerSettings,
   FileInfo,
   FileText,
+  Flows,
   GenerateOne,
   HistoryOfVersion,
   HistoryVersion,
@@ -307,6 +308,15 @@ export const rest = {
 
   binding: (instance: number, path: string) =>
     json<Binding>("GET", `/instances/${instance}/binding?path=${encodeURIComponent(path)}`),
+
+  flow: (
+    instance: number,
+    { pou, path, call, first, last }: { pou: string; path: string; call: number; first: number; last: number },
+  ) =>
+    json<Flows>(
+      "GET",
+      `/instances/${instance}/flow?${new URLSearchParams({ pou, path, call: String(call), first: String(first), last: String(last) })}`,
+    ),
 
   memoryPlace: (instance: number, path: string) =>
     json<MemoryPlace>("GET", `/instances/${instance}/memory?path=${encodeURIComponent(path)}`),

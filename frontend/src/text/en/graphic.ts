@@ -17,6 +17,18 @@ export const graphic = {
   "graphic.contact.negated": "Closed contact {name}",
   "graphic.contact.rising": "Contact {name}, when it rises",
   "graphic.field.bad": "Write one element, as in the text of a rung.",
+  "graphic.flow.call": "call {call} of {calls}",
+  "graphic.flow.earlier": "The call before",
+  "graphic.flow.hint":
+    "Power and values are those that the code saw at each element in this scan: the scan was run again, and noted. While the PLC runs it is a scan now and then.",
+  "graphic.flow.last": "as of the last scan",
+  "graphic.flow.later": "The next call",
+  "graphic.flow.now": "now {value}",
+  "graphic.flow.scan": "As the code saw it in scan {scan}",
+  "graphic.flow.seen": "{name}: seen here {value}",
+  "graphic.flow.seen.now": "{name}: seen here {value}, now {now}",
+  "graphic.flow.skipped": "did not run in this scan",
+  "graphic.flow.uncalled": "not called in this scan",
   "graphic.fromvalues": "From values",
   "graphic.fromvalues.hint":
     "Power, and whether a condition holds, are computed from the values after the scan, not noted while the program ran. After an edge contact, a condition that only the PLC computes, or the result of a box it is not known: dashed lines.",

@@ -19,6 +19,18 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.contact.negated": "b接点 {name}",
   "graphic.contact.rising": "接点 {name}（立ち上がり）",
   "graphic.field.bad": "ラングのテキストと同じ書き方で要素を1つ書いてください。",
+  "graphic.flow.call": "{calls} 回中 {call} 回目の呼び出し",
+  "graphic.flow.earlier": "前の呼び出し",
+  "graphic.flow.hint":
+    "電力と値は、このスキャンで各要素のコードが実際に見たものです。スキャンを再実行して記録しました。PLC の実行中は、ときどきのスキャンを示します。",
+  "graphic.flow.last": "前回のスキャンの値",
+  "graphic.flow.later": "次の呼び出し",
+  "graphic.flow.now": "現在 {value}",
+  "graphic.flow.scan": "スキャン {scan} でコードが見た値",
+  "graphic.flow.seen": "{name}: ここで見た値 {value}",
+  "graphic.flow.seen.now": "{name}: ここで見た値 {value}、現在 {now}",
+  "graphic.flow.skipped": "このスキャンでは実行されませんでした",
+  "graphic.flow.uncalled": "このスキャンでは呼び出されませんでした",
   "graphic.fromvalues": "値から計算",
   "graphic.fromvalues.hint":
     "電力と条件の成立は、スキャン後の値から計算したもので、プログラムの実行中に記録したものではありません。エッジ接点、PLC だけが計算する条件、ボックスの結果より後は不明なため破線で示します。",

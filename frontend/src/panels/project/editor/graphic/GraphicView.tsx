@@ -19,6 +19,7 @@ import { Icon } from "../../../../ui/Icon";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
+import { FlowNote } from "./FlowNote";
 import { marksOf, togglePart } from "./marks";
 import { NameField } from "./NameField";
 import { PartRow } from "./PartRow";
@@ -180,6 +181,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     );
   }
 
+  const cursorPart = drawn[cursor.rung];
+  const cursorPou =
+    cursorPart && pouAt(pous, path, (actionOf(drawn, cursorPart)?.chart ?? cursorPart).found.line, text);
   const editable = drawn[cursor.rung]?.kind === "rung";
   const active = spotsOf(drawn[cursor.rung]).find((each) => sameElement(each.place, cursor.place));
   return (
@@ -212,6 +216,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                 style={{ transform: `translateY(${item.start}px)`, height: item.size }}
               >
                 <PartRow
+                  path={path}
                   part={rung}
                   number={item.index + 1}
                   action={action?.name ?? null}
@@ -230,10 +235,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         </div>
       </div>
       <div className="netnote faint">
-        <span className="row tight" title={t("graphic.fromvalues.hint")}>
-          <Icon name="info" small />
-          {t("graphic.fromvalues")}
-        </span>
+        <FlowNote path={path} part={drawn[cursor.rung]} place={cursor.place} pou={cursorPou} />
         <span className="cut grow" role="status">
           {editing.refused || t(readOnly ? "graphic.readonly" : editable ? "graphic.keys" : "graphic.keys.look")}
         </span>

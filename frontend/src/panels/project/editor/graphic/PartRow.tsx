@@ -1,4 +1,5 @@
-import { type ReactNode, useEffect, useRef } from "react";
+import { type ReactNode, useEffect, useRef, useState } from "react";
+import type { PartFlow } from "../../../../logic/graphic/flow";
 import type { Drawing, Place } from "../../../../logic/graphic/ladderLayout";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import type { Twice } from "../../../../logic/graphic/writers";
@@ -11,6 +12,7 @@ import type { Pou } from "../../../../wire/types";
 import { ChartPicture } from "./ChartPicture";
 import { DiagramPicture } from "./DiagramPicture";
 import { clear } from "./follow";
+import { followFlow } from "./followFlow";
 import { showRung } from "./live";
 import { showChart } from "./liveChart";
 import { showDiagram } from "./liveDiagram";
@@ -18,6 +20,7 @@ import type { PartMarks } from "./marks";
 import { RungDrawing } from "./RungDrawing";
 
 interface Props {
+  path: string;
   part: DrawnPart;
   number: number;
   /** The action of a chart that it is written in. */
@@ -34,9 +37,10 @@ interface Props {
 }
 
 /** One rung, network or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function PartRow({ part, number, action, pou, id, cursor, naming, marks, twice }: Props) {
+export function PartRow({ path, part, number, action, pou, id, cursor, naming, marks, twice }: Props) {
   const { found, readable } = part;
   const { label, title, comment, off } = found.head;
+  const [said, setSaid] = useState("");
   const headline = part.kind === "chart" ? (pou?.name ?? "") : title;
   return (
     <div
@@ -57,9 +61,19 @@ export function PartRow({ part, number, action, pou, id, cursor, naming, marks, 
           {off && <span className="st faint">{t("graphic.off")}</span>}
           {twice.length > 0 && <span className="st warn cut">{twice.map(sayTwice).join("; ")}</span>}
           {marks.halt && <span className="st halted">{marks.next === "" ? marks.halt.text : t("graphic.next")}</span>}
+          {said !== "" && <span className="st faint">{said}</span>}
           {!readable && <span className="st bad">{t("graphic.unread")}</span>}
         </div>
-        <Picture part={part} pou={pou} id={id} cursor={cursor} naming={naming} marks={marks} />
+        <Picture
+          path={path}
+          part={part}
+          pou={pou}
+          id={id}
+          cursor={cursor}
+          naming={naming}
+          marks={marks}
+          onSaid={setSaid}
+        />
         {!readable && <pre className="nettext">{found.text}</pre>}
       </div>
     </div>
@@ -67,13 +81,15 @@ export function PartRow({ part, number, action, pou, id, cursor, naming, marks, 
 }
 
 function Picture({
+  path,
   part,
   pou,
   id,
   cursor,
   naming,
   marks,
-}: Pick<Props, "part" | "pou" | "id" | "cursor" | "naming" | "marks">) {
+  onSaid,
+}: Pick<Props, "path" | "part" | "pou" | "id" | "cursor" | "naming" | "marks"> & { onSaid: (said: string) => void }) {
   const picture = useRef<HTMLDivElement>(null);
   const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou.name)));
   const members = useMembers(({ of }) => of);
@@ -90,13 +106,19 @@ function Picture({
   useEffect(() => {
     const svg = picture.current?.querySelector("svg");
     if (!svg || pou === undefined || !live) return;
-    const stop =
+    const shown =
       (rung && showRung(svg, rung, pou)) ||
       (diagram && showDiagram(svg, diagram, pou)) ||
       (chart && showChart(svg, chart, pou));
+    const stop = followFlow(part, path, pou, (flow) => {
+      shown?.onFlow(flow);
+      onSaid(wordsOf(flow));
+    });
     return () => {
-      stop?.();
+      stop();
+      shown?.stop();
       clear(svg);
+      onSaid("");
     };
   }, [rung, diagram, chart, pou, live, instance, members, forces]);
 
@@ -109,6 +131,16 @@ function Picture({
       {naming?.field}
     </div>
   );
+}
+
+/** What is to be said of a part whose elements did not all run, or that was called several times. */
+function wordsOf(flow: PartFlow | null): string {
+  if (!flow) return "";
+  const { state, call, calls } = flow;
+  if (state === "uncalled") return t("graphic.flow.uncalled");
+  if (state === "skipped") return t("graphic.flow.skipped");
+  const which = calls > 1 ? t("graphic.flow.call", { call, calls }) : "";
+  return [which, state === "last" ? t("graphic.flow.last") : ""].filter(Boolean).join(", ");
 }
 
 const sayTwice = ({ name, rungs }: Twice) =>

@@ -121,6 +121,7 @@ function Name({ text, x, y }: { text: string; x: number; y: number }) {
         transform={`translate(${x - widthOf(text) / 2 - 15},${y - 24})`}
         d="M1.5 5.5h7v4.5h-7zM3 5.5V3.7a2 2 0 0 1 4 0v1.8"
       />
+      <text className="seen" data-seen="" x={x} y={y + 24} />
     </>
   );
 }

@@ -1,5 +1,6 @@
 /** Values of variables as they are written in a POU, followed for a drawing: twenty times a second React would draw it again. */
 
+import type { PartFlow } from "../../../../logic/graphic/flow";
 import { pathOf } from "../../../../store/debug/seenAs";
 import { bindCell } from "../../../../store/plc/values";
 import { watch } from "../../../../store/plc/watches";
@@ -19,12 +20,20 @@ export interface Values {
 
 const truthOf = (text: string | null) => (text === "TRUE" ? true : text === "FALSE" ? false : null);
 
-const LIVE = ["on", "unsure", "closes", "enabled", "known", "forced"];
+/** A drawing that shows what is live. */
+export interface Shown {
+  stop: () => void;
+  /** What the code saw, or null where only values tell. */
+  onFlow: (flow: PartFlow | null) => void;
+}
+
+const LIVE = ["on", "unsure", "closes", "enabled", "known", "forced", "stale", "idle"];
 
 /** Takes out of a drawing what was live in it: a drawing that is not followed any more must not look as if it were. */
 export function clear(svg: SVGSVGElement): void {
   for (const each of svg.querySelectorAll(LIVE.map((name) => `.${name}`).join())) each.classList.remove(...LIVE);
-  for (const each of svg.querySelectorAll("[data-live], [data-value], [data-wirevalue]")) each.textContent = "";
+  for (const each of svg.querySelectorAll("[data-live], [data-value], [data-wirevalue], [data-seen]"))
+    each.textContent = "";
 }
 
 /** Calls `paint` now and with each change, at most once a frame, until the returned function is called. */

@@ -1,10 +1,13 @@
 /** Values and power of a rung, written to its elements directly. */
 
 import { type Condition, conditionOf, holdsBy, variablesOf } from "../../../../logic/graphic/condition";
+import { type PartFlow, seenPower, valueIn } from "../../../../logic/graphic/flow";
 import type { Drawing } from "../../../../logic/graphic/ladderLayout";
 import { closedBy, type Power, powerOf } from "../../../../logic/graphic/power";
+import { t } from "../../../../text";
 import type { Pou } from "../../../../wire/types";
-import { follow, type Values } from "./follow";
+import { follow, type Shown, type Values } from "./follow";
+import { isStill } from "./followFlow";
 
 /** The variables whose values a rung shows. */
 function variablesIn({ nodes, elements }: Drawing): Set<string> {
@@ -17,8 +20,8 @@ function variablesIn({ nodes, elements }: Drawing): Set<string> {
   return named;
 }
 
-/** Shows values and power in a drawing from now on, until the returned function is called. */
-export function showRung(svg: SVGSVGElement, drawing: Drawing, pou: Pou): () => void {
+/** Shows values and power in a drawing from now on, until the returned function is called: as the code saw them, else what values tell. */
+export function showRung(svg: SVGSVGElement, drawing: Drawing, pou: Pou): Shown {
   const parsed = new Map<string, Condition | null>();
   const conditionAt = (operand: string) => {
     const known = parsed.get(operand);
@@ -27,9 +30,66 @@ export function showRung(svg: SVGSVGElement, drawing: Drawing, pou: Pou): () => 
     parsed.set(operand, made);
     return made;
   };
-  return follow(pou, variablesIn(drawing), ({ text, forced }) =>
-    paintPower(svg, drawing, (operand) => holdsBy(conditionAt(operand), text), forced),
-  );
+  let flow: PartFlow | null = null;
+  let values: Values | null = null;
+  const paint = () => {
+    if (!values) return;
+    const { text, forced } = values;
+    if (flow) paintSeen(svg, drawing, flow, conditionAt, values);
+    else paintPower(svg, drawing, (operand) => holdsBy(conditionAt(operand), text), forced);
+  };
+  const stop = follow(pou, variablesIn(drawing), (now) => {
+    values = now;
+    paint();
+  });
+  return {
+    stop,
+    onFlow: (found) => {
+      flow = found;
+      paint();
+    },
+  };
+}
+
+function paintSeen(
+  svg: SVGSVGElement,
+  drawing: Drawing,
+  flow: PartFlow,
+  conditionAt: (operand: string) => Condition | null,
+  { text, forced }: Values,
+): void {
+  const power = seenPower(drawing, flow);
+  const still = isStill();
+  for (const wire of svg.querySelectorAll<SVGElement>("[data-node]")) {
+    const found = power[Number(wire.dataset.node)];
+    wire.classList.toggle("on", found?.power === true);
+    wire.classList.toggle("unsure", found?.power === null);
+    wire.classList.toggle("stale", found?.stale === true);
+  }
+  const groups = svg.querySelectorAll<SVGElement>("[data-element]");
+  drawing.elements.forEach(({ element, place, before, after }, index) => {
+    const group = groups[index];
+    if (!group) return;
+    const seen = flow.at.get(place.join("."));
+    group.classList.toggle("stale", seen?.stale === true);
+    if (element.kind !== "contact" && element.kind !== "coil") return;
+    const read = (name: string) => valueIn(seen, name);
+    const value = seen ? holdsBy(conditionAt(element.operand), read) : null;
+    const through = power[after]?.power === true;
+    const closed =
+      element.kind === "coil"
+        ? value === true
+        : power[before]?.power === true
+          ? through
+          : closedBy(element, () => value) === true;
+    group.classList.toggle("closes", closed);
+    group.classList.toggle("on", closed && (element.kind === "coil" || through));
+    group.classList.toggle("forced", forced(element.operand));
+    const [then, now] = [read(element.operand), text(element.operand)];
+    const apart = still && then !== null && now !== null && then !== now;
+    const note = group.querySelector("[data-seen]");
+    if (note) note.textContent = apart ? t("graphic.flow.now", { value: now }) : "";
+  });
 }
 
 function paintPower(
@@ -39,6 +99,8 @@ function paintPower(
   forced: Values["forced"],
 ): void {
   const power = powerOf(nodes, sends, truth);
+  for (const each of svg.querySelectorAll(".stale")) each.classList.remove("stale");
+  for (const each of svg.querySelectorAll("[data-seen]")) each.textContent = "";
   const has = (node: number) => power[node] === true;
   for (const wire of svg.querySelectorAll<SVGElement>("[data-node]")) {
     const node = Number(wire.dataset.node);

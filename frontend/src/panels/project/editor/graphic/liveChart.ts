@@ -3,10 +3,11 @@
 import type { ChartTransition } from "../../../../logic/graphic/chart";
 import type { ChartDrawing } from "../../../../logic/graphic/chartLayout";
 import { type Condition, conditionOf, holdsBy, truthBy, variablesOf } from "../../../../logic/graphic/condition";
+import { type PartFlow, type Seen, valueIn } from "../../../../logic/graphic/flow";
 import { type Drawing, layOut } from "../../../../logic/graphic/ladderLayout";
 import { type Power, powerOf } from "../../../../logic/graphic/power";
 import type { Pou } from "../../../../wire/types";
-import { follow, type Values } from "./follow";
+import { follow, type Shown, type Values } from "./follow";
 
 interface Test {
   variables: readonly string[];
@@ -34,8 +35,8 @@ function rungTest({ nodes, sends, end }: Drawing): Test {
   return { variables, shown: [], holds };
 }
 
-/** Shows steps, conditions and actions from now on, until the returned function is called. */
-export function showChart(svg: SVGSVGElement, { elements }: ChartDrawing, pou: Pou): () => void {
+/** Shows steps, conditions and actions until it is stopped: as the code saw them, else what values tell. */
+export function showChart(svg: SVGSVGElement, { elements }: ChartDrawing, pou: Pou): Shown {
   const tests = new Map<ChartTransition, Test>();
   const variables = new Set<string>();
   for (const { element } of elements) {
@@ -47,15 +48,34 @@ export function showChart(svg: SVGSVGElement, { elements }: ChartDrawing, pou: P
     for (const each of test.variables) variables.add(each);
   }
   const groups = svg.querySelectorAll<SVGElement>("[data-element]");
-  return follow(pou, variables, (values) => {
-    elements.forEach(({ element }, index) => {
+  let flow: PartFlow | null = null;
+  let known: Values | null = null;
+  const paint = () => {
+    const values = known;
+    if (!values) return;
+    elements.forEach(({ element, place }, index) => {
       const group = groups[index];
       if (!group) return;
-      if (element.kind === "step") paintStep(group, element.name, values);
-      else if (element.kind === "transition") paintTransition(group, element, tests.get(element), values);
-      else paintAction(group, element.action, values);
+      const seen = flow?.at.get(place.join("."));
+      group.classList.toggle("stale", seen?.stale === true);
+      if (element.kind === "step") paintStep(group, element.name, values, flow ? (seen ?? null) : undefined);
+      else if (element.kind === "transition") {
+        if (flow && element.rung === null) paintSeen(group, seen, tests.get(element));
+        else paintTransition(group, element, tests.get(element), values);
+      } else paintAction(group, element.action, values);
     });
+  };
+  const stop = follow(pou, variables, (now) => {
+    known = now;
+    paint();
   });
+  return {
+    stop,
+    onFlow: (found) => {
+      flow = found;
+      paint();
+    },
+  };
 }
 
 function write(group: SVGElement, what: string, text: string): void {
@@ -63,10 +83,19 @@ function write(group: SVGElement, what: string, text: string): void {
   if (place && place.textContent !== text) place.textContent = text;
 }
 
-function paintStep(group: SVGElement, name: string, { truth, text }: Values): void {
-  const active = truth(`${name}.X`) === true;
+/** `seen`: what was noted at a step that was active in the scan; null where it was not, undefined where only values tell. */
+function paintStep(group: SVGElement, name: string, { truth, text }: Values, seen: Seen | null | undefined): void {
+  const active = seen ? true : seen === null ? false : truth(`${name}.X`) === true;
   group.classList.toggle("on", active);
-  write(group, "time", active ? (text(`${name}.T`) ?? "") : "");
+  write(group, "time", active ? ((seen ? valueIn(seen, `${name}.T`) : null) ?? text(`${name}.T`) ?? "") : "");
+}
+
+/** A transition that was tested has its result, with the values that it was tested with; the others were not tested. */
+function paintSeen(group: SVGElement, seen: Seen | undefined, test: Test | undefined): void {
+  group.classList.toggle("on", seen?.power === true);
+  group.classList.toggle("unsure", seen !== undefined && seen.power === null);
+  group.classList.toggle("enabled", seen !== undefined);
+  write(group, "values", seen ? (test?.shown ?? []).map((each) => valueIn(seen, each) ?? "").join("  ") : "");
 }
 
 function paintTransition(group: SVGElement, { from }: ChartTransition, test: Test | undefined, values: Values): void {

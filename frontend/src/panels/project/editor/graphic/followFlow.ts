@@ -1,0 +1,49 @@
+/** What the code saw in one part of a drawing, followed while it is in sight. */
+
+import { type PartFlow, partFlow } from "../../../../logic/graphic/flow";
+import type { DrawnPart } from "../../../../logic/graphic/sheet";
+import { lookAtFlow, useFlow } from "../../../../store/debug/flow";
+import { useBench } from "../../../../store/plc/bench";
+import { usePlc } from "../../../../store/plc/plc";
+import { shownText, showsRan } from "../../../../store/project/shownProgram";
+import type { Flows, Pou } from "../../../../wire/types";
+import { builtLine, shownLine } from "../halt";
+
+/** The flow through a part; null where the text of the part is not the one that ran, or nothing is known. */
+export function flowOfPart(part: DrawnPart, path: string, flows: Flows | null): PartFlow | null {
+  if (!flows || flows.file !== path) return null;
+  const current = showsRan(path) || flows.program_version === useBench.getState().project?.version;
+  const { built, text } = shownText(path);
+  if (!current || !built.includes(part.found.text)) return null;
+  return partFlow(part, flows.flows, built === text ? (line) => line : (line) => shownLine(path, line));
+}
+
+/** Calls `paint` now and with each answer, until the returned function is called. */
+export function followFlow(
+  part: DrawnPart,
+  path: string,
+  pou: Pou,
+  paint: (flow: PartFlow | null) => void,
+): () => void {
+  const first = builtLine(path, part.found.line);
+  const stopLooking = lookAtFlow(pou.name, { first, last: first + part.found.text.split("\n").length });
+  let known: Flows | null = null;
+  const look = () => {
+    const flows = useFlow.getState().of.get(pou.name) ?? null;
+    if (flows === known) return;
+    known = flows;
+    paint(flowOfPart(part, path, flows));
+  };
+  const stop = useFlow.subscribe(look);
+  look();
+  return () => {
+    stop();
+    stopLooking();
+  };
+}
+
+/** Whether the values that are shown are those that the scan which was noted has left. While the PLC runs they are of a later one. */
+export function isStill(): boolean {
+  const { state } = usePlc.getState();
+  return state !== null && state.state !== "running";
+}
