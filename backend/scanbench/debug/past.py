@@ -9,6 +9,7 @@ from scanbench.debug.listener import Listener, Position
 from scanbench.debug.reverse import Raised, search
 from scanbench.engines.engine import Reason
 from scanbench.engines.probe import MakeProbed
+from scanbench.recording.again import statements_of
 from scanbench.recording.gaps import gap_before
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
@@ -102,7 +103,7 @@ class Past:
         begin = gap.until if gap is not None else timeline.recording.first_scan
         first = max(begin, scan - _EMPTY)
         for each in range(scan - 1, first - 1, -1):
-            found = timeline.statements(each)
+            found = statements_of(timeline, each)
             if isinstance(found, Refusal):
                 return found
             if found:

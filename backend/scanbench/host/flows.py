@@ -9,6 +9,7 @@ from collections import deque
 from scanbench.debug.flow import FlowHook
 from scanbench.debug.flow_shown import FlowAsked, Flows
 from scanbench.host.link import Link
+from scanbench.recording.again import kept_moment, listen_again
 from scanbench.recording.moment import Moment
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.clock import monotonic_ns
@@ -74,7 +75,7 @@ class FlowsOf:
             made.append(FlowHook(resource, asked, upto))
             return made[0]
 
-        refusal = self._timeline.listen_again(scan, make)
+        refusal = listen_again(self._timeline, scan, make)
         return refusal if refusal is not None else made[0]
 
     # ---- while it runs ----------------------------------------------------------------------------------------------
@@ -83,7 +84,7 @@ class FlowsOf:
         """Before the PLC runs: the state from which one scan is to be run again; then only that one is to run now."""
         if not self._waiting or monotonic_ns() < self._due or self._timeline.resource.begun:
             return None
-        return self._timeline.moment
+        return kept_moment(self._timeline)
 
     def ran(self, begin: Moment) -> None:
         """The scan has run."""
@@ -100,7 +101,7 @@ class FlowsOf:
                 return made[0]
 
             try:
-                self._timeline.listen_from(begin, make)
+                listen_again(self._timeline, begin.scan, make, begin)
                 self._post(request, Flows(made[0].file, begin.loaded.version, (made[0].flow,)))
             except UnknownPath as error:
                 self._refuse(request, error)

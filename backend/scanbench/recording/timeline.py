@@ -11,7 +11,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from scanbench.check.typed.condition import Condition, compile_condition
-from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.recording.blocks import Codec
@@ -27,7 +26,7 @@ from scanbench.recording.replay import NOT_AS_RECORDED, Diverged, open_at, repla
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.detect import Detect
-from scanbench.runtime.inside import HaltAt, Inside, OfScan
+from scanbench.runtime.inside import HaltAt, Inside
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.resource import Measured, Resource
@@ -216,52 +215,19 @@ class Timeline:
         of this count is next (`engines.debug`)."""
         return self._visit(scan, stay=True, count=count)
 
-    def statements(self, scan: int) -> int | Refusal:
-        """How many statements ran in a scan of the past."""
-        resource, found = self.resource, 0
-
-        def look() -> None:
-            nonlocal found
-            with resource.listening.instead(HaltAt(0), NOT_LISTENING):
-                while self.go_on(scan + 1).reason is Reason.INTERRUPTED:
-                    pass
-                found = resource.loaded.debugged().count
-
-        refusal = self._visit(scan, stay=False, look=look, begin=True)
-        return found if refusal is None else refusal
-
-    def listen_again(self, scan: int, make: Callable[[Resource], OfScan]) -> Refusal | None:
-        """Runs a scan of the past again, or the part of the PLC's next scan that has run, with somebody listening, and
-        comes back to what is shown. Of the PLC's next scan the listener has to halt it where that is halted."""
-
-        def look() -> None:
-            listener = make(self.resource)
-            with self.resource.listening.instead(listener, listener.listen):
-                while self.go_on(scan + 1).reason is Reason.INTERRUPTED:
-                    pass
-            listener.over()
-
-        return self._visit(scan, stay=False, look=look, begin=True)
-
-    @property
-    def moment(self) -> Moment:
-        """The state of the PLC in this seam, which can be gone back to by `listen_from`."""
-        found = Moment.of(self.resource)
-        return replace(found, journal=found.journal.prefix(len(found.journal)))
-
-    def listen_from(self, begin: Moment, make: Callable[[Resource], OfScan]) -> None:
-        """Runs the scan again before which the PLC was at this moment, with somebody listening. Only live."""
-        assert self._live is None
+    def look_at(self, scan: int, look: Callable[[], None], begin: Moment | None = None) -> Refusal | None:
+        """Goes to where a scan began, looks at it there, and comes back to what is shown. `begin` is the state of the PLC before the
+        scan, where somebody has kept it (only live): nothing has to be run up to there then."""
+        if begin is None:
+            return self._visit(scan, stay=False, look=look, begin=True)
         live = self._live = Moment.of(self.resource)
         try:
             begin.restore(self.resource)
-            listener = make(self.resource)
-            with self.resource.listening.instead(listener, listener.listen):
-                self.go_on(begin.scan + 1)
-            listener.over()
+            look()
         finally:
             live.restore(self.resource)
             self._live = None
+        return None
 
     def step(self, scans: int = 1) -> Refusal | None:
         """Shows a later scan of the past."""

@@ -11,6 +11,7 @@ from scanbench.debug.flow import FlowHook
 from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.program.program import Program
+from scanbench.recording.again import kept_moment, listen_again
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.symbols import UnknownPath
@@ -52,7 +53,7 @@ def flow_of(walker: Walker, asked: FlowAsked, scan: int, upto: int = 0) -> Flow:
         return hooks[0]
 
     before = walker.seen
-    assert walker.timeline.listen_again(scan, make) is None
+    assert listen_again(walker.timeline, scan, make) is None
     assert walker.seen == before
     return hooks[0].flow
 
@@ -304,7 +305,7 @@ def test_the_past_is_told_by_the_same_words(tmp_path: Path) -> None:
     first = flow_of(walker, FlowAsked("Belt", "Main.a"), 0)
     walker.run(30)
     assert flow_of(walker, FlowAsked("Belt", "Main.a"), 0) == first
-    begin = walker.timeline.moment
+    begin = kept_moment(walker.timeline)
     walker.run(1)
     made: list[FlowHook] = []
 
@@ -313,7 +314,7 @@ def test_the_past_is_told_by_the_same_words(tmp_path: Path) -> None:
         return made[0]
 
     here = walker.timeline.resource.state
-    walker.timeline.listen_from(begin, make)
+    assert listen_again(walker.timeline, begin.scan, make, begin) is None
     assert walker.timeline.resource.state == here
     assert made[0].flow == flow_of(walker, FlowAsked("Belt", "Main.a"), begin.scan)
 
