@@ -82,8 +82,9 @@ class Checked:
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
     """Checks all files of a project together. `interval_ns` is the interval of the task, unless a CONFIGURATION has one."""
     with without_collection():
-        files = [read(name, text) for name, text in program_files(sources).items()]
-        checker = checker_of(files, model, dialect=dialect_in(sources))
+        dialect = dialect_in(sources)
+        files = [read(name, text, dialect.defines) for name, text in program_files(sources).items()]
+        checker = checker_of(files, model, dialect=dialect)
         return with_user_errors(concluded(files, checker.report, checker.run(interval_ns)), sources, model)
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from enum import Enum, auto
 
 from scanbench.check.libraries.catalogue import library_of_file
-from scanbench.syntax.language_file import BYTES_SINCE, DialectName, language_of
+from scanbench.syntax.language_file import BYTES_SINCE, DialectName, defined_in, language_of
 
 
 class Allowance(Enum):
@@ -313,6 +313,8 @@ class Dialect:
     allows: frozenset[Allowance] = frozenset()
     prefixes: frozenset[str] = frozenset()
     """Names of libraries, in upper case, that mean nothing before a name: their texts are among the project's own."""
+    defines: frozenset[str] = frozenset()
+    """Names, in upper case, that the project defines for conditional pragmas."""
 
 
 _LOGIX = frozenset({Allowance.ROUNDING, Allowance.DINT_RESULTS})
@@ -355,6 +357,8 @@ def dialect_in(sources: Mapping[str, str]) -> Dialect:
     dialect = DIALECTS[language.dialect]
     if language.version < BYTES_SINCE:
         dialect = replace(dialect, allows=dialect.allows - {Allowance.STRING_BYTES})
+    if language.defines:
+        dialect = replace(dialect, defines=defined_in(sources))
     named = {*language.namespaces, *(library for file in sources if (library := library_of_file(file)))}
     return replace(dialect, prefixes=dialect.prefixes | {each.upper() for each in named}) if named else dialect
 

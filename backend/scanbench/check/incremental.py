@@ -150,7 +150,7 @@ class Project:
     def _retable(self, edited: Mapping[str, str]) -> None:
         """Takes other tables of inputs, which no body sees."""
         for name, text in edited.items():
-            self.files[name] = read(name, text)
+            self.files[name] = read(name, text, self.dialect.defines)
         self.checker.parsed = [file.file for file in self.files.values()]
         self._finish()
 
@@ -208,7 +208,7 @@ class Project:
     def check_all(self, sources: Mapping[str, str]) -> None:
         """Reads and checks everything."""
         with without_collection():
-            self.files = {name: read(name, text) for name, text in sources.items()}
+            self.files = {name: read(name, text, self.dialect.defines) for name, text in sources.items()}
         self.start()
 
     def _edits(self, name: str, text: str) -> list[_Edit] | None:

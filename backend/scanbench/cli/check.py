@@ -42,7 +42,7 @@ def check(
     checked = check_sources(sources.texts, find_model(model, sources))
     problems = (*checked.problems, *problems_of(checked.program, sources.texts))
     errors = sum(problem.severity is Severity.ERROR for problem in problems)
-    told = program_report(program_files(sources.texts), problems, sources.missing) if report or html else None
+    told = program_report(sources.texts, problems, sources.missing) if report or html else None
     if html is not None and told is not None:
         write_text(html, program_page(told, ", ".join(path.name or str(path) for path in paths)))
     if report and told is not None:

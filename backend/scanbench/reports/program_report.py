@@ -6,10 +6,12 @@ from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from scanbench.check.build import program_files
 from scanbench.check.libraries.catalogue import NO_CODE, library_of_file
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax import tree
 from scanbench.syntax.constructs import count_constructs
+from scanbench.syntax.language_file import defined_in
 from scanbench.syntax.parse_file import parse_file
 from scanbench.syntax.source import Source
 
@@ -86,10 +88,11 @@ STUB = "W008"
 
 
 def program_report(
-    texts: Mapping[str, str], problems: Sequence[Problem], missing: Collection[str] = ()
+    sources: Mapping[str, str], problems: Sequence[Problem], missing: Collection[str] = ()
 ) -> ProgramReport:
-    """The report of a program with these texts, in which its check found these problems. `missing` are libraries without a text."""
-    trees = {name: parse_file(Source(name, text))[0] for name, text in texts.items()}
+    """The report of a program of these files, in which its check found these problems. `missing` are libraries without a text."""
+    texts, defined = program_files(sources), defined_in(sources)
+    trees = {name: parse_file(Source(name, text, defined=defined))[0] for name, text in texts.items()}
     files = _files(trees, texts, problems)
     errors = [each for each in problems if each.severity is Severity.ERROR]
     return ProgramReport(

@@ -22,7 +22,7 @@ from scanbench.server.operator_panels import is_panel_file
 from scanbench.server.project_files import OWN_FILES
 from scanbench.server.twincat_project import ENDING, TwinCatProject, is_twincat_project, read_twincat_project
 from scanbench.syntax.imported import Project
-from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect
+from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect, language_of
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
 from scanbench.syntax.source import decode
 from scanbench.wire.refused import Refused
@@ -74,6 +74,7 @@ def pack(name: str, model: str, watch: Sequence[str], files: Mapping[str, str]) 
 
 def _twincat_project(name: str, files: Mapping[str, str]) -> dict[str, str]:
     """The `.plcproj` that lists the files of TwinCAT, with their folders; none where there are no such files."""
+    defines = language_of(files)[0].defines
     listed = sorted(path for path in files if path.lower().endswith(XML_ENDINGS))
     if not listed:
         return {}
@@ -89,6 +90,7 @@ def _twincat_project(name: str, files: Mapping[str, str]) -> dict[str, str]:
         "    <SchemaVersion>2.0</SchemaVersion>",
         f"    <ProjectGuid>{{{uuid5(NAMESPACE_URL, name)}}}</ProjectGuid>",
         f"    <Name>{escape(name)}</Name>",
+        *(f"    <CompilerDefines>{escape(', '.join(each))}</CompilerDefines>" for each in [defines] if each),
         "  </PropertyGroup>",
         "  <ItemGroup>",
         *compiled,

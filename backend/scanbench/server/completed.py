@@ -11,14 +11,16 @@ from scanbench.syntax.language_file import LANGUAGE_FILE, dialect_of, is_languag
 
 def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (), folder: str = "") -> dict[str, str]:
     """The files of a project at `folder`, with the texts of the libraries that they use. The names of these TwinCAT projects, whose
-    files are among them, may be written before other names.
+    files are among them, may be written before other names, and what they define is defined.
 
     Nothing is different in the strict language, which has no libraries.
     """
+    projects = [*projects]
     names = {name for project in projects for name in project.names if name.isidentifier()}
+    defines = {name for project in projects for name in project.defines}
     made = dict(files)
-    if names and any(map(is_language_file, made)):
-        made = with_namespaces(made, names, str(PurePath(folder, LANGUAGE_FILE)))
+    if (names or defines) and any(map(is_language_file, made)):
+        made = with_namespaces(made, names, str(PurePath(folder, LANGUAGE_FILE)), defines)
     libraries = used_libraries(made, dialect_of(made)[0])
     return made | {str(PurePath(folder, each.path)): each.text for each in libraries}
 

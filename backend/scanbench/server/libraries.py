@@ -4,7 +4,6 @@ import asyncio
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from scanbench.check.build import program_files
 from scanbench.check.libraries.catalogue import Library, catalogue, library_named, used_libraries
 from scanbench.reports.program_page import program_page
 from scanbench.reports.program_report import program_report
@@ -50,6 +49,4 @@ async def report_page(projects: Projects, id: int) -> str:
     """How much of what is saved of the project runs, as a page."""
     project, sources = await projects.get(id), await projects.sources(id)
     found = await projects.check(id, {})
-    return await asyncio.to_thread(
-        lambda: program_page(program_report(program_files(sources), found.problems), project.name)
-    )
+    return await asyncio.to_thread(lambda: program_page(program_report(sources, found.problems), project.name))

@@ -16,6 +16,7 @@ _REFERENCE = re.compile(
     re.DOTALL,
 )
 _NAMES = re.compile(r"<(?:Name|Title|DefaultNamespace)>\s*([^<]*?)\s*</")
+_DEFINES = re.compile(r"<CompilerDefines>([^<]*)</CompilerDefines>")
 _NAMESPACE = re.compile(r"<Namespace>\s*([^<]*?)\s*</Namespace>")
 
 
@@ -29,6 +30,8 @@ class TwinCatProject:
     """What others write before the names of this project, when it is their library."""
     references: tuple[tuple[str, str], ...]
     """Libraries: how each is called, and what is written before its names."""
+    defines: tuple[str, ...] = ()
+    """Names that are defined for conditional pragmas."""
 
 
 def is_twincat_project(path: str) -> bool:
@@ -43,7 +46,8 @@ def read_twincat_project(text: str) -> TwinCatProject:
     references = [(unescape(name).strip(), inside) for name, inside in _REFERENCE.findall(text)]
     named = {name: (_NAMESPACE.findall(inside) or [name])[0] for name, inside in references if name}
     names = dict.fromkeys(unescape(name) for name in _NAMES.findall(_REFERENCE.sub("", text)) if name)
-    return TwinCatProject(compiled, tuple(names), tuple(named.items()))
+    defines = re.findall(r"[A-Za-z_]\w*", " ".join(_DEFINES.findall(text)))
+    return TwinCatProject(compiled, tuple(names), tuple(named.items()), tuple(dict.fromkeys(defines)))
 
 
 def left_out(paths: Collection[str], projects: Mapping[str, TwinCatProject]) -> set[str]:

@@ -118,8 +118,8 @@ class Chunked:
         return changed
 
 
-def read(name: str, text: str) -> Chunked:
-    """Parses a file, chunk by chunk if it falls into chunks."""
+def read(name: str, text: str, defined: frozenset[str] = frozenset()) -> Chunked:
+    """Parses a file, chunk by chunk if it falls into chunks. `defined` are the names that the project defines."""
     if (
         len(text) > MAX_SIZE
         or is_stimulus(name)
@@ -127,12 +127,12 @@ def read(name: str, text: str) -> Chunked:
         or is_scl(name)
         or parse_foreign(Source(name, text))
     ):
-        return _whole(name, text)
+        return _whole(name, text, defined)
     source = Source(name, text)
     tokens, problems = tokenize(source)
     stretches = None if problems else _stretches(tokens, len(text))
     if stretches is None:
-        return _whole(name, text)
+        return _whole(name, text, defined)
     made = Chunked(name, text)
     above = counted = at = 0
     for start, end, single in stretches:
@@ -147,8 +147,8 @@ def read(name: str, text: str) -> Chunked:
     return made
 
 
-def _whole(name: str, text: str) -> Chunked:
-    source = Source(name, text)
+def _whole(name: str, text: str, defined: frozenset[str]) -> Chunked:
+    source = Source(name, text, defined=defined)
     file, problems = parse_file(source)
     return Chunked(name, text, [Chunk(0, source, file, problems)])
 

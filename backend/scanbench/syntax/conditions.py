@@ -1,7 +1,7 @@
 """Conditional pragmas of CODESYS and TwinCAT: `{define x}`, `{undefine x}`, `{IF defined (x)}`, `{ELSIF ..}`, `{ELSE}`, `{END_IF}`.
 
-What they exclude is not compiled. A name that the text itself defines is known, from there to the end of its file; so are the three
-that say what kind of controller this is. What asks for something else (a variable, a type, an attribute, the value of a name) is
+What they exclude is not compiled. A name that the text itself defines is known, from there to the end of its file; so are those of
+the project (`defines` in language.json), and the three that say what kind of controller this is. What asks for something else (a variable, a type, an attribute, the value of a name) is
 refused, as nothing here could tell which branch the vendor's tool takes. From
 https://content.helpme-codesys.com/en/CODESYS%20Development%20System/_cds_pragma_conditional.html
 """
@@ -141,7 +141,7 @@ def chosen(source: Source, tokens: Tokens) -> tuple[Tokens, list[Problem]]:
     found = conditions(tokens)
     if not found:
         return tokens, []
-    reader = _Reader(source)
+    reader = _Reader(source, set(source.defined))
     for at, word, rest in found:
         live = reader.live
         reader.read(at, word, rest)

@@ -19,14 +19,14 @@ LANGUAGE_FILE = "language.json"
 """The name of the file, at the top of a project."""
 FORMAT = 3
 """Version 1 had no `namespaces`. Before version 3 the strings of CODESYS and TwinCAT began with their length here, and a project
-keeps that: its programs were laid out so. A file to which neither matters is written in version 1."""
+keeps that: its programs were laid out so; nor were there `defines`. A file to which none of it matters is written in version 1."""
 BYTES_SINCE = 3
 """The version since which a string is its bytes up to the first 0, where the dialect has that."""
 DialectName = Literal["iec", "codesys", "twincat", "siemens", "rockwell", "omron"]
 DIALECTS: tuple[DialectName, ...] = get_args(DialectName)
 STRICT: DialectName = "iec"
 """The dialect of a project that names none: IEC 61131-3 as it is."""
-_KEYS = ("version", "dialect", "namespaces")
+_KEYS = ("version", "dialect", "namespaces", "defines")
 _TWINCAT_MARKS = re.compile(r"\bTc[23]_\w+|\bT_MaxString\b|\bT_AmsNetId\b")
 _CODESYS_MARKS = re.compile(
     r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|SYMFILEFLAGS)\b|^\s*\{attribute\s+'", re.MULTILINE
@@ -46,15 +46,21 @@ class Language:
     namespaces: tuple[str, ...] = ()
     """Names of libraries whose texts are among the project's own: `Lib.Name` is `Name`."""
     version: int = FORMAT
+    defines: tuple[str, ...] = ()
+    """Names that are defined for conditional pragmas, as a TwinCAT project's compiler defines are."""
 
 
-def language_text(dialect: DialectName, namespaces: Collection[str] = (), version: int = FORMAT) -> str:
+def language_text(
+    dialect: DialectName, namespaces: Collection[str] = (), version: int = FORMAT, defines: Collection[str] = ()
+) -> str:
     """The text of the file for a dialect, in this version or in the first one that says the same."""
     least = 2 if namespaces else 1
-    written = max(least, version) if dialect in ("codesys", "twincat") else least
+    written = FORMAT if defines else max(least, version) if dialect in ("codesys", "twincat") else least
     said: dict[str, object] = {"version": written, "dialect": dialect}
     if namespaces:
         said["namespaces"] = sorted(namespaces)
+    if defines:
+        said["defines"] = sorted(defines)
     return json.dumps(said, indent=2) + "\n"
 
 
@@ -63,18 +69,19 @@ def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = L
     own = next((each for each in sources if is_language_file(each)), name)
     said = language_of(sources)[0]
     version = said.version if said.dialect == dialect else FORMAT
-    return {**sources, own: language_text(dialect, said.namespaces, version)}
+    return {**sources, own: language_text(dialect, said.namespaces, version, said.defines)}
 
 
 def with_namespaces(
-    sources: Mapping[str, str], namespaces: Collection[str], name: str = LANGUAGE_FILE
+    sources: Mapping[str, str], namespaces: Collection[str], name: str = LANGUAGE_FILE, defines: Collection[str] = ()
 ) -> dict[str, str]:
-    """The sources, which say these names of libraries besides their own."""
-    if not namespaces:
+    """The sources, which say these names of libraries besides their own, and define these names where their version can."""
+    if not namespaces and not defines:
         return dict(sources)
     own = next((each for each in sources if is_language_file(each)), name)
     said = language_of(sources)[0]
-    return {**sources, own: language_text(said.dialect, {*said.namespaces, *namespaces}, said.version)}
+    all_defines = {*said.defines, *(defines if said.version == FORMAT else ())}
+    return {**sources, own: language_text(said.dialect, {*said.namespaces, *namespaces}, said.version, all_defines)}
 
 
 def dialect_named(name: str) -> DialectName | None:
@@ -101,6 +108,11 @@ def language_of(sources: Mapping[str, str]) -> tuple[Language, list[Problem]]:
     return (found if isinstance(found, Language) else Language()), problems
 
 
+def defined_in(sources: Mapping[str, str]) -> frozenset[str]:
+    """The names, in upper case, that these files define for conditional pragmas."""
+    return frozenset(each.upper() for each in language_of(sources)[0].defines)
+
+
 def _read(text: str, file: str) -> Language | Problem:
     choice = f'Write {{"version": {FORMAT}, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
     try:
@@ -121,12 +133,16 @@ def _read(text: str, file: str) -> Language | Problem:
     dialect = dialect_named(name) if isinstance(name, str) else None
     if dialect is None:
         return _problem(file, f"There is no dialect `{name}`. {choice}")
-    namespaces = content.get("namespaces", [])
-    if not isinstance(namespaces, list) or not all(
-        isinstance(each, str) and each.isidentifier() for each in namespaces
-    ):
-        return _problem(file, '`namespaces` is a list of names, as ["Tc2_Utilities"].')
-    return Language(dialect, tuple(namespaces), version)
+    for key, example in (("namespaces", "Tc2_Utilities"), ("defines", "WithHeater")):
+        if not _names(content.get(key, [])):
+            return _problem(file, f'`{key}` is a list of names, as ["{example}"].')
+    if version < FORMAT and "defines" in content:
+        return _problem(file, f'`defines` needs "version": {FORMAT}.')
+    return Language(dialect, tuple(content.get("namespaces", [])), version, tuple(content.get("defines", [])))
+
+
+def _names(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(each, str) and each.isidentifier() for each in value)
 
 
 def _problem(file: str, message: str, line: int = 1) -> Problem:

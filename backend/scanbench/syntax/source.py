@@ -9,10 +9,12 @@ from scanbench.problems import Span
 class Source:
     """One file's text, or a stretch of it, under the name that problems show."""
 
-    __slots__ = ("_starts", "above", "name", "text")
+    __slots__ = ("_starts", "above", "defined", "name", "text")
 
-    def __init__(self, name: str, text: str, above: int = 0) -> None:
+    def __init__(self, name: str, text: str, above: int = 0, defined: frozenset[str] = frozenset()) -> None:
         self.name, self.text = name, text
+        self.defined = defined
+        """Names, in upper case, that the project defines for conditional pragmas."""
         self.above = above
         """Lines of the file before this text. It changes when text above is edited: spans then say their new places."""
         self._starts: list[int] | None = None

@@ -125,7 +125,7 @@ def parse_tc(source: Source) -> tuple[tree.File, list[Problem]]:
     if found.child("Declaration") is None:
         message = f"This {found.tag} has no Declaration, so nothing is known of it. Export the file again."
         return tree.File(source.name), [Problem("S003", message, source.span(found.start, found.start + 1))]
-    writer = _Writer(Source(source.name, text), source.text)
+    writer = _Writer(Source(source.name, text, defined=source.defined), source.text)
     writer.object(found)
     list_name = writer.name(found)[0] if found.tag == "GVL" else ""
     cursor = Cursor(writer.source, writer.tokens())

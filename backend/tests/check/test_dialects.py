@@ -255,6 +255,8 @@ def test_the_library_is_strict_in_every_dialect() -> None:
         ('{"version": 1, "dialect": "codesis"}', "There is no dialect `codesis`"),
         ('{"version": 4, "dialect": "codesys"}', "which a newer Scanbench reads"),
         ('{"version": "3", "dialect": "codesys"}', "`version` is a number"),
+        ('{"version": 3, "dialect": "codesys", "defines": "Fast"}', "`defines` is a list of names"),
+        ('{"version": 2, "dialect": "codesys", "defines": ["Fast"]}', '`defines` needs "version": 3'),
         ('{"dialekt": "codesys"}', "There is no setting `dialekt`"),
     ],
 )
@@ -263,6 +265,16 @@ def test_a_broken_language_file_is_told(text: str, message: str) -> None:
     assert found.program is None
     assert [(each.code, each.span.file) for each in found.problems] == [("S003", LANGUAGE_FILE)]
     assert message in found.problems[0].message
+
+
+def test_a_change_of_what_is_defined_reads_the_files_again() -> None:
+    sources = {
+        "a.st": "PROGRAM Main\nVAR x : INT; END_VAR\n{IF defined (fast)} x := 1; {ELSE} x := nothing; {END_IF}\nEND_PROGRAM\n"
+    }
+    checks = Checks()
+    for defines, runs in (((), False), (("Fast",), True), ((), False)):
+        text = language_text("iec", defines=defines)
+        assert (checks.check({**sources, LANGUAGE_FILE: text}, MODEL, 10_000_000).program is not None) is runs
 
 
 def test_a_change_of_the_dialect_checks_everything_again() -> None:

@@ -115,7 +115,7 @@ def test_who_uses_a_stub_is_told_once() -> None:
     ("passed", "why"),
     [
         ("Size(3)", "needs a variable"),
-        ("Size(s)", "STRING[80] cannot be passed"),
+        ("Size(s)", "WSTRING[80] cannot be passed"),
         ("Size(t)", "TIME cannot be passed"),
         ("Size(pair)", "Pair cannot be passed"),
         ("Size(w)", "which class WCHAR has in TwinCAT"),
@@ -126,8 +126,8 @@ def test_what_an_input_of_the_type_any_cannot_be_given_is_told(passed: str, why:
     found = check(
         f"""FUNCTION Size : DINT VAR_INPUT x : ANY; END_VAR Size := x.diSize; END_FUNCTION
         FUNCTION Number : DINT VAR_INPUT x : ANY_NUM; END_VAR Number := Size(x); END_FUNCTION
-        TYPE Pair : STRUCT a : INT; s : STRING; END_STRUCT; END_TYPE
-        PROGRAM Main VAR d : DINT; s : STRING; t : TIME; b : BOOL; w : WCHAR; pair : Pair; END_VAR d := {passed}; END_PROGRAM"""
+        TYPE Pair : STRUCT a : INT; s : WSTRING; END_STRUCT; END_TYPE
+        PROGRAM Main VAR d : DINT; s : WSTRING; t : TIME; b : BOOL; w : WCHAR; pair : Pair; END_VAR d := {passed}; END_PROGRAM"""
     )
     assert [why in each for each in said(found)] == [True]
 

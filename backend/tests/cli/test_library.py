@@ -53,6 +53,19 @@ def test_a_twincat_project_is_checked_and_run_with_the_libraries_that_it_uses(pr
     assert (ran.returncode, ran.stdout.split()) == (0, ["MAIN.n", "=", "14", "MAIN.d", "=", "7"]), ran
 
 
+def test_what_the_project_file_defines_chooses_what_is_compiled(project: Path) -> None:
+    body = "n := n + 1;\n{IF defined (Heater)} n := n + 10; {ELSE} n := NoSuchVariable; {END_IF}"
+    (project / "line/POUs/MAIN.TcPOU").write_text(exported("PROGRAM MAIN\nVAR n : INT; END_VAR", body))
+    file = project / "line/Line.plcproj"
+    file.write_text(file.read_text().replace("<Title>", "<CompilerDefines>Fast, HEATER</CompilerDefines><Title>"))
+    options = ("--dialect", "twincat", "--scans", "2", "--print", "MAIN.n")
+    ran = scanbench("run", str(project), *options)
+    assert (ran.returncode, ran.stdout.split()) == (0, ["MAIN.n", "=", "22"]), ran
+    (project / "language.json").write_text('{"version": 3, "dialect": "twincat", "defines": ["Fast"]}')
+    file.write_text(file.read_text().replace("HEATER", "Slow"))
+    assert scanbench("check", str(project)).returncode == 1
+
+
 def test_the_report_says_which_libraries_are_missing(project: Path) -> None:
     found = scanbench("check", str(project / "line"), "--dialect", "twincat", "--report")
     assert "Parts" in found.stdout.partition("missing libraries")[2]

@@ -8,6 +8,8 @@ from xml.etree import ElementTree
 import pytest
 
 from scanbench.server.archive import pack, unpack
+from scanbench.server.twincat_project import read_twincat_project
+from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 from scanbench.wire.refused import Refused
 
 MAIN = "PROGRAM Main\nEND_PROGRAM\n"
@@ -117,6 +119,10 @@ def test_files_of_twincat_go_out_with_their_project_file_and_come_in_from_it() -
         "POUs\\R&D",
         "DUTs",
     }
+    assert "CompilerDefines" not in project
+    defining = {**files, LANGUAGE_FILE: language_text("twincat", defines=["Heater", "Fast"])}
+    with zipfile.ZipFile(io.BytesIO(pack("Line", "GENERIC-IEC", [], defining))) as archive:
+        assert read_twincat_project(archive.read("Line.plcproj").decode()).defines == ("Fast", "Heater")
     # what another tool takes by the project file: the files of TwinCAT, each found
     found = unpack(zipped(without))
     assert set(found.files) == {"POUs/MAIN.TcPOU", "POUs/R&D/Fb.TcPOU", "DUTs/T.TcDUT"}

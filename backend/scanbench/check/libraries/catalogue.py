@@ -12,7 +12,7 @@ from functools import cache
 from importlib.resources import files
 
 from scanbench.syntax import tree
-from scanbench.syntax.language_file import DialectName
+from scanbench.syntax.language_file import DialectName, defined_in
 from scanbench.syntax.parse_file import is_program_file, is_stimulus, parse_file
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source
@@ -120,7 +120,9 @@ def used_libraries(sources: Mapping[str, str], dialect: DialectName) -> list[Lib
     if not possible:
         return []
     texts = {name: text for name, text in sources.items() if is_program_file(name) and not is_stimulus(name)}
-    own = {name for path, text in texts.items() for name in _names(parse_file(Source(path, text))[0])}
+    known = defined_in(sources)
+    files = [parse_file(Source(path, text, defined=known))[0] for path, text in texts.items()]
+    own = {name for file in files for name in _names(file)}
     have = {library.lower() for path in texts if (library := library_of_file(path))}
     wanted = {word for text in texts.values() for word in _words(text)} - own
     wanted |= {f"{word.partition('.')[0]}." for word in wanted if "." in word}
