@@ -1,5 +1,6 @@
 """`scanbench export`: a project as a PLCopen file."""
 
+from enum import StrEnum
 from pathlib import Path
 
 import typer
@@ -8,9 +9,15 @@ from scanbench.cli.inputs import read_sources, usage
 from scanbench.syntax.plcopen.write import write_project
 
 
+class Form(StrEnum):
+    TC6 = "tc6"
+    PART10 = "iec61131-10"
+
+
 def export_file(
     folder: Path = typer.Argument(metavar="DIR", help="The folder, file or zip file with the program."),
-    file: Path = typer.Argument(metavar="FILE", help="The PLCopen file (TC6 XML 2.01) to write; one that is there is not replaced."),
+    file: Path = typer.Argument(metavar="FILE", help="The file to write; one that is there is not replaced."),
+    form: Form = typer.Option(Form.TC6, "--form", help="tc6: PLCopen XML, TC6 2.01; iec61131-10: the file of IEC 61131-10, which Sysmac Studio and others take."),
 ) -> None:  # fmt: skip
     """Write a program as PLCopen XML, and tell what the format has no place for.
 
@@ -18,7 +25,7 @@ def export_file(
     """
     if file.exists():
         usage(f"{file} is there already: give a new name")
-    made = write_project(folder.stem, read_sources([folder], libraries=False).texts)
+    made = write_project(folder.stem, read_sources([folder], libraries=False).texts, form is Form.PART10)
     try:
         file.write_bytes(made.data)
     except OSError as error:

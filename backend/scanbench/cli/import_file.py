@@ -11,7 +11,7 @@ from scanbench.wire.refused import Refused
 
 def import_file(
     file: Path = typer.Argument(
-        metavar="FILE", help="A PLCopen file (TC6 XML 1.01, 2.0 or 2.01), or one of Studio 5000 (L5X)."
+        metavar="FILE", help="A PLCopen file (TC6 XML 1.01, 2.0 or 2.01, or IEC 61131-10), or one of Studio 5000 (L5X)."
     ),
     folder: Path = typer.Argument(metavar="DIR", help="The folder for the program files; made where it is missing."),
 ) -> None:

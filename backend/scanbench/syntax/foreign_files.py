@@ -42,7 +42,7 @@ def _what(head: str) -> str | None:
     found = ROOT.match(head)
     if found is None:
         return None
-    if "plcopen.org" in found[2]:
+    if "plcopen.org" in found[2] or "TC65SC65BWG7TF10" in found[2]:
         return "This is a PLCopen XML file. Import it: `scanbench import FILE DIR`, or New project in the page."
     known = ROOTS.get(found[1].rpartition(":")[2].lower())
     return known or (

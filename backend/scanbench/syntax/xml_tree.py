@@ -14,8 +14,8 @@ class BadXml(ValueError):
     """Why a file cannot be read at all, for people."""
 
 
-def parse_xml(data: bytes, root: str) -> Element:
-    """The element `root` that a file has to begin with; entities, DTDs and the network are never used."""
+def parse_xml(data: bytes, *roots: str) -> Element:
+    """The element that a file has to begin with, of one of these names; entities, DTDs and the network are never used."""
     if len(data) > LARGEST:
         raise BadXml(f"the file is larger than {LARGEST >> 20} MiB")
     parser = etree.XMLParser(
@@ -25,10 +25,10 @@ def parse_xml(data: bytes, root: str) -> Element:
         found = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as bad:
         raise BadXml(f"this is no XML: {bad.msg}") from bad
-    if b"<!DOCTYPE" in data[: data.find(f"<{root}".encode())]:
+    if found.getroottree().docinfo.internalDTD is not None:
         raise BadXml("the file has a DOCTYPE, which it does not need; remove it")
-    if kind(found) != root:
-        raise BadXml(f"the file begins with <{kind(found)}>, not with <{root}>")
+    if kind(found) not in roots:
+        raise BadXml(f"the file begins with <{kind(found)}>, not with {' or '.join(f'<{each}>' for each in roots)}")
     return found
 
 
@@ -61,6 +61,19 @@ def attribute(node: Element | None, name: str, default: str = "") -> str:
         return default
     found = node.get(name)
     return default if found is None else str(found)
+
+
+def number_of(node: Element | None, name: str) -> float:
+    """An attribute as a number; 0 without one, and for what is none."""
+    try:
+        return float(attribute(node, name) or 0)
+    except ValueError:
+        return 0
+
+
+def of_type(node: Element | None) -> str:
+    """What `xsi:type` says that an element is, without its namespace."""
+    return attribute(node, "{http://www.w3.org/2001/XMLSchema-instance}type").rpartition(":")[2]
 
 
 def line_of(node: Element) -> int:

@@ -36,3 +36,14 @@ def test_a_folder_becomes_a_plcopen_file_and_what_has_no_place_there_is_told(tmp
     told = scanbench("export", str(tmp_path / "line"), str(tmp_path / "more.xml"))
     assert told.returncode == 1
     assert told.stdout == "left out: Own: a function_block with EXTENDS, IMPLEMENTS or in a NAMESPACE\n"
+
+
+def test_a_file_of_iec_61131_10_goes_in_and_out(tmp_path: Path) -> None:
+    told = scanbench("import", str(LINE.parent / "press.xml"), str(tmp_path / "press"))
+    assert (told.returncode, told.stdout) == (0, "7 files. POUs: 4 as they were, 0 nearly, 0 without their body.\n")
+    (tmp_path / "press" / "Configuration.st").unlink()
+    (tmp_path / "press" / "Report.st").unlink()
+    told = scanbench("export", str(tmp_path / "press"), str(tmp_path / "again.xml"), "--form", "iec61131-10")
+    assert (told.returncode, told.stdout) == (0, "")
+    assert scanbench("import", str(tmp_path / "again.xml"), str(tmp_path / "again")).returncode == 0
+    assert (tmp_path / "again" / "Press.st").read_text() == (tmp_path / "press" / "Press.st").read_text()

@@ -104,7 +104,9 @@ class FunctionBlocks:
         return each
 
     def _output(self, callee: tree.Expression, name: str) -> Type | None:
-        """The type of an output of a block."""
+        """The type of an output of a block, or of ENO, which all boxes have."""
+        if name.upper() == "ENO":
+            return BOOL
         record = type_of(self._body.scope, callee)
         member = record.members.get(name.upper()) if isinstance(record, Record) else None
         return None if member is None else member.type

@@ -35,7 +35,8 @@ def type_text(node: Element | None) -> str:
             case "pointer":
                 return f"POINTER TO {type_text(child(each, 'baseType'))}"
             case "enum":
-                return f"({', '.join(_enumerated(each))})"
+                base = child(each, "baseType")
+                return f"{f'{type_text(base)} ' if base is not None else ''}({', '.join(_enumerated(each))})"
             case "struct":
                 members = "".join(f"{INDENT}{line}\n" for line in variable_lines(each))
                 return f"STRUCT\n{members}END_STRUCT"

@@ -1,6 +1,6 @@
 """Connected objects of an FBD, or of a ladder that is none by itself -> the text of a NETWORK, one box a line."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from scanbench.syntax.plcopen import notes
@@ -20,6 +20,8 @@ class Diagram:
     rails: set[str]
     numbers: Iterator[int]
     """Of the wires of the body."""
+    types: Mapping[str, str] = field(default_factory=dict)
+    """Of the variables of the POU, by name in upper case."""
     lines: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     """What could not be kept as it was."""
@@ -29,6 +31,9 @@ class Diagram:
     _taken: dict[End, str] = field(default_factory=dict)
     _inside: set[str] = field(default_factory=set)
     """Objects that are written in the call of a box."""
+    _written: set[str] = field(default_factory=set)
+    _early: set[End] = field(default_factory=set)
+    """What is read before its box runs: its value of the scan before."""
 
     def text(self, head: str) -> str:
         self._things = {each.id: each for each in self.group}
@@ -39,6 +44,7 @@ class Diagram:
         for each in self.group:
             if each.id not in self._inside:
                 self._line(each)
+            self._written.add(each.id)
         if not self.lines:
             return ""
         inner = "".join(f"{INDENT}{line}\n" for line in self.lines)
@@ -91,7 +97,26 @@ class Diagram:
                 None,
             )
             return self._input(source.inputs[0]) if source is not None and source.inputs else "FALSE"
+        if thing.kind == "block" and thing.id not in self._written:
+            output = thing.output(end[1])
+            if thing.instance and output is not None and output.name.upper() != "ENO":
+                return f"{'NOT ' if output.negated else ''}{thing.instance}.{output.name}"
+            self._early.add(self._end(end))
         return self._wire(end)
+
+    def _typed(self, end: End) -> str:
+        """A wire as it is set: one that is read above its line says its type, which is that of a variable that takes its value."""
+        wire = self._wire(end)
+        if end not in self._early:
+            return wire
+        takers = (
+            each.name.upper() for each in self.group if each.kind == "outVariable"
+            for pin in each.inputs for one in pin.ends if self._end(one) == end
+        )  # fmt: skip
+        type = next((self.types[name] for name in takers if name in self.types), "")
+        if not type:
+            self.notes.append(notes.no_type(wire))
+        return f"{wire} : {type}" if type else wire
 
     def _input(self, pin: Pin) -> str:
         """The value at an input, also of several connections, of which one TRUE is enough."""
@@ -172,7 +197,7 @@ class Diagram:
             self.lines.append(f"{taken} := {call};")
         elif result is not None and ((each.id, result.name) in self._used or not result.expression):
             wire = self._wire((each.id, result.name))
-            self.lines.append(f"{wire} = {call};")
+            self.lines.append(f"{self._typed((each.id, result.name))} = {call};")
             if result.negated:
                 after.append(self._negated((each.id, result.name), wire))
         elif result is not None and result.expression:

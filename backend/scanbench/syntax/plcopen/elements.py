@@ -78,7 +78,9 @@ def _thing(node: Element, number: int) -> Thing:
             made.name = text_of(child(node, "expression")).strip()
         case "jump" | "label":
             made.name = attribute(node, "label")
-        case "connector" | "continuation" | "step":
+        case "comment":
+            made.name = " ".join(text_of(child(node, "content")).split())
+        case "connector" | "continuation" | "step" | "unread":
             made.name = attribute(node, "name")
         case "jumpStep":
             made.name = attribute(node, "targetName")
@@ -112,9 +114,10 @@ def _ends(point: Element) -> tuple[tuple[str, str], ...]:
     return tuple((attribute(each, "refLocalId"), attribute(each, "formalParameter")) for each in found)
 
 
-def networks_of(things: list[Thing], in_order: bool = False) -> Iterator[list[Thing]]:
+def networks_of(things: list[Thing], in_order: bool = False, given: bool = False) -> Iterator[list[Thing]]:
     """What is connected, as one network each, from top to bottom; a power rail connects nothing. Inside they are in the order in which
-    they run: sources before what they lead to, else by their place. `in_order`: networks do not run in turn."""
+    they run: sources before what they lead to, else by their place. `in_order`: networks do not run in turn. `given`: the file has the
+    whole order, also where a box then reads what an other one had in the scan before."""
     by_id = {each.id: each for each in things}
     leader = {each.id: each.id for each in things}
 
@@ -137,7 +140,7 @@ def networks_of(things: list[Thing], in_order: bool = False) -> Iterator[list[Th
         if each.id not in rails and each.kind not in ("comment", "vendorElement", "error"):
             groups.setdefault(find(each.id), []).append(each)
     found = sorted(groups.values(), key=lambda one: min(each.place for each in one))
-    yield from (ordered(group) for group in (_apart(found) if in_order else found))
+    yield from (ordered(group, given) for group in (_apart(found) if in_order else found))
 
 
 def _apart(groups: list[list[Thing]]) -> list[list[Thing]]:
@@ -152,10 +155,10 @@ def _apart(groups: list[list[Thing]]) -> list[list[Thing]]:
     return made
 
 
-def ordered(group: list[Thing]) -> list[Thing]:
+def ordered(group: list[Thing], given: bool = False) -> list[Thing]:
     """In the order of execution. Where there is a loop, what is first by its place goes on."""
-    left = sorted(group, key=lambda each: each.place)
-    known = {each.id for each in left}
+    left = sorted(group, key=lambda each: (given and each.place[0] != LAST, each.place))
+    known = {each.id for each in left if not given or each.place[0] == LAST}
     done: list[Thing] = []
     seen: set[str] = set()
     while left:

@@ -10,6 +10,7 @@ from scanbench.syntax.plcopen.diagram import formal, is_result
 from scanbench.syntax.plcopen.elements import Pin, Thing
 
 RAIL, END = "rail", "end"
+SIGNS = {"EQ": "=", "NE": "<>", "LT": "<", "LE": "<=", "GT": ">", "GE": ">="}
 LADDER = frozenset(("contact", "coil", "block", "inVariable", "outVariable", "jump", "return"))
 
 
@@ -130,9 +131,18 @@ class Rung:
                 arguments.append(f"{pin.name} => {taken}")
         goes_on = next(iter(named), "")
         if result is not None and goes_on == result.name:
-            raise NoLadder  # the result of a function is no power by itself
+            return self._comparison(each, power)
         call = f"{each.instance or each.name}({', '.join(arguments)})"
         return f"{f'{target} := ' if target else ''}{call}{f'.{goes_on}' if goes_on else ''}"
+
+    def _comparison(self, each: Thing, power: Pin | None) -> str:
+        """Sysmac Studio draws a comparison as a box in the way of the power: its result has no name, and is FALSE without power.
+        Otherwise the result of a function is no power by itself."""
+        sign = SIGNS.get(each.name.upper())
+        values = [self._operand(pin) for pin in each.inputs if pin is not power]
+        if sign is None or len(values) != 2 or any(pin.name for pin in each.outputs):
+            raise NoLadder
+        return f"[{values[0]} {sign} {values[1]}]"
 
     def _named(self, each: Thing, output: str) -> str:
         found = each.output(output)

@@ -5,6 +5,14 @@ NO_LANGUAGE = "a body in a language that is not known is left out"
 NO_SOURCE = "a connection leads to nothing; it is FALSE"
 
 
+def no_type(wire: str) -> str:
+    return f"{wire} is read before its box runs, and its type is not known: it is BOOL until it is written (`{wire} : INT = ...`)"
+
+
+def not_read(what: str, line: int) -> str:
+    return f"{what} in line {line} is left out: it is not read"
+
+
 def no_methods(names: str) -> str:
     return f"its methods and properties are left out: {names}"
 

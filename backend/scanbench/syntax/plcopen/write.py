@@ -1,4 +1,4 @@
-"""The files of a project -> one PLCopen file (TC6 2.01)."""
+"""The files of a project -> one PLCopen file: TC6 2.01, or IEC 61131-10 made of it."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,11 +13,12 @@ from scanbench.syntax.lexer import tokenize
 from scanbench.syntax.networks import NetworkBody, Rung
 from scanbench.syntax.parse_file import is_program_file, parse_file
 from scanbench.syntax.parse_type import POU_ENDS
-from scanbench.syntax.plcopen.write_chart import paragraph, write_chart
+from scanbench.syntax.plcopen.write_chart import write_chart
 from scanbench.syntax.plcopen.write_declarations import write_initial, write_sections, write_type
 from scanbench.syntax.plcopen.write_diagram import DiagramWriter
 from scanbench.syntax.plcopen.write_ladder import LadderWriter
-from scanbench.syntax.plcopen.write_objects import CannotWrite, Known, Objects, add, text
+from scanbench.syntax.plcopen.write_objects import CannotWrite, Known, Objects, add, paragraph, text
+from scanbench.syntax.plcopen.write_part10 import SPACE, to_part10
 from scanbench.syntax.source import Source, Stretch
 from scanbench.syntax.xml_tree import Element
 
@@ -36,8 +37,8 @@ class Written:
     """What the format has no place for, by POU, type or file."""
 
 
-def write_project(name: str, files: Mapping[str, str]) -> Written:
-    """Files with errors are left out as a whole, and told."""
+def write_project(name: str, files: Mapping[str, str], part10: bool = False) -> Written:
+    """Files with errors are left out as a whole, and told. `part10`: as IEC 61131-10 has it."""
     root = etree.Element("project", nsmap=cast(dict[str, str], {None: NAMESPACE, "xhtml": XHTML}))
     add(root, "fileHeader", companyName="", productName="Scanbench", productVersion="0.1.0", creationDateTime=NO_TIME)
     info = add(add(root, "contentHeader", name=name), "coordinateInfo")
@@ -59,9 +60,11 @@ def write_project(name: str, files: Mapping[str, str]) -> Written:
     inputs = {pou.name.upper(): _inputs(pou) for file in read for pou in file.pous if pou.kind == "function"}
     for file in read:
         _file(file, (data_types, pous, configurations), inputs, left)
+    if part10:
+        root = to_part10(root, left)
     for each in root.iter(etree.Element):
         if "}" not in str(each.tag):
-            each.tag = f"{{{NAMESPACE}}}{each.tag}"
+            each.tag = f"{{{SPACE if part10 else NAMESPACE}}}{each.tag}"
     data = etree.tostring(root, xml_declaration=True, encoding="utf-8", pretty_print=True)
     return Written(data, left)
 

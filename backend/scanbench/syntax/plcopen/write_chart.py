@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 
 from scanbench.syntax import chart, networks
-from scanbench.syntax.plcopen.write_objects import ROW, CannotWrite, End, Objects, add, text
-from scanbench.syntax.xml_tree import Element
+from scanbench.syntax.plcopen.write_objects import ROW, CannotWrite, End, Objects, add, paragraph, text
 
 
 def write_chart(objects: Objects, written: chart.Chart) -> None:
@@ -100,9 +99,3 @@ class _Writer:
             action = add(made, "action", localId=self._objects.local_id(), qualifier=each.qualifier, **time)
             add(action, "relPosition", x="0", y=str(number * ROW))
             add(action, "reference", name=each.name)
-
-
-def paragraph(parent: Element, written: str) -> None:
-    made = parent.makeelement("{http://www.w3.org/1999/xhtml}p", {}, nsmap={"xhtml": "http://www.w3.org/1999/xhtml"})
-    made.text = written
-    parent.append(made)

@@ -39,10 +39,13 @@ def write_type(parent: Element, spec: tree.TypeSpec) -> None:
             made = add(parent, "struct")
             for member in members:
                 write_variable(made, member)
-        case tree.EnumSpec(values, base=None):
-            listed = add(add(parent, "enum"), "values")
+        case tree.EnumSpec(values, base):
+            made = add(parent, "enum")
+            listed = add(made, "values")
             for name, value, _ in values:
                 add(listed, "value", name=name, **({"value": text(value)} if value is not None else {}))
+            if base is not None:
+                write_type(add(made, "baseType"), base)
         case tree.SubrangeSpec(base, low, high):
             signed = "subrangeUnsigned" if base.name.upper().startswith("U") else "subrangeSigned"
             made = add(parent, signed)

@@ -23,8 +23,7 @@ class DiagramWriter:
         if any(each.loop for each in diagram.wires):
             raise CannotWrite("a wire that is read above the line that sets it")
         self._objects.next_network()
-        if diagram.label:
-            self._objects.make("label", label=diagram.label)
+        self._objects.head(diagram.label, diagram.span)
         self._wires = {}
         for item in diagram.items:
             self._item(item)

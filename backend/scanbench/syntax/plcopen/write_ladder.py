@@ -20,8 +20,7 @@ class LadderWriter:
         if rung.off:
             raise CannotWrite("a rung that is switched off")
         self._objects.next_network()
-        if rung.label:
-            self._objects.make("label", label=rung.label)
+        self._objects.head(rung.label, rung.span)
         if len(rung.path) == 1 and any(isinstance(each, networks.Leave) for each in networks.elements(rung.path)):
             raise CannotWrite("a jump beside other branches of its rung")
         self._sent = {}

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from lxml import etree
 
+from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.source import Stretch
 from scanbench.syntax.xml_tree import Element
@@ -14,6 +15,8 @@ End = tuple[str, str]
 """An object, and its output; empty for the only one."""
 COLUMN, ROW, NETWORK = 120, 40, 2000
 _STANDARD = {"SEL": ("G", "IN0", "IN1"), "MUX": ("K", "IN0"), "LIMIT": ("MN", "IN", "MX")}
+_TITLE = re.compile(r"'((?:[^'$]|\$.)*)'")
+_ESCAPED = re.compile(r"\$(['$])")
 _WIRE = re.compile(r"(?<![\w#])#\w")
 
 
@@ -26,6 +29,12 @@ def text(node: tree.Expression | tree.TypeSpec | tree.Initial) -> str:
     span = node.span
     assert isinstance(span, Stretch)
     return span.source.text[span.start : span.end]
+
+
+def paragraph(parent: Element, written: str) -> None:
+    made = parent.makeelement("{http://www.w3.org/1999/xhtml}p", {}, nsmap={"xhtml": "http://www.w3.org/1999/xhtml"})
+    made.text = written
+    parent.append(made)
 
 
 def add(parent: Element, name: str, /, **attributes: str) -> Element:
@@ -50,6 +59,16 @@ class Objects:
         """One that no other object of the body has."""
         self._count += 1
         return str(self._count)
+
+    def head(self, label: str, written: Span) -> None:
+        """Title and label, which come before all that is in a network; the title is text in its first line."""
+        assert isinstance(written, Stretch)
+        title = _TITLE.search(written.source.text, written.start, written.end)
+        if title is not None:
+            _, made = self.make("comment", height="20", width="200")
+            paragraph(add(made, "content"), _ESCAPED.sub(r"\1", title[1]))
+        if label:
+            self.make("label", label=label)
 
     def make(self, kind: str, **attributes: str) -> tuple[str, Element]:
         """A new object with its place."""

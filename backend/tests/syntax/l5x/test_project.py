@@ -6,16 +6,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scanbench.check.build import check_sources
 from scanbench.check.libraries.catalogue import used_libraries
-from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.engines.native.engine import NativeEngine
-from scanbench.problems import Severity
 from scanbench.syntax.l5x.project import is_l5x, read_project
 from scanbench.syntax.l5x.statements import Known, Parameter, statements
 from scanbench.syntax.xml_tree import BadXml
 from tests.amounts import amount
-from tests.caseformat import MODELS, find, first_difference
+from tests.caseformat import MODELS
+from tests.syntax.both_engines import BothEngines
 
 LINE = (Path(__file__).parent / "line.L5X").read_bytes()
 
@@ -44,19 +41,11 @@ def test_all_of_a_project_is_kept() -> None:
 def test_it_runs_on_both_engines_with_the_values_of_logix() -> None:
     files = read_project(LINE).files
     files |= {each.path: each.text for each in used_libraries(files, "rockwell")}
-    checked = check_sources(files, MODELS["GENERIC-IEC"])
-    assert [each for each in checked.problems if each.severity is Severity.ERROR] == []
-    program = checked.program
-    assert program is not None
-    memories = [bytearray(program.initial_image) for _ in range(2)]
-    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
-    for _ in range(7):
-        for engine in engines:
-            engine.run(1)
-        assert not first_difference(program, *memories)
+    line = BothEngines(files, MODELS["GENERIC-IEC"])
+    line.run(7)
 
     def value(name: str) -> str:
-        return find(program, name, memories[0])[2]
+        return line.values(name)[0]
 
     main = "MainProgram_1"
     assert {name: value(f"{main}.{name}") for name in ("Half", "Reading", "Logged[1]", "Masked", "Calc")} == {

@@ -5,12 +5,11 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.engines.native.engine import NativeEngine
 from scanbench.syntax.plcopen.document import is_plcopen
 from scanbench.syntax.plcopen.project import read_project
 from scanbench.syntax.xml_tree import BadXml
-from tests.caseformat import MODELS, find, first_difference, write
+from tests.caseformat import MODELS
+from tests.syntax.both_engines import BothEngines
 
 LINE = (Path(__file__).parent / "line.xml").read_bytes()
 LD = LINE[LINE.index(b"<body><LD>") : LINE.index(b"</LD></body>")]
@@ -29,22 +28,13 @@ def test_all_of_a_project_is_kept() -> None:
 
 
 def test_it_runs_on_both_engines_as_it_is_drawn() -> None:
-    checked = check_sources(read_project(LINE).files, MODELS["GENERIC-IEC"])
-    assert checked.problems == ()
-    program = checked.program
-    assert program is not None
-    memories = [bytearray(program.initial_image) for _ in range(2)]
-    engines = [ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])]
+    line = BothEngines(read_project(LINE).files, MODELS["GENERIC-IEC"])
+    assert line.problems == ()
 
     def run(**inputs: str) -> list[str]:
-        for name, value in inputs.items():
-            for memory in memories:
-                write(program, f"main.{name}", value, memory)
-        for engine in engines:
-            engine.run(1)
-        assert not first_difference(program, *memories)
+        line.run(1, **{f"main__{name}": value for name, value in inputs.items()})
         names = ("lamp", "speed", "latch.motor", "latch.late", "Wait.X", "Right.X")
-        return [find(program, f"main.{name}", memories[0])[2] for name in names]
+        return line.values(*(f"main.{name}" for name in names))
 
     assert run(go="TRUE") == ["FALSE", "0", "FALSE", "FALSE", "FALSE", "TRUE"]
     assert run() == ["TRUE", "40", "TRUE", "FALSE", "FALSE", "TRUE"]
