@@ -1,17 +1,11 @@
 """`scanbench export`: a project as a PLCopen file."""
 
-from enum import StrEnum
 from pathlib import Path
 
 import typer
 
 from scanbench.cli.inputs import read_sources, usage
-from scanbench.syntax.plcopen.write import write_project
-
-
-class Form(StrEnum):
-    TC6 = "tc6"
-    PART10 = "iec61131-10"
+from scanbench.syntax.plcopen.write import Form, write_project
 
 
 def export_file(
@@ -25,7 +19,7 @@ def export_file(
     """
     if file.exists():
         usage(f"{file} is there already: give a new name")
-    made = write_project(folder.stem, read_sources([folder], libraries=False).texts, form is Form.PART10)
+    made = write_project(folder.stem, read_sources([folder], libraries=False).texts, form)
     try:
         file.write_bytes(made.data)
     except OSError as error:

@@ -18,6 +18,7 @@ from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, language_text
 from scanbench.syntax.parse_file import ENDINGS
+from scanbench.syntax.plcopen.write import Form, Written, write_project
 from scanbench.syntax.requirements import REQUIREMENTS
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
 from scanbench.wire.host import Preview, Previewed, Sources
@@ -167,6 +168,11 @@ class Projects:
         """A project as one file, and its name."""
         project, files = await self.get(id), await asyncio.to_thread(self._store.files.sources, id)
         return project.name, await asyncio.to_thread(pack, project.name, project.model, project.watch, files)
+
+    async def written(self, id: int, form: Form) -> tuple[str, Written]:
+        """The program of a project as a PLCopen file, and its name."""
+        project, files = await self.get(id), await asyncio.to_thread(self._store.files.sources, id)
+        return project.name, await asyncio.to_thread(write_project, project.name, files, form)
 
     async def from_archive(self, name: str, model: str, archive: Archive, author: str) -> ProjectRow:
         """A project with the files of an archive, which are not built yet."""

@@ -30,6 +30,14 @@ class ProjectArchive(Wire):
     notes: list[str] = Field(description="of a PLCopen or L5X file: what could not be kept as it was, by POU")
 
 
+class ExchangeFile(Wire):
+    """The program of a project as a file for other tools."""
+
+    name: str
+    text: str = Field(description="XML")
+    left_out: list[str] = Field(description="what the form has no place for, by POU, type or file")
+
+
 class ProjectDialect(Wire):
     """What the programs of a project are written in; `iec` is the strict language."""
 

@@ -25,6 +25,7 @@ from scanbench.web import (
     messages,
     messages_debug,
     messages_errors,
+    messages_projects,
     messages_records,
     messages_user_errors,
     messages_verify,
@@ -64,6 +65,8 @@ WIRE: tuple[tuple[type[Wire], str], ...] = (
     (messages_user_errors.UserProblem, "message"),
     (messages_verify.UploadedTrace, "layout"),
     (messages_verify.UploadedTrace, "left_out"),
+    (messages_projects.ExchangeFile, "left_out"),
+    (messages_projects.ProjectArchive, "notes"),
     (messages_verify.VerificationInfo, "message"),
     (messages_watch.WatchListConflict, "message"),
 )

@@ -7,6 +7,7 @@ from pathlib import Path
 import httpx
 import pytest
 
+from scanbench.web.messages_projects import ExchangeFile
 from tests.web.server import Server
 
 MAIN = "PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
@@ -30,6 +31,22 @@ def test_a_project_goes_out_and_comes_in_again(server: Server) -> None:
     assert server.http.get(f"/api/projects/{again}/files/Main.st").json()["text"] == MAIN
     assert server.http.get(f"/api/projects/{again}/files/Belt.panel.json").json()["text"] == panel["text"]
     assert server.http.post(f"/api/projects/{again}/build", json={}).json()["ok"]
+
+
+def test_a_program_goes_out_in_both_forms_of_xml_with_what_they_leave_out(server: Server) -> None:
+    chart = "PROGRAM Chart\nINITIAL_STEP A: END_STEP\nTRANSITION FROM A TO A := TRUE; END_TRANSITION\nEND_PROGRAM\n"
+    project = server.project("Out", "GENERIC-IEC", Main=MAIN, Chart=chart)
+
+    def written(form: str) -> ExchangeFile:
+        reply = server.http.get(f"/api/projects/{project}/plcopen", params={"form": form})
+        assert reply.status_code == 200, reply.text
+        return ExchangeFile(**reply.json())
+
+    whole, part = written("tc6"), written("iec61131-10")
+    assert (whole.name, whole.left_out) == ("Out.xml", [])
+    assert part.left_out == ["Chart: a chart, whose form in IEC 61131-10 is not known here"]
+    assert server.http.post("/api/archives", content=whole.text.encode()).json()["files"] == ["Chart.st", "Main.st"]
+    assert server.http.post("/api/archives", content=part.text.encode()).json()["files"] == ["Main.st"]
 
 
 def test_a_plcopen_file_becomes_a_project_that_runs(server: Server) -> None:

@@ -2065,6 +2065,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/plcopen": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The program of the project as it is saved, as a file for other tools, with what that form has no place for
+         * @description The program of the project as it is saved, as a file for other tools, with what that form has no place for.
+         */
+        get: operations["get_project_plcopen"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/records": {
         parameters: {
             query?: never;
@@ -5111,6 +5131,24 @@ export interface components {
             whole: boolean;
         };
         /**
+         * ExchangeFile
+         * @description The program of a project as a file for other tools.
+         */
+        ExchangeFile: {
+            /**
+             * Left Out
+             * @description what the form has no place for, by POU, type or file
+             */
+            left_out: string[];
+            /** Name */
+            name: string;
+            /**
+             * Text
+             * @description XML
+             */
+            text: string;
+        };
+        /**
          * Fact
          * @description One statement of the model about the device, and where it comes from.
          */
@@ -5428,6 +5466,12 @@ export interface components {
              */
             type: "forces";
         };
+        /**
+         * Form
+         * @description PLCopen's TC6 XML 2.01, or IEC 61131-10.
+         * @enum {string}
+         */
+        Form: "tc6" | "iec61131-10";
         /**
          * Generate
          * @description Raises errors, all between the same two scans, or none of them.
@@ -14118,6 +14162,39 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["FileInfo"];
+                };
+            };
+        };
+    };
+    get_project_plcopen: {
+        parameters: {
+            query?: {
+                form?: components["schemas"]["Form"];
+            };
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExchangeFile"];
                 };
             };
         };

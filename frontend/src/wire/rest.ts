@@ -11,6 +11,8 @@ import type {
   Communication,
   CommunicationFault,
   CommunicationServerSettings,
+  ExchangeFile,
+  ExchangeForm,
   FileInfo,
   FileText,
   Flows,
@@ -175,6 +177,9 @@ export const rest = {
   version: (project: number, version: number) => json<VersionText>("GET", `/projects/${project}/versions/${version}`),
   describeVersion: (project: number, version: number, label: string, message: string) =>
     json<ProjectVersion>("PATCH", `/projects/${project}/versions/${version}`, { label, message }),
+  /** The program of a project as a file for other tools, as it is saved. */
+  writeProject: (project: number, form: ExchangeForm) =>
+    json<ExchangeFile>("GET", `/projects/${project}/plcopen?${new URLSearchParams({ form })}`),
   packProject: (project: number) => blob(`/projects/${project}/archive`),
   dialect: (project: number) => json<ProjectDialect>("GET", `/projects/${project}/dialect`),
   changeDialect: (project: number, dialect: ProjectDialect["dialect"]) =>

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import StrEnum
 from functools import partial
 from typing import cast
 
@@ -37,8 +38,15 @@ class Written:
     """What the format has no place for, by POU, type or file."""
 
 
-def write_project(name: str, files: Mapping[str, str], part10: bool = False) -> Written:
-    """Files with errors are left out as a whole, and told. `part10`: as IEC 61131-10 has it."""
+class Form(StrEnum):
+    """PLCopen's TC6 XML 2.01, or IEC 61131-10."""
+
+    TC6 = "tc6"
+    PART10 = "iec61131-10"
+
+
+def write_project(name: str, files: Mapping[str, str], form: Form = Form.TC6) -> Written:
+    """Files with errors are left out as a whole, and told."""
     root = etree.Element("project", nsmap=cast(dict[str, str], {None: NAMESPACE, "xhtml": XHTML}))
     add(root, "fileHeader", companyName="", productName="Scanbench", productVersion="0.1.0", creationDateTime=NO_TIME)
     info = add(add(root, "contentHeader", name=name), "coordinateInfo")
@@ -60,11 +68,12 @@ def write_project(name: str, files: Mapping[str, str], part10: bool = False) -> 
     inputs = {pou.name.upper(): _inputs(pou) for file in read for pou in file.pous if pou.kind == "function"}
     for file in read:
         _file(file, (data_types, pous, configurations), inputs, left)
-    if part10:
+    _globals(configurations, read, left)
+    if form is Form.PART10:
         root = to_part10(root, left)
     for each in root.iter(etree.Element):
         if "}" not in str(each.tag):
-            each.tag = f"{{{SPACE if part10 else NAMESPACE}}}{each.tag}"
+            each.tag = f"{{{NAMESPACE if form is Form.TC6 else SPACE}}}{each.tag}"
     data = etree.tostring(root, xml_declaration=True, encoding="utf-8", pretty_print=True)
     return Written(data, left)
 
@@ -84,8 +93,19 @@ def _file(
         _tried(pous, pou.name, left, partial(_pou, pous, pou, inputs, left))
     for one in file.configurations:
         _tried(configurations, one.name, left, partial(_configuration, configurations, one))
-    if file.globals:
-        left.append(f"{file.name}: global variables outside of a CONFIGURATION")
+
+
+def _globals(configurations: Element, files: Sequence[tree.File], left: list[str]) -> None:
+    """Global variables outside of a CONFIGURATION come into the first one; where there is none, into one that runs nothing, which is read
+    as variables alone."""
+    for file in files:
+        for section in file.globals:
+            if section.list_name or section.namespace:
+                left.append(f"{file.name}: a list of global variables with a name, or in a NAMESPACE")
+                continue
+            found = next(iter(configurations), None)
+            into = add(configurations, "configuration", name="Config") if found is None else found
+            _tried(into, file.name, left, partial(write_sections, into, [section]))
 
 
 def _tried(parent: Element, name: str, left: list[str], make: Callable[[], None]) -> None:

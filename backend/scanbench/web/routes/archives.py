@@ -8,11 +8,12 @@ from fastapi import APIRouter, Request, Response
 
 from scanbench.server.archive import LARGEST, unpack
 from scanbench.server.samples import templates
+from scanbench.syntax.plcopen.write import Form
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
-from scanbench.web.messages_projects import ProjectArchive, ProjectTemplate
+from scanbench.web.messages_projects import ExchangeFile, ProjectArchive, ProjectTemplate
 from scanbench.web.reach import Bench
 from scanbench.wire.refused import Refused
 
@@ -26,6 +27,13 @@ async def on_pack(bench: Bench, project: Id) -> Response:
     plain = re.sub(r"[^A-Za-z0-9._ -]", "_", name)
     headers = {"Content-Disposition": f"attachment; filename=\"{plain}.zip\"; filename*=UTF-8''{quote(name)}.zip"}
     return Response(data, media_type="application/zip", headers=headers)
+
+
+@router.get("/projects/{project}/plcopen")
+async def on_write(bench: Bench, project: Id, form: Form = Form.TC6) -> ExchangeFile:
+    """The program of the project as it is saved, as a file for other tools, with what that form has no place for."""
+    name, made = await bench.projects.written(project, form)
+    return ExchangeFile(name=f"{name}.xml", text=made.data.decode("utf-8"), left_out=made.left_out)
 
 
 @router.get("/templates")

@@ -8,7 +8,7 @@ import pytest
 
 from scanbench.syntax.plcopen.document import is_plcopen
 from scanbench.syntax.plcopen.project import read_project
-from scanbench.syntax.plcopen.write import write_project
+from scanbench.syntax.plcopen.write import Form, write_project
 from scanbench.syntax.xml_tree import BadXml
 from tests.caseformat import MODELS
 from tests.syntax.both_engines import BothEngines
@@ -56,7 +56,7 @@ def test_it_is_written_as_it_was_read() -> None:
         f"CONFIGURATION Line\n{globals}RESOURCE PLC ON PLC\nTASK Fast(INTERVAL := T#10ms, PRIORITY := 1);\n"
         "PROGRAM press WITH Fast : Press;\nEND_RESOURCE\nEND_CONFIGURATION\n"
     )
-    written = write_project("Press", files, part10=True)
+    written = write_project("Press", files, Form.PART10)
     assert written.left_out == []
     again = read_project(written.data).files
     assert {name: again[name] for name in ("Count.st", "Press.st", "Report.st")} == {

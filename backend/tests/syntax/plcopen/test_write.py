@@ -12,7 +12,7 @@ from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.server.samples import templates
 from scanbench.syntax.plcopen.project import read_project
-from scanbench.syntax.plcopen.write import write_project
+from scanbench.syntax.plcopen.write import Form, write_project
 from tests import test_random_charts, test_random_diagrams, test_random_ladder
 from tests.amounts import amount
 from tests.caseformat import MODELS, Case, find, read_cases, run_case, write
@@ -27,20 +27,16 @@ NOT_WRITTEN = 8
 """So many of these cases have something that PLCopen has no form for. Whoever writes one makes the number smaller."""
 
 
-FORMS = (False, True)
-"""TC6, and IEC 61131-10."""
-
-
-def again(case: Case, part10: bool = False) -> tuple[Case, list[str]]:
-    written = write_project("Case", {"case.st": case.source}, part10)
+def again(case: Case, form: Form = Form.TC6) -> tuple[Case, list[str]]:
+    written = write_project("Case", {"case.st": case.source}, form)
     files = read_project(written.data).files
     return replace(case, source="".join(files.values())), written.left_out
 
 
-@pytest.mark.parametrize("part10", FORMS, ids=("TC6", "61131-10"))
+@pytest.mark.parametrize("form", Form)
 @pytest.mark.parametrize("case", GRAPHICAL, ids=[each.name for each in GRAPHICAL])
-def test_a_case_runs_as_before(case: Case, part10: bool) -> None:
-    made, left = again(case, part10)
+def test_a_case_runs_as_before(case: Case, form: Form) -> None:
+    made, left = again(case, form)
     if not left:
         run_case(made, [ReferenceEngine])
 
@@ -59,13 +55,23 @@ def test_inputs_that_are_given_by_their_place_have_names() -> None:
     assert "    n := Half(whole := n, plus := 1);\n" in files["Main.st"]
 
 
+@pytest.mark.parametrize("form", Form)
+def test_global_variables_go_into_a_configuration_which_runs_nothing_of_its_own(form: Form) -> None:
+    main = "PROGRAM Main\nVAR_EXTERNAL n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
+    written = write_project("Own", {"Globals.st": "VAR_GLOBAL\n    n : INT := 4;\nEND_VAR\n", "Main.st": main}, form)
+    assert written.left_out == []
+    files = read_project(written.data).files
+    assert files["Configuration.st"] == "VAR_GLOBAL\n    n : INT := 4;\nEND_VAR\n"
+    assert check_sources(files, MODELS["GENERIC-IEC"]).problems == ()
+
+
 def test_a_project_is_the_same_text_again() -> None:
     files = {name: text for name, text in read_project(LINE).files.items() if name != "Main.st"}
     written = write_project("Line", files)
     assert written.left_out == []
     assert read_project(written.data).files == files
     assert write_project("Line", files).data == written.data
-    other = write_project("Line", files, part10=True)
+    other = write_project("Line", files, Form.PART10)
     assert other.left_out == []
     assert read_project(other.data).files == files
 
@@ -104,9 +110,9 @@ def against_the_schema(data: bytes) -> str:
 
 def same(source: str, sets: list[dict[str, str]], names: Iterable[str]) -> None:
     wanted = after(source, sets, names)
-    for part10 in FORMS:
-        written = write_project("Random", {"main.st": source}, part10)
-        if not part10:
+    for form in Form:
+        written = write_project("Random", {"main.st": source}, form)
+        if form is Form.TC6:
             assume(not written.left_out)
             assert against_the_schema(written.data) == ""
         if not written.left_out:

@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { skeleton } from "../../logic/project/skeleton";
 import { rest } from "../../wire/rest";
-import type { Project, ProjectArchive, ProjectTemplate } from "../../wire/types";
+import type { ExchangeFile, ExchangeForm, Project, ProjectArchive, ProjectTemplate } from "../../wire/types";
 import { saveFile } from "../page/download";
 import { showPanel } from "../page/navigate";
 import { chooseProject, createInstance, refreshApp } from "../plc/bench";
@@ -37,6 +37,13 @@ export async function createProject(
 export const listTemplates = (): Promise<ProjectTemplate[]> => rest.templates();
 
 export const lookAtArchive = (file: File): Promise<ProjectArchive> => rest.lookAtArchive(file);
+
+/** The program of a project as a file for other tools, with what that form has no place for. Throws the server's refusal. */
+export const writeProject = (project: Project, form: ExchangeForm): Promise<ExchangeFile> =>
+  rest.writeProject(project.id, form);
+
+export const saveExchangeFile = ({ name, text }: ExchangeFile): void =>
+  saveFile(new Blob([text], { type: "application/xml" }), name);
 
 /** Saves a project as a zip file, as it is on the server. */
 export async function exportProject({ id, name }: Project): Promise<void> {

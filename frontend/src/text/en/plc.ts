@@ -247,7 +247,7 @@ export const plc = {
   "state.readonly": "scan {scan}, read-only",
   "state.switchedoff": "switched off",
   "newproject.archive":
-    "Program files (optional): a zip file of a project of Scanbench or TwinCAT or of plain files, or a file of PLCopen (XML) or Studio 5000 (L5X)",
+    "Program files (optional): a zip file of a project of Scanbench or TwinCAT or of plain files, or a file of PLCopen, IEC 61131-10 (XML) or Studio 5000 (L5X)",
   "newproject.archive.has": "{count} files",
   "newproject.archive.left": "{count} files; {left} other files are left out: {names}",
   "folderout.about":
@@ -261,6 +261,17 @@ export const plc = {
   "folderout.title": "Export into the folder {folder}",
   "folderout.write": "Write {count} files",
   "folderout.written": "Files written: {count}",
+  "xmlout.about":
+    "The program of the project as it is saved on the server, for other tools. Pictures are laid out by themselves.",
+  "xmlout.all": "All of the program is in the file.",
+  "xmlout.form": "Form",
+  "xmlout.form.tc6": "PLCopen XML (TC6)",
+  "xmlout.form.iec61131-10": "IEC 61131-10",
+  "xmlout.left": "Left out, because this form has no place for it: {count}",
+  "xmlout.menu": "Export as PLCopen XML…",
+  "xmlout.save": "Save the file",
+  "xmlout.title": "Export the program of {name}",
+  "xmlout.writing": "Writing the file",
   "picker.export": "Export the project",
   "picker.export.hint": "as it is saved",
   "newproject.archive.notes": "What is not as it was",

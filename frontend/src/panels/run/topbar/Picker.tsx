@@ -15,8 +15,9 @@ import type { AppInfo, Project } from "../../../wire/types";
 import { FolderOut } from "./FolderOut";
 import { NewInstance } from "./NewInstance";
 import { NewProject } from "./NewProject";
+import { XmlOut } from "./XmlOut";
 
-type Asking = "project" | "instance" | FileSystemDirectoryHandle | null;
+type Asking = "project" | "instance" | "xml" | FileSystemDirectoryHandle | null;
 
 /** Chooses the project and the virtual PLC that this browser shows. */
 export function Picker() {
@@ -56,6 +57,7 @@ export function Picker() {
       {asking && typeof asking === "object" && project && (
         <FolderOut project={project} folder={asking} onClose={() => setAsking(null)} />
       )}
+      {asking === "xml" && project && <XmlOut project={project} onClose={() => setAsking(null)} />}
       {asking === "instance" && project && <NewInstance project={project} onClose={() => setAsking(null)} />}
     </>
   );
@@ -119,6 +121,13 @@ function itemsOf(
       hint: t("picker.export.hint"),
       disabled: project === null,
       onSelect: () => project && void exportProject(project),
+    },
+    {
+      label: t("xmlout.menu"),
+      icon: "export",
+      hint: t("picker.export.hint"),
+      disabled: project === null,
+      onSelect: () => ask("xml"),
     },
     ...(canChooseFolder()
       ? [
