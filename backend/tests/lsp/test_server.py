@@ -335,6 +335,9 @@ def test_cross_references_and_what_nobody_reads_are_requests_of_our_own(folder: 
         doc = opened(client, folder / "main.st")
         at = position(MAIN, "total :=")
         where = {"line": at.line, "character": at.character}
+        first, second, *_ = await ask("boxes", textDocument={"uri": doc.uri}, position=where)
+        assert [first[key] for key in ("name", "type", "inputs", "outputs")] == ["inc", "Inc", ["by"], ["n"]]
+        assert [second[key] for key in ("name", "kind", "comment")] == ["Inc", "block", "Counts its calls."]
         told = await ask("crossReferences", textDocument={"uri": doc.uri}, position=where)
         assert told.name == "total"
         assert told.complete

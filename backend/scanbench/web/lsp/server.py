@@ -15,7 +15,18 @@ from scanbench.server.from_disk import PROJECT_FILE
 from scanbench.syntax.language_file import LANGUAGE_FILE
 from scanbench.syntax.parse_file import ENDINGS
 from scanbench.translation.inside import Path, at_paths, wanted
-from scanbench.web.lsp import annotations, calls, completion, crossing, lenses, mending, navigation, outline, renaming
+from scanbench.web.lsp import (
+    annotations,
+    boxes,
+    calls,
+    completion,
+    crossing,
+    lenses,
+    mending,
+    navigation,
+    outline,
+    renaming,
+)
 from scanbench.web.lsp.language import Language
 from scanbench.web.lsp.project import Saved, Told
 
@@ -106,7 +117,7 @@ def make_server(saved_of: Callable[[types.InitializeParams], Saved]) -> Language
             language.project.saved.files = dict(params.files)
             language.refreshed()
 
-    for room in (navigation, crossing, completion, outline, renaming, mending, annotations, lenses, calls):
+    for room in (navigation, crossing, completion, boxes, outline, renaming, mending, annotations, lenses, calls):
         room.register(language)
     return server
 
