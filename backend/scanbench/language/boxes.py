@@ -44,7 +44,7 @@ def boxes(reading: Reading, file: str, position: int) -> list[Box]:
         return []
     body = reading.body(around)
     found = [] if body is None else list(_instances(body))
-    return [*found, *_declared(reading), *_standard(), *_library(reading)]
+    return [*found, *_declared(reading), *_library(reading), *_standard()]
 
 
 def _instances(body: Body) -> Iterator[Box]:

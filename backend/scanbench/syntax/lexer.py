@@ -131,7 +131,8 @@ def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[To
     all_starts = list(accumulate(map(len, pieces), initial=start))
     if Lex.UNREADABLE in found:
         for piece, at in zip(pieces, all_starts, strict=False):
-            if known[piece] is Lex.UNREADABLE:
+            # The second and third mark of `???` say nothing that the first does not.
+            if known[piece] is Lex.UNREADABLE and not (piece == "?" and text[at - 1 : at] == "?"):
                 problems.append(_unreadable(source, at, piece))
                 if len(problems) >= MAX_UNREADABLE:
                     break
@@ -178,6 +179,9 @@ def _unreadable(source: Source, at: int, char: str) -> Problem:
     span = source.span(at, at + 1)
     if char in "'\"":
         return Problem("S002", "This string never ends; close it on the same line.", span)
+    if source.text.startswith(NOTHING, at):
+        message = "`???` stands for what is not connected or named yet; write a variable, a wire or a value."
+        return Problem("S001", message, source.span(at, at + len(NOTHING)))
     found = next((each for each in FOREIGN if source.text.startswith(each, at)), "")
     if found:
         return Problem("S001", f"`{found}` is of another language; {FOREIGN[found]}.", source.span(at, at + len(found)))
@@ -200,6 +204,8 @@ def _with_closed_strings(source: Source, text: str, pieces: list[str], start: in
     return text
 
 
+NOTHING = "???"
+"""What an editor of drawings, like those of other tools, writes at a pin that is not connected."""
 FOREIGN = {
     "!=": "write `<>`",
     "!": "write NOT",

@@ -99,6 +99,8 @@ def test_operators_of_other_languages_are_named() -> None:
     def of(expression: str) -> str:
         return complaints(f"PROGRAM p\nx := {expression};\nEND_PROGRAM")[0]
 
+    assert "S001 2:6 `???` stands for what is not connected" in str(complaints("PROGRAM p\nx := ???;\nEND_PROGRAM"))
+    assert str(complaints("PROGRAM p\nx := ???;\nEND_PROGRAM")).count("S001") == 1
     assert of("!a") == "S001 2:6 `!` is of another language; write NOT."
     assert (
         complaints("PROGRAM p\nx := a || b;\nEND_PROGRAM").count("S001 2:8 `||` is of another language; write OR.") == 1

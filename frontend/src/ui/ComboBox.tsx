@@ -67,6 +67,7 @@ export function ComboBox<T extends Offer>(props: Props<T>) {
       {(offer.type || offer.icon) && <Icon name={offer.icon ?? "var"} small />}
       <span className="mono cut">{offer.path}</span>
       <span className="k">{offer.type}</span>
+      {offer.about && <span className="about cut">{offer.about}</span>}
     </div>
   ));
   const box = { id, role: "listbox", "aria-label": listed };

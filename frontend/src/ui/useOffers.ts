@@ -7,6 +7,8 @@ export interface Offer {
   type: string;
   /** That of a variable if it has none of its own. */
   icon?: IconName;
+  /** What it is, below its name. */
+  about?: string;
 }
 
 const DELAY = 80;

@@ -42,7 +42,7 @@ export function readCallee(reader: Reader): string {
   reader.skip();
   const at = reader.at;
   const callee = reader.upTo(["("], "operand");
-  if (!/^[\p{L}_#%"]/u.test(callee)) throw new NotRead(at, "element");
+  if (!/^(?:[\p{L}_#%"]|\?\?\?)/u.test(callee)) throw new NotRead(at, "element");
   reader.expect("(", "operand");
   return callee;
 }

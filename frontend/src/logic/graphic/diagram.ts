@@ -11,11 +11,15 @@ export interface DiagramPin {
   edge: "" | "P" | "N";
   /** The key of the wire that it is; null for a variable, a literal or an expression. */
   wire: string | null;
+  /** Where the value is written, with what negates it or looks for an edge. */
+  span: Span;
 }
 
 export interface DiagramInput extends DiagramPin {
   /** Empty without one. */
   name: string;
+  /** The whole argument, with its name; of what is no box the same as `span`. */
+  arg: Span;
 }
 
 export interface DiagramOutput {
@@ -27,6 +31,10 @@ export interface DiagramOutput {
   /** The key of the wire that it is; null for a variable. */
   wire: string | null;
   operator: "" | "S" | "R";
+  /** Where the target is written. */
+  span: Span;
+  /** The whole argument, with its name; null for the result. */
+  arg: Span | null;
 }
 
 export interface DiagramItem {
@@ -39,8 +47,15 @@ export interface DiagramItem {
   outputs: readonly DiagramOutput[];
   /** Where a jump goes to; empty for RETURN, and for what is no jump. */
   label: string;
+  /** Where the callee of a box is written, or the label of a jump; null for others. */
+  named: Span | null;
+  /** What is between the brackets of a box; null for others. */
+  args: Span | null;
   span: Span;
 }
 
 /** The key of a wire as it is written: `#Low` and `#low` are one. */
 export const wireOf = (text: string) => (/^#[\p{L}_][\p{L}\p{N}_]*$/u.test(text) ? text.toUpperCase() : null);
+
+/** What is written where nothing is connected or named yet. The compiler refuses it. */
+export const NOTHING = "???";

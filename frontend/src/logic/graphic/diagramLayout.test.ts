@@ -1,6 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { type DiagramDrawing, layOutDiagram } from "./diagramLayout";
+import { alongWire } from "./diagramPins";
 import { readDiagram } from "./diagramRead";
+import type { Place, Way } from "./ladderLayout";
 import { networksIn } from "./networks";
 
 function drawingOf(lines: readonly string[]): DiagramDrawing {
@@ -155,3 +157,19 @@ function randomOf(seed: number): (limit: number) => number {
     return Math.floor((state / 4_294_967_296) * limit);
   };
 }
+
+describe("a cursor in a diagram", () => {
+  it("goes along wires, and from pin to pin", () => {
+    const drawing = drawingOf(["#a = OR(x, y);", "#b = AND(#a, z);", "out := #b;"]);
+    const go = (...ways: Way[]) =>
+      ways.reduce<Place | null>((place, way) => place && alongWire(drawing, place, way), [0]);
+    expect(go("left")).toEqual([0, 0]);
+    expect(go("left", "down")).toEqual([0, 1]);
+    expect(go("left", "down", "right")).toEqual([0]);
+    expect(go("right")).toEqual([0, 2]);
+    expect(go("right", "right")).toEqual([1, 0]);
+    expect(go("right", "right", "left")).toEqual([0, 2]);
+    expect(go("right", "right", "right", "right", "right", "right")).toEqual([2]);
+    expect(go("left", "left")).toBeNull();
+  });
+});

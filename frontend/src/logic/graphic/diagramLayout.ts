@@ -3,7 +3,7 @@
  * order of the text, and each wire has a track of its own between two columns; it passes columns between boxes.
  */
 
-import type { DiagramInput, DiagramItem, DiagramOutput } from "./diagram";
+import { type DiagramInput, type DiagramItem, type DiagramOutput, NOTHING } from "./diagram";
 import type { Place } from "./ladderLayout";
 import { widthOf } from "./measure";
 
@@ -57,7 +57,8 @@ export const isVariable = (text: string) => VARIABLE.test(text) && !/^(?:TRUE|FA
 
 const LONGEST = 40;
 export const shortPin = (text: string) => (text.length > LONGEST ? `${text.slice(0, LONGEST - 1)}…` : text);
-const textWidth = (text: string) => widthOf(shortPin(text)) + (isVariable(text) ? VALUE : 0) + STUB + 6;
+/** How wide the text of a pin is, with its value. */
+export const textWidth = (text: string) => widthOf(shortPin(text)) + (isVariable(text) ? VALUE : 0) + STUB + 6;
 
 interface Node {
   item: DiagramItem;
@@ -98,7 +99,8 @@ class Layout {
     const inputs = item.inputs.map((pin): DiagramPinDrawn<DiagramInput> => {
       const source = pin.wire === null ? undefined : this.sources.get(pin.wire);
       if (source) column = Math.max(column, source.node.column + 1);
-      return { pin, y: 0, from: pin.wire === null ? "text" : source ? "wire" : "nothing" };
+      const text = pin.text === NOTHING ? "nothing" : "text";
+      return { pin, y: 0, from: pin.wire === null ? text : source ? "wire" : "nothing" };
     });
     const node = { item, order: index + 1, column, y: 0, ...sizeOf(item), inputs };
     this.nodes.push(node);
@@ -181,7 +183,7 @@ class Layout {
       zones.push({ at: x + 6, tracks });
       const lead = here.flatMap(({ inputs }) =>
         inputs.map(({ pin, from }) =>
-          from === "wire" ? 10 : from === "text" ? textWidth(pin.text) : widthOf(pin.text) + 46,
+          from === "wire" ? 10 : from === "loop" ? widthOf(pin.text) + 46 : textWidth(pin.text),
         ),
       );
       x += tracks.length * TRACK + 8 + Math.max(0, ...lead);

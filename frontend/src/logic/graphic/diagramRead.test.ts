@@ -48,6 +48,44 @@ describe("function block diagrams", () => {
     ]);
   });
 
+  it("know where their pins, targets, callees and labels are written", () => {
+    const { items, text } = itemsOf(RAMP);
+    const at = (span: { at: number; end: number } | null | undefined) => span && text.slice(span.at, span.end);
+    expect(items.map(({ named, args }) => [at(named) ?? "", at(args) ?? ""])).toEqual([
+      ["SUB", "speed, step"],
+      ["ADD", "speed, step"],
+      ["LIMIT", "MN := #low, IN := target, MX := #high"],
+      ["jam", "IN := NOT sensor, PT := T#1500ms, Q => #late, NOT ET => x"],
+      ["", ""],
+      ["SEL", "R_EDGE first, parts, ADD(parts, 1)"],
+      ["", ""],
+      ["", ""],
+      ["belt[1].jam", ""],
+      ["", ""],
+      ["past", ""],
+    ]);
+    expect(items.flatMap(({ inputs }) => inputs.map(({ span }) => at(span)))).toEqual([
+      ...["speed", "step", "speed", "step", "#low", "target", "#high", "NOT sensor", "T#1500ms", "#late"],
+      ...["R_EDGE first", "parts", "ADD(parts, 1)", "NOT R_EDGE #late", "(x + 1) * 2", "NOT auto"],
+    ]);
+    expect(items[3]?.inputs.map(({ arg }) => at(arg))).toEqual(["IN := NOT sensor", "PT := T#1500ms"]);
+    expect(items.flatMap(({ outputs }) => outputs.map(({ span, arg }) => [at(span), at(arg) ?? ""]))).toEqual([
+      ...[
+        ["#low", ""],
+        ["#high", ""],
+        ["speed", ""],
+        ["#late", "Q => #late"],
+        ["x", "NOT ET => x"],
+        ["jammed", ""],
+      ],
+      ...[
+        ["parts", ""],
+        ["a[3]", ""],
+        ["b", ""],
+      ],
+    ]);
+  });
+
   it("have pins that are wires, negated, or look for an edge", () => {
     const { items } = itemsOf(RAMP);
     expect(items[2]?.inputs.map(({ name, text, wire }) => [name, text, wire])).toEqual([

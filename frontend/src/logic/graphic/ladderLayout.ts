@@ -11,6 +11,9 @@ import type { Argument, Box, Element, Parallel, Path } from "./tree";
 /** Indexes from the rung to an element or a branch: element, branch, element, and so on. Of even length: the start of a path. */
 export type Place = readonly number[];
 
+/** Where an arrow key leads. */
+export type Way = "left" | "right" | "up" | "down";
+
 interface Wire {
   points: readonly (readonly [number, number])[];
   /** The node whose power it carries. */

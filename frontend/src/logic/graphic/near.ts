@@ -1,8 +1,7 @@
 /** Where the cursor goes from an element of a drawing. */
 
+import type { Way } from "./ladderLayout";
 import type { Spot } from "./sheet";
-
-export type Way = "left" | "right" | "up" | "down";
 
 const middle = ({ x, y, width, axis }: Spot) => [axis ?? x + width / 2, y] as const;
 

@@ -4,10 +4,11 @@ import { type Chart, keyOf } from "./chart";
 import { type ChartDrawing, layOutChart } from "./chartLayout";
 import { partsIn, readChart } from "./charts";
 import { type DiagramDrawing, layOutDiagram } from "./diagramLayout";
+import { pinsOf } from "./diagramPins";
 import { readDiagram } from "./diagramRead";
 import { type Drawing, layOut, type Place } from "./ladderLayout";
 import { readRung } from "./ladderRead";
-import type { Found } from "./networks";
+import { type Found, networksIn } from "./networks";
 import type { Path, Span } from "./tree";
 
 interface Drawn<Kind, Picture> {
@@ -47,6 +48,10 @@ export interface Spot {
 }
 
 export const spotsOf = (part: DrawnPart | undefined): readonly Spot[] => part?.drawing?.elements ?? [];
+
+/** Where a cursor can be: at elements, and at the pins of a network. */
+export const stopsOf = (part: DrawnPart | undefined): readonly Spot[] =>
+  part?.kind === "network" && part.drawing ? [...part.drawing.elements, ...pinsOf(part.drawing)] : spotsOf(part);
 
 /** The action of a chart that a rung or network is written in, and the chart; null elsewhere. */
 export function actionOf(parts: readonly DrawnPart[], { found }: DrawnPart): { name: string; chart: DrawnPart } | null {
@@ -119,4 +124,12 @@ function draw(found: Found, width: number, last: DrawnPart | undefined): DrawnPa
     };
   const drawing = last?.kind === "rung" ? last.drawing : null;
   return { kind: "rung", found, readable: false, path: null, comments: false, drawing };
+}
+
+/** A part with a different text, as it is drawn while that is not written yet. */
+export function drawnWith(part: DrawnPart, text: string, width: number): DrawnPart {
+  const [network] = part.kind === "chart" ? [] : networksIn(text);
+  const body = network?.body ?? { at: 0, end: text.length };
+  const drawn = draw({ ...part.found, text, body, closed: network?.closed ?? true }, width, part);
+  return { ...drawn, found: part.found };
 }

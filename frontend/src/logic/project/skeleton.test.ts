@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { kindOf, skeleton } from "./skeleton";
+import { kindOf, languagesOf, skeleton } from "./skeleton";
 
 it("begins a file with what its name says, or with what was chosen", () => {
   expect(skeleton("plant/inputs.csv", { input: "CIO0" })).toContain("time; CIO0\n");
@@ -13,4 +13,13 @@ it("begins a file with what its name says, or with what was chosen", () => {
 it("writes instructions only where there is a body", () => {
   expect(skeleton("Belt.st", { kind: "function_block", language: "IL" })).toContain("LD   enable");
   expect(skeleton("Belt.st", { kind: "type", language: "IL" })).toBe(skeleton("Belt.st", { kind: "type" }));
+});
+
+it("what is drawn begins with an empty network, or a step", () => {
+  expect(skeleton("FB_New.st", { language: "FBD" })).toMatch(
+    /VAR\nEND_VAR\nNETWORK\nEND_NETWORK\nEND_FUNCTION_BLOCK\n$/,
+  );
+  expect(skeleton("f_new.st", { language: "LD" })).toMatch(/END_VAR\nRUNG\nEND_RUNG\nEND_FUNCTION\n$/);
+  expect(skeleton("new.st", { language: "SFC" })).toMatch(/END_VAR\nINITIAL_STEP Init:\nEND_STEP\nEND_PROGRAM\n$/);
+  expect(languagesOf("function")).not.toContain("SFC");
 });

@@ -4,8 +4,11 @@ import { declares, isRequirements, isTable } from "./explorer";
 export const KINDS = ["program", "function_block", "function", "class", "interface", "type", "global"] as const;
 export type NewKind = (typeof KINDS)[number];
 
-export const LANGUAGES = ["ST", "IL"] as const;
+const LANGUAGES = ["ST", "IL", "LD", "FBD", "SFC"] as const;
 export type NewLanguage = (typeof LANGUAGES)[number];
+
+/** A function keeps nothing from call to call, so it is no chart. */
+export const languagesOf = (kind: NewKind) => LANGUAGES.filter((each) => each !== "SFC" || kind !== "function");
 
 /** Only what has a body is written in a language. */
 export const hasBody = (kind: NewKind) => kind === "program" || kind === "function_block" || kind === "function";
@@ -29,7 +32,8 @@ export function skeleton(
   if (isRequirements(path))
     return "// What must happen when errors come and go, e.g.\n// battery-error:\n//   lamp within 3 scans\n";
   if (!declares(path)) return ""; // it is pasted as a whole: nobody types XML
-  return (language === "IL" && hasBody(kind) ? IL : ST)[kind](nameOf(path));
+  if (!hasBody(kind) || language === "ST") return ST[kind](nameOf(path));
+  return language === "IL" ? IL[kind](nameOf(path)) : drawn(kind, language, nameOf(path));
 }
 
 interface Chosen {
@@ -69,3 +73,13 @@ const IL: Texts = {
 };
 
 const INSTRUCTIONS = "    LD   enable\n    ST   done\n";
+
+/** A POU whose body is drawn begins with an empty rung or network, or with the step that is active first. */
+const FIRST: Record<"LD" | "FBD" | "SFC", string> = {
+  LD: "RUNG\nEND_RUNG\n",
+  FBD: "NETWORK\nEND_NETWORK\n",
+  SFC: "INITIAL_STEP Init:\nEND_STEP\n",
+};
+
+const drawn = (kind: NewKind, language: keyof typeof FIRST, name: string) =>
+  ST[kind](name).replace(/\n\n(?:.*;\n)?(END_\w+\n)$/, `\n${FIRST[language]}$1`);

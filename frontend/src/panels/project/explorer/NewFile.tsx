@@ -4,7 +4,7 @@ import {
   hasBody,
   KINDS,
   kindOf,
-  LANGUAGES,
+  languagesOf,
   type NewKind,
   type NewLanguage,
   skeleton,
@@ -23,8 +23,9 @@ export function NewFile({ onClose }: { onClose: () => void }) {
   const input = useBench((bench) => bench.model?.areas[0]?.first);
   const [name, setName] = useState("");
   const [chosen, setChosen] = useState<NewKind | null>(null);
-  const [language, setLanguage] = useState<NewLanguage>("ST");
+  const [wanted, setWanted] = useState<NewLanguage>("ST");
   const kind = chosen ?? kindOf(name);
+  const language = languagesOf(kind).includes(wanted) ? wanted : "ST";
   const free = declares(name.trim());
 
   async function create(): Promise<void> {
@@ -48,7 +49,7 @@ export function NewFile({ onClose }: { onClose: () => void }) {
           {free ? (
             <>
               <Kind value={kind} onChoose={setChosen} />
-              {hasBody(kind) && <Language value={language} onChoose={setLanguage} />}
+              {hasBody(kind) && <Language kind={kind} value={language} onChoose={setWanted} />}
             </>
           ) : (
             <p className="faint">{t("file.new.named")}</p>
@@ -74,8 +75,14 @@ function Kind({ value, onChoose }: { value: NewKind; onChoose: (kind: NewKind) =
   );
 }
 
-function Language({ value, onChoose }: { value: NewLanguage; onChoose: (language: NewLanguage) => void }) {
-  const words = LANGUAGES.map((language) => ({ value: language, word: t(`file.language.${language}`) }));
+interface LanguageProps {
+  kind: NewKind;
+  value: NewLanguage;
+  onChoose: (language: NewLanguage) => void;
+}
+
+function Language({ kind, value, onChoose }: LanguageProps) {
+  const words = languagesOf(kind).map((language) => ({ value: language, word: t(`file.language.${language}`) }));
   return (
     <div className="field">
       <span>{t("file.language")}</span>

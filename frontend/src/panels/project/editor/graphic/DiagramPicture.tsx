@@ -1,5 +1,5 @@
 import { memo } from "react";
-import type { DiagramInput, DiagramItem, DiagramOutput } from "../../../../logic/graphic/diagram";
+import { type DiagramInput, type DiagramItem, type DiagramOutput, NOTHING } from "../../../../logic/graphic/diagram";
 import {
   type DiagramDrawing,
   type DiagramDrawn,
@@ -8,8 +8,9 @@ import {
   STUB,
   shortPin,
 } from "../../../../logic/graphic/diagramLayout";
+import { type PinSpot, pinsOf } from "../../../../logic/graphic/diagramPins";
 import { t } from "../../../../text";
-import { nameOfItem } from "./names";
+import { nameOfItem, nameOfPin } from "./names";
 import { type Marked, SpotGroup, sharp } from "./SpotGroup";
 
 interface Props extends Marked {
@@ -33,9 +34,29 @@ export const DiagramPicture = memo(function DiagramPicture({ drawing, ...marked 
       {elements.map((drawn) => (
         <Element key={drawn.order} drawn={drawn} {...marked} />
       ))}
+      {pinsOf(drawing).map((pin) => (
+        <Pin key={pin.place.join(".")} pin={pin} {...marked} />
+      ))}
     </svg>
   );
 });
+
+/** Where a pin is selected: what is drawn there belongs to its item. */
+function Pin({ pin, id, cursor }: { pin: PinSpot } & Marked) {
+  const key = pin.place.join(".");
+  return (
+    <g
+      id={`${id}-${key}`}
+      role="option"
+      aria-selected={key === cursor}
+      aria-label={nameOfPin(pin)}
+      data-element={key}
+      data-side={pin.side}
+    >
+      <rect className="hit" x={pin.x} y={pin.y - 9} width={pin.width - 2} height={18} rx={3} />
+    </g>
+  );
+}
 
 function Element({ drawn, ...marked }: { drawn: DiagramDrawn } & Marked) {
   const { element, x, y, width, up, down, place } = drawn;
@@ -123,7 +144,9 @@ function Input({
       )}
       {from === "text" && <Padlock x={x - STUB} y={y} />}
       {from !== "wire" && <Text text={pin.text} x={x - (from === "loop" ? 38 : STUB + 4)} y={y} side="r" />}
-      {from === "nothing" && <title>{t("graphic.unconnected", { wire: pin.text })}</title>}
+      {from === "nothing" && (
+        <title>{pin.text === NOTHING ? t("graphic.nothing") : t("graphic.unconnected", { wire: pin.text })}</title>
+      )}
       {pin.negated && <circle className="ring round" cx={x - 3.5} cy={y + 0.5} r={3.5} />}
       {pin.edge !== "" && (
         <path

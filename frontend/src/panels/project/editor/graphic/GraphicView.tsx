@@ -1,17 +1,19 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef, useState } from "react";
 import { baseName } from "../../../../logic/format/paths";
-import { type Drawn, layOut } from "../../../../logic/graphic/ladderLayout";
+import { NOTHING } from "../../../../logic/graphic/diagram";
+import { diagramOf } from "../../../../logic/graphic/diagramEdit";
+import { type Around, instancesIn, namesIn } from "../../../../logic/graphic/edit";
+import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
-import { actionOf, type DrawnPart, heightOf, Sheet, spotsOf, stepIn } from "../../../../logic/graphic/sheet";
+import { actionOf, type DrawnPart, drawnWith, heightOf, Sheet, stepIn, stopsOf } from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
-import { seenAsNow } from "../../../../store/debug/seenAs";
+import { boxesNow, loadBoxes } from "../../../../store/graphic/boxes";
 import { showAs, useViewOf } from "../../../../store/graphic/views";
 import { saveFile } from "../../../../store/page/download";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
-import { useMembers } from "../../../../store/plc/members";
 import { useDocuments } from "../../../../store/project/documents";
 import { shownText } from "../../../../store/project/shownProgram";
 import { t } from "../../../../text";
@@ -19,11 +21,12 @@ import { Icon } from "../../../../ui/Icon";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
+import { ElementField } from "./ElementField";
 import { FlowNote } from "./FlowNote";
 import { marksOf, togglePart } from "./marks";
-import { NameField } from "./NameField";
 import { PartRow } from "./PartRow";
 import { svgFile } from "./svgFile";
+import { Tools } from "./Tools";
 import { type Cursor, useEditing } from "./useEditing";
 
 /** Marks, number and margins left and right of a drawing. */
@@ -66,13 +69,26 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     return () => observer.disconnect();
   }, []);
 
-  const editing = useEditing(path, drawn, readOnly, go);
-  const { naming } = editing;
-  const named = useMemo(() => naming && layOut(naming.path, room), [naming, room]);
+  const around = (): Around => {
+    const boxes = boxesNow(path);
+    return { boxes: [...instancesIn(text, boxes), ...boxes], names: namesIn(text) };
+  };
+  const network = drawn.find(({ kind }) => kind === "network");
+  // biome-ignore lint/correctness/useExhaustiveDependencies: once, when there is a network
+  useEffect(() => {
+    if (network) void loadBoxes(path, inText(network, network.found.body.at));
+  }, [path, network === undefined]);
+  const editing = useEditing({ path, drawn, readOnly, go, around });
+  const { named } = editing;
+  /** The part whose element is being named, as it will be. */
+  const preview = useMemo(() => {
+    const part = named && drawn[named.rung];
+    return part ? drawnWith(part, named.text, room) : null;
+  }, [named, drawn, room]);
+  const shownAt = (index: number) => (named?.rung === index && preview ? preview : drawn[index]);
   const heightAt = (index: number) => {
-    const rung = drawn[index];
-    if (!rung) return 0;
-    return heightOf(naming?.rung === index ? { ...rung, drawing: named } : rung);
+    const part = shownAt(index);
+    return part ? heightOf(part) : 0;
   };
   const virtual = useVirtualizer({
     count: drawn.length,
@@ -81,7 +97,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     overscan: 4,
   });
   // biome-ignore lint/correctness/useExhaustiveDependencies: the heights follow from what is drawn
-  useEffect(() => virtual.measure(), [drawn, named]);
+  useEffect(() => virtual.measure(), [drawn, preview]);
 
   const target = useNavigation((navigation) => navigation.place);
   const turn = useRef(target?.turn);
@@ -133,11 +149,30 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   }
 
   function onKeyDown(event: KeyboardEvent): void {
-    if (event.altKey || event.metaKey) return;
+    if (event.metaKey) return;
     const to = moved(event, cursor, drawn);
     if (to) go(to);
     else if (!editing.onKey(event, cursor)) return;
     event.preventDefault();
+  }
+
+  function onDoubleClick({ target: on }: MouseEvent): void {
+    if (!(on instanceof Element) || !on.closest(".netbody")) return;
+    if (!on.closest("[data-element]") || !editing.press("F2", cursor)) toText();
+  }
+
+  /** Whether what was typed into the field was taken; `onwards` opens the next one. */
+  function take(typed: string, onwards: boolean): boolean {
+    const at = named?.rung ?? 0;
+    const made = editing.take(typed);
+    if (!made) return false;
+    // The field that opens next takes the focus; a blur of this one would close it.
+    if (made.naming) return true;
+    const next = onwards ? emptyAfter(made.text, made.place) : null;
+    if (next && editing.press("F2", { rung: at, place: next }, made.text)) return true;
+    if (onwards && preview) go({ rung: at, place: elementBeside({ elements: stopsOf(preview) }, made.place) });
+    sheet.current?.focus();
+    return true;
   }
 
   function onClick({ target: on }: MouseEvent): void {
@@ -156,36 +191,21 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     setCursor({ rung: index, place: step ?? (hit === undefined ? [] : hit.split(".").map(Number)) });
   }
 
-  function field(drawing: { elements: readonly Drawn[] }, pou: string | undefined) {
-    const element = drawing.elements.find((each) => naming && sameElement(each.place, naming.place));
-    if (!naming || !element) return null;
-    const { of } = useMembers.getState();
-    const own = pou === undefined ? undefined : of.get(seenAsNow(pou) ?? "");
-    const names = [...(own ?? []), ...(of.get("") ?? [])].filter(({ type }) => type === "BOOL").map(({ name }) => name);
-    const leave = () => {
-      editing.leave();
-      sheet.current?.focus();
-    };
-    return (
-      <NameField
-        key={naming.place.join(".")}
-        drawn={element}
-        names={[...new Set(names)]}
-        onLeave={leave}
-        onTake={(made, onwards) => {
-          editing.take(made);
-          go({ rung: naming.rung, place: onwards ? elementBeside(drawing, naming.place) : naming.place });
-          sheet.current?.focus();
-        }}
-      />
-    );
+  function leave(): void {
+    editing.leave();
+    sheet.current?.focus();
   }
 
   const cursorPart = drawn[cursor.rung];
   const cursorPou =
     cursorPart && pouAt(pous, path, (actionOf(drawn, cursorPart)?.chart ?? cursorPart).found.line, text);
-  const editable = drawn[cursor.rung]?.kind === "rung";
-  const active = spotsOf(drawn[cursor.rung]).find((each) => sameElement(each.place, cursor.place));
+  function tool(key: string): void {
+    if (!named) sheet.current?.focus();
+    editing.press(key, cursor);
+  }
+
+  const kind = drawn[cursor.rung]?.kind ?? "rung";
+  const active = stopsOf(shownAt(cursor.rung)).find((each) => sameElement(each.place, cursor.place));
   return (
     <div className="graphicview">
       <div
@@ -198,13 +218,14 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         onKeyDown={onKeyDown}
         onFocus={look}
         onClick={onClick}
-        onDoubleClick={({ target: on }) => on instanceof Element && on.closest(".netbody") && toText()}
+        onDoubleClick={onDoubleClick}
         data-pane="ladder"
       >
         <div style={{ height: virtual.getTotalSize(), position: "relative" }}>
           {virtual.getVirtualItems().map((item) => {
             const rung = drawn[item.index];
-            if (!rung) return null;
+            const part = shownAt(item.index);
+            if (!rung || !part) return null;
             const action = actionOf(drawn, rung);
             // An action has the variables of its chart.
             const pou = pouAt(pous, path, (action?.chart ?? rung).found.line, text);
@@ -217,14 +238,24 @@ export default function GraphicView({ path, text, readOnly }: Props) {
               >
                 <PartRow
                   path={path}
-                  part={rung}
+                  part={part}
                   number={item.index + 1}
                   action={action?.name ?? null}
                   pou={pou}
                   id={`${id}${item.index}`}
                   cursor={cursor.rung === item.index ? cursor.place : null}
-                  naming={
-                    naming?.rung === item.index && named ? { drawing: named, field: field(named, pou?.name) } : null
+                  field={
+                    named && named.rung === item.index ? (
+                      <ElementField
+                        path={path}
+                        written={rung}
+                        part={part}
+                        named={named}
+                        around={around}
+                        onTake={take}
+                        onLeave={leave}
+                      />
+                    ) : null
                   }
                   twice={twice[item.index] ?? NONE}
                   marks={marksOf(rung, path, breakpoints, halt)}
@@ -234,10 +265,16 @@ export default function GraphicView({ path, text, readOnly }: Props) {
           })}
         </div>
       </div>
+      {!readOnly && <Tools kind={kind} onPress={tool} />}
       <div className="netnote faint">
-        <FlowNote path={path} part={drawn[cursor.rung]} place={cursor.place} pou={cursorPou} />
+        <FlowNote
+          path={path}
+          part={cursorPart}
+          place={cursorPart?.kind === "network" ? cursor.place.slice(0, 1) : cursor.place}
+          pou={cursorPou}
+        />
         <span className="cut grow" role="status">
-          {editing.refused || t(readOnly ? "graphic.readonly" : editable ? "graphic.keys" : "graphic.keys.look")}
+          {editing.refused ? t(editing.refused) : t(readOnly ? "graphic.readonly" : "graphic.keys")}
         </span>
         <button type="button" className="btn quiet sm" title={t("graphic.svg.hint")} onClick={toFile}>
           <Icon name="export" small />
@@ -251,5 +288,14 @@ export default function GraphicView({ path, text, readOnly }: Props) {
 /** Where the element at the cursor begins in the file. */
 function placeInText(part: DrawnPart | undefined, { place }: Cursor): { line: number; column: number } {
   if (!part) return { line: 1, column: 1 };
-  return inText(part, spotsOf(part).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
+  return inText(part, stopsOf(part).find((each) => sameElement(each.place, place))?.element.span.at ?? 0);
+}
+
+/** The first input at or after a place of a network that is not connected; null where there is none. */
+function emptyAfter(text: string, [index = 0, pin = 0]: Place): Place | null {
+  const items = diagramOf(text)?.items ?? [];
+  const places = items.flatMap(({ inputs }, item) =>
+    inputs.flatMap((input, at): Place[] => (input.text === NOTHING ? [[item, at]] : [])),
+  );
+  return places.find(([item = 0, at = 0]) => item > index || (item === index && at >= pin)) ?? null;
 }

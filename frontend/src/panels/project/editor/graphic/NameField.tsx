@@ -1,66 +1,101 @@
-import { type KeyboardEvent, useId, useState } from "react";
-import { elementOf, fieldText } from "../../../../logic/graphic/field";
-import type { Drawn } from "../../../../logic/graphic/ladderLayout";
-import type { Element } from "../../../../logic/graphic/tree";
+import { type KeyboardEvent, useCallback, useEffect, useRef, useState } from "react";
+import type { Naming } from "../../../../logic/graphic/edit";
+import type { Spot } from "../../../../logic/graphic/sheet";
 import { t } from "../../../../text";
-import { nameOf } from "./names";
+import { ComboBox } from "../../../../ui/ComboBox";
+import { type Offer, useOffers } from "../../../../ui/useOffers";
 
 interface Props {
-  drawn: Drawn;
-  /** Names that are offered. */
-  names: readonly string[];
-  onTake: (element: Element, onwards: boolean) => void;
+  naming: Naming;
+  /** Where it is drawn. */
+  spot: Pick<Spot, "x" | "y" | "width"> & { up?: number };
+  label: string;
+  /** What can be offered. */
+  names: () => Promise<readonly Offer[]>;
+  /** Whether the text was taken. */
+  onTake: (text: string, onwards: boolean) => Promise<boolean>;
   onLeave: () => void;
 }
 
-/** The name of a contact or coil, or the text of a box, where it is drawn. Enter takes it, Tab goes on to the next one, Escape leaves. */
-export function NameField({ drawn: { element, x, y, up, width }, names, onTake, onLeave }: Props) {
-  const [text, setText] = useState(() => fieldText(element));
-  const [bad, setBad] = useState(false);
-  const list = useId();
-  const wide = element.kind === "contact" || element.kind === "coil" ? Math.max(120, width) : 360;
+const WORD = /[#\p{L}_][\p{L}\p{N}_.]*$/u;
+const MOST = 60;
 
-  function onKeyDown(event: KeyboardEvent<HTMLInputElement>): void {
-    event.stopPropagation();
-    if (event.key === "Escape") onLeave();
-    if (event.key !== "Enter" && event.key !== "Tab") return;
-    event.preventDefault();
-    const made = elementOf(element.kind, text);
-    if (made) onTake(made, event.key === "Tab");
-    else setBad(true);
+/** The name of an element, or the text of a box, where it is drawn. Enter takes it, Tab goes on to the next one, Escape leaves. */
+export function NameField({ naming, spot: { x, y, up = 10, width }, label, names, onTake, onLeave }: Props) {
+  const [text, setText] = useState(naming.value);
+  const [bad, setBad] = useState(false);
+  const [waiting, setWaiting] = useState(false);
+  const input = useRef<HTMLInputElement>(null);
+  const all = useRef<Promise<readonly Offer[]>>(undefined);
+  const offered = useCallback(async (typed: string): Promise<readonly Offer[]> => {
+    const word = (WORD.exec(typed)?.[0] ?? "").toUpperCase();
+    if (word === "" || !all.current) return [];
+    const found = (await all.current).filter(({ path }) => path.toUpperCase().includes(word));
+    const begins = ({ path }: Offer) => path.toUpperCase().startsWith(word);
+    return [...found.filter(begins), ...found.filter((each) => !begins(each))];
+  }, []);
+  const offering = useOffers(offered, MOST);
+  const wide = naming.offers === "none" && naming.example ? 360 : Math.max(naming.offers === "bool" ? 120 : 200, width);
+
+  // biome-ignore lint/correctness/useExhaustiveDependencies: once, when it opens
+  useEffect(() => {
+    input.current?.focus();
+    input.current?.select();
+    all.current = names();
+    // Who has typed nothing yet sees what there is.
+    if (naming.value === "" && naming.offers === "box")
+      void all.current.then((found) => input.current?.value === "" && offering.show(found.slice(0, MOST)));
+  }, []);
+
+  async function take(wanted: string, onwards: boolean): Promise<void> {
+    offering.close();
+    // What is typed meanwhile would be lost with the field.
+    setWaiting(true);
+    setBad(!(await onTake(wanted, onwards)));
+    setWaiting(false);
+  }
+
+  function type(typed: string): void {
+    if (waiting) return;
+    setText(typed);
+    setBad(false);
+    offering.ask(typed);
+  }
+
+  function onKey({ key }: KeyboardEvent): boolean {
+    if (key === "Escape") onLeave();
+    else if (waiting) return true;
+    else if (key === "Enter" || key === "Tab") void take(text, key === "Tab");
+    else return false;
+    return true;
   }
 
   return (
-    <span className="inplace" style={{ left: Math.max(0, x), top: y - up - 6, width: wide }}>
-      <input
-        // biome-ignore lint/a11y/noAutofocus: it was opened to be typed into
-        autoFocus
+    // What is typed or clicked here is no key or click of the drawing.
+    <span
+      className="inplace"
+      style={{ left: Math.max(0, x), top: y - up - 6, width: wide }}
+      onKeyDown={(event) => event.stopPropagation()}
+      onClick={(event) => event.stopPropagation()}
+      onDoubleClick={(event) => event.stopPropagation()}
+      onPointerDown={(event) => event.stopPropagation()}
+    >
+      <ComboBox
+        input={input}
         className={`inp sm mono${bad ? " bad" : ""}`}
-        aria-label={nameOf(element)}
-        aria-invalid={bad}
-        title={bad ? t("graphic.field.bad") : undefined}
-        placeholder={element.kind === "box" ? "timer(IN := ~, PT := T#1s).Q" : undefined}
-        list={list}
-        autoComplete="off"
-        spellCheck={false}
+        label={label}
         value={text}
-        onChange={({ target }) => {
-          setText(target.value);
-          setBad(false);
-        }}
-        onKeyDown={onKeyDown}
-        onClick={(event) => event.stopPropagation()}
-        onDoubleClick={(event) => event.stopPropagation()}
+        offering={offering}
+        bad={bad}
+        placeholder={naming.example}
+        onType={type}
+        onTake={({ path }, by) => void take(text.replace(WORD, "") + path, by === "Tab")}
+        onKey={onKey}
         onBlur={onLeave}
       />
-      <datalist id={list}>
-        {names.map((name) => (
-          <option key={name} value={name} />
-        ))}
-      </datalist>
       {bad && (
         <span className="hint bad" role="alert">
-          {t("graphic.field.bad")}
+          {t(`graphic.field.bad.${naming.offers === "box" || naming.offers === "step" ? naming.offers : "other"}`)}
         </span>
       )}
     </span>

@@ -1,6 +1,6 @@
 import { type ReactNode, useEffect, useRef, useState } from "react";
 import type { PartFlow } from "../../../../logic/graphic/flow";
-import type { Drawing, Place } from "../../../../logic/graphic/ladderLayout";
+import type { Place } from "../../../../logic/graphic/ladderLayout";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import type { Twice } from "../../../../logic/graphic/writers";
 import { loadNames, seenAs, useSeenAs } from "../../../../store/debug/seenAs";
@@ -30,14 +30,14 @@ interface Props {
   id: string;
   /** The place of the cursor; null where it is in a different part. */
   cursor: Place | null;
-  /** While an element is named: how the rung will be, and the field. */
-  naming: { drawing: Drawing; field: ReactNode } | null;
+  /** Of the element that is being named. */
+  field: ReactNode;
   marks: PartMarks;
   twice: readonly Twice[];
 }
 
 /** One rung, network or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function PartRow({ path, part, number, action, pou, id, cursor, naming, marks, twice }: Props) {
+export function PartRow({ path, part, number, action, pou, id, cursor, field, marks, twice }: Props) {
   const { found, readable } = part;
   const { label, title, comment, off } = found.head;
   const [said, setSaid] = useState("");
@@ -70,7 +70,7 @@ export function PartRow({ path, part, number, action, pou, id, cursor, naming, m
           pou={pou}
           id={id}
           cursor={cursor}
-          naming={naming}
+          field={field}
           marks={marks}
           onSaid={setSaid}
         />
@@ -86,15 +86,15 @@ function Picture({
   pou,
   id,
   cursor,
-  naming,
+  field,
   marks,
   onSaid,
-}: Pick<Props, "path" | "part" | "pou" | "id" | "cursor" | "naming" | "marks"> & { onSaid: (said: string) => void }) {
+}: Pick<Props, "path" | "part" | "pou" | "id" | "cursor" | "field" | "marks"> & { onSaid: (said: string) => void }) {
   const picture = useRef<HTMLDivElement>(null);
   const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou.name)));
   const members = useMembers(({ of }) => of);
   const forces = useForces();
-  const rung = part.kind === "rung" ? (naming?.drawing ?? part.drawing) : null;
+  const rung = part.kind === "rung" ? part.drawing : null;
   const chart = part.kind === "chart" ? part.drawing : null;
   const diagram = part.kind === "network" ? part.drawing : null;
   const live = part.readable && !part.found.head.off;
@@ -128,7 +128,7 @@ function Picture({
       {rung && <RungDrawing drawing={rung} {...marked} />}
       {diagram && <DiagramPicture drawing={diagram} {...marked} />}
       {chart && <ChartPicture drawing={chart} {...marked} />}
-      {naming?.field}
+      {field}
     </div>
   );
 }

@@ -1,9 +1,10 @@
 /** The cursor of a drawing: at an element, or at the start of an empty rung. */
 
 import type { KeyboardEvent } from "react";
-import type { Place } from "../../../../logic/graphic/ladderLayout";
-import { next, type Way } from "../../../../logic/graphic/near";
-import { type DrawnPart, type Spot, spotsOf } from "../../../../logic/graphic/sheet";
+import { alongWire } from "../../../../logic/graphic/diagramPins";
+import type { Place, Way } from "../../../../logic/graphic/ladderLayout";
+import { next } from "../../../../logic/graphic/near";
+import { type DrawnPart, type Spot, spotsOf, stopsOf } from "../../../../logic/graphic/sheet";
 import type { Cursor } from "./useEditing";
 
 const WAYS: Record<string, Way> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
@@ -18,15 +19,19 @@ export function elementBeside({ elements }: { elements: readonly Spot[] }, place
 
 /** Where a key moves the cursor to; null where it is no key for that. */
 export function moved(event: KeyboardEvent, { rung, place }: Cursor, drawn: readonly DrawnPart[]): Cursor | null {
-  const elements = spotsOf(drawn[rung]);
+  const elements = stopsOf(drawn[rung]);
   const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
   const other = step === undefined ? rung : Math.max(0, Math.min(drawn.length - 1, rung + step));
-  const startOf = (at: number): Cursor => ({ rung: at, place: spotsOf(drawn[at])[0]?.place ?? [] });
+  const startOf = (at: number): Cursor => ({ rung: at, place: stopsOf(drawn[at])[0]?.place ?? [] });
+  if (event.altKey) return null;
   if (event.ctrlKey) return step === undefined ? null : startOf(other);
   if (event.key === "Home") return startOf(rung);
-  if (event.key === "End") return { rung, place: elements.at(-1)?.place ?? [] };
+  if (event.key === "End") return { rung, place: spotsOf(drawn[rung]).at(-1)?.place ?? [] };
   const way = WAYS[event.key];
   if (way === undefined) return null;
+  const part = drawn[rung];
+  const along = part?.kind === "network" && part.drawing ? alongWire(part.drawing, place, way) : null;
+  if (along) return { rung, place: along };
   const from = elements.findIndex((each) => sameElement(each.place, place));
   const found = from >= 0 ? next(elements, from, way) : null;
   if (found !== null && elements[found]) return { rung, place: elements[found].place };

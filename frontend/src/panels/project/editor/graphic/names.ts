@@ -1,8 +1,11 @@
 /** What readers say about an element: its kind, its operand, its mode. Its value is said when it is selected. */
 
 import type { ChartElement } from "../../../../logic/graphic/chartLayout";
-import type { DiagramItem } from "../../../../logic/graphic/diagram";
+import { type DiagramItem, NOTHING } from "../../../../logic/graphic/diagram";
+import type { DiagramDrawn } from "../../../../logic/graphic/diagramLayout";
+import type { PinSpot } from "../../../../logic/graphic/diagramPins";
 import type { Drawn } from "../../../../logic/graphic/ladderLayout";
+import type { Spot } from "../../../../logic/graphic/sheet";
 import { type TextKey, t } from "../../../../text";
 
 const CONTACT: Record<string, TextKey> = {
@@ -64,4 +67,27 @@ export function nameOfItem({ kind, callee, inputs, outputs, label }: DiagramItem
     return t(targets === "" ? "graphic.item.call" : "graphic.item.box", { order, name: callee, targets });
   if (kind === "value") return t("graphic.item.value", { order, value, targets });
   return label === "" ? t("graphic.item.return", { order }) : t("graphic.item.jump", { order, label });
+}
+
+/** A pin, without what reads as its item: that has a name of its own. */
+export function nameOfPin({ of, index, side }: PinSpot): string {
+  const { item } = of.element;
+  const box = item.callee || t("graphic.pin.line", { order: of.order });
+  if (side === "output") {
+    const { name = "", target = "" } = item.outputs[index] ?? {};
+    return t("graphic.pin.output", { name, box, target }).replace(/ {2,}/g, " ");
+  }
+  const { name = "", text = "", negated = false } = item.inputs[index] ?? {};
+  const value = text === NOTHING ? t("graphic.nothing") : negated ? `NOT ${text}` : text;
+  return t("graphic.pin.input", { name: name || index + 1, box, value });
+}
+
+/** Whatever the cursor can be at. */
+export function nameOfStop(stop: Spot): string {
+  const { element } = stop;
+  if (element.kind === "pin") return nameOfPin(stop as PinSpot);
+  if ("item" in element) return nameOfItem((stop as DiagramDrawn).element.item, (stop as DiagramDrawn).order);
+  if (element.kind === "step" || element.kind === "transition" || element.kind === "action")
+    return nameOfChartElement(element as ChartElement);
+  return nameOf(element as Drawn["element"]);
 }

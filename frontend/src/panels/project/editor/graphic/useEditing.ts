@@ -1,69 +1,108 @@
 import { type KeyboardEvent, useState } from "react";
-import { afterKey } from "../../../../logic/graphic/keys";
-import { elementAt, replace } from "../../../../logic/graphic/ladderEdit";
+import { diagramEdit } from "../../../../logic/graphic/diagramKeys";
+import type { Around, Edit, Made, Naming } from "../../../../logic/graphic/edit";
+import { rungEdit } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
-import type { DrawnPart, DrawnRung } from "../../../../logic/graphic/sheet";
-import type { Element, Path } from "../../../../logic/graphic/tree";
-import { t } from "../../../../text";
-import { addRungBelow, takeBack, writePath } from "./write";
+import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
+import type { TextKey } from "../../../../text";
+import { addPart, removePart, takeBack, writePart } from "./write";
 
 export interface Cursor {
   rung: number;
   place: Place;
 }
 
-/** An element whose field is open. Its rung is drawn from here, and written once it has a name. */
-interface Naming {
+/** An element whose field is open. Its part is drawn with this text, which is written once the element has a name. */
+interface Named extends Edit {
   rung: number;
-  path: Path;
-  place: Place;
+  naming: Naming;
 }
 
-/** Edits rungs by keys; `go` moves the cursor. */
-export function useEditing(path: string, drawn: readonly DrawnPart[], readOnly: boolean, go: (to: Cursor) => void) {
-  const [naming, setNaming] = useState<Naming | null>(null);
-  const [refused, setRefused] = useState("");
+interface Editing {
+  path: string;
+  drawn: readonly DrawnPart[];
+  readOnly: boolean;
+  /** Moves the cursor. */
+  go: (to: Cursor) => void;
+  /** What edits of a part need to know of its file. */
+  around: (part: DrawnPart) => Around;
+}
 
-  /** Whether the key edits. */
-  function onKey(event: KeyboardEvent, { rung: at, place: wanted }: Cursor): boolean {
-    const rung = drawn[at];
-    if (!rung || readOnly) return false;
-    if (rung.kind !== "rung") return event.ctrlKey && undone(event.key.toLowerCase());
-    if (event.ctrlKey) return withControl(event.key.toLowerCase(), at, rung);
-    if (rung.path === null) return false;
-    // The element at the cursor may be gone: somebody else edits the same rung.
-    const place = wanted.length % 2 === 0 || elementAt(rung.path, wanted) ? wanted : [];
-    const made = afterKey(event.key, rung.path, place);
-    const names = event.key === "Enter" || event.key === "F2";
-    if (!made && !names) return false;
-    setRefused(rung.comments ? t("graphic.comments") : "");
-    if (rung.comments) return true;
-    if (!made) setNaming(elementAt(rung.path, place) ? { rung: at, path: rung.path, place } : null);
-    else if (made.fresh) setNaming({ rung: at, path: made.path, place: made.place });
-    else writePath(path, rung.found, made.path);
-    if (made) go({ rung: at, place: made.place });
+/** Edits the parts of a drawing by keys, or by what stands for one. */
+export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
+  const [named, setNamed] = useState<Named | null>(null);
+  const [refused, setRefused] = useState<TextKey | null>(null);
+
+  /** Does an edit, or opens its field first. Whether there was one. */
+  function begin(at: number, made: Made): boolean {
+    setRefused(made && "refused" in made ? made.refused : null);
+    if (!made) return false;
+    if ("refused" in made) return true;
+    const part = drawn[at];
+    const { naming } = made;
+    if (naming) setNamed({ ...made, naming, rung: at });
+    else {
+      setNamed(null);
+      if (part) writePart(path, part.found, made.text, made.declares);
+    }
+    go({ rung: at, place: made.place });
     return true;
   }
 
-  function withControl(key: string, at: number, rung: DrawnRung): boolean {
-    if (key === "i") {
-      addRungBelow(path, rung.found);
-      go({ rung: at + 1, place: [] });
-    } else return undone(key);
+  /** What the key of this name does at the cursor: `c`, `Shift+F`, `Ctrl+I`. False where it does nothing. `text`: what was just written for the part. */
+  function press(key: string, { rung: at, place }: Cursor, text?: string): boolean {
+    const known = drawn[at];
+    if (!known || readOnly) return false;
+    const part = text === undefined ? known : { ...known, found: { ...known.found, text } };
+    const lower = key.toLowerCase();
+    if (lower === "ctrl+z" || lower === "ctrl+y") takeBack(path, lower === "ctrl+y");
+    else if (part.kind !== "chart" && lower === "ctrl+i") return added(at, part, false);
+    else if (part.kind !== "chart" && lower === "ctrl+shift+i") return added(at, part, true);
+    else if (part.kind !== "chart" && (lower === "ctrl+delete" || emptied(part, key))) return removed(at, part);
+    else return !lower.startsWith("ctrl+") && begin(at, madeOf(part, key, place, around));
+    setRefused(null);
     return true;
   }
 
-  function undone(key: string): boolean {
-    if (key !== "z" && key !== "y") return false;
-    takeBack(path, key === "y");
+  function added(at: number, part: DrawnPart, above: boolean): boolean {
+    addPart(path, part.found, above);
+    go({ rung: above ? at : at + 1, place: [] });
     return true;
   }
 
-  function take(element: Element): void {
-    const rung = naming && drawn[naming.rung];
-    if (naming && rung) writePath(path, rung.found, replace(naming.path, naming.place, element));
-    setNaming(null);
+  function removed(at: number, part: DrawnPart): boolean {
+    removePart(path, part.found);
+    go({ rung: Math.max(0, Math.min(at, drawn.length - 2)), place: [] });
+    return true;
   }
 
-  return { naming, refused, onKey, take, leave: () => setNaming(null) };
+  function onKey(event: KeyboardEvent, cursor: Cursor): boolean {
+    const { key, ctrlKey, altKey, shiftKey } = event;
+    const shifted = shiftKey && (ctrlKey || /^[a-z]$/i.test(key));
+    return press(`${ctrlKey ? "Ctrl+" : ""}${altKey ? "Alt+" : ""}${shifted ? "Shift+" : ""}${key}`, cursor);
+  }
+
+  /** Takes what was typed into the field. Where the cursor is then; null where the text means nothing there. */
+  function take(typed: string): Edit | null {
+    const part = named && drawn[named.rung];
+    const made = part ? named.naming.taken(typed, around(part)) : null;
+    if (named && made) begin(named.rung, made);
+    return made;
+  }
+
+  return { named, refused, press, onKey, begin, take, leave: () => setNamed(null) };
+}
+
+const emptied = (part: DrawnPart, key: string) =>
+  (key === "Delete" || key === "Backspace") && part.readable && stopsOf(part).length === 0;
+
+function madeOf(part: DrawnPart, key: string, place: Place, around: (part: DrawnPart) => Around): Made {
+  const { found } = part;
+  const { text, head, indent } = found;
+  if (part.kind === "network") return diagramEdit(text, key, place, around(part));
+  if (part.kind === "chart") return null;
+  const { path, comments } = part;
+  const plain = key.startsWith("Shift+") ? key.slice("Shift+".length) : key;
+  if (path !== null) return rungEdit({ head, path, indent, comments }, plain, place);
+  return rungEdit({ head, path: [], indent, comments: false }, plain, []) && { refused: "graphic.refused.unread" };
 }

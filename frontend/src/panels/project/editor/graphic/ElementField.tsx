@@ -1,0 +1,76 @@
+import { wiresIn } from "../../../../logic/graphic/diagramEdit";
+import type { Around, Box, Edit, Naming } from "../../../../logic/graphic/edit";
+import { inText } from "../../../../logic/graphic/places";
+import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
+import { loadBoxes, variablesAt } from "../../../../store/graphic/boxes";
+import type { Offer } from "../../../../ui/useOffers";
+import { sameElement } from "./cursor";
+import { NameField } from "./NameField";
+import { nameOfStop } from "./names";
+
+interface Props {
+  path: string;
+  /** As it is in the file. */
+  written: DrawnPart;
+  /** As it is drawn while the field is open. */
+  part: DrawnPart;
+  named: Edit & { naming: Naming };
+  around: (part: DrawnPart) => Around;
+  onTake: (text: string, onwards: boolean) => boolean;
+  onLeave: () => void;
+}
+
+/** The field of the element that is being named, with what it offers. */
+export function ElementField({ path, written, part, named, around, onTake, onLeave }: Props) {
+  const { naming, place } = named;
+  const stop = stopsOf(part).find((each) => sameElement(each.place, place));
+  if (!stop) return null;
+  const at = inText(written, written.found.body.at);
+
+  async function names(): Promise<readonly Offer[]> {
+    const { offers } = naming;
+    if (offers === "none") return [];
+    if (offers === "box") {
+      await loadBoxes(path, at);
+      return around(written).boxes.map(offerOf);
+    }
+    if (offers === "step") return stepsIn(part).map((name) => ({ path: name, type: "" }));
+    const variables = await variablesAt(path, at);
+    const fits = variables.filter(({ type }) => offers === "value" || type === "BOOL");
+    const outputs = around(written).boxes.flatMap(({ kind, name, outputs }) =>
+      kind === "instance" ? outputs.map((pin) => ({ path: `${name}.${pin}`, type: "" })) : [],
+    );
+    const wires = offers === "value" ? wiresIn(named.text).map((name) => ({ path: name, type: "" })) : [];
+    return [...wires, ...fits.map(({ name, type }) => ({ path: name, type })), ...outputs];
+  }
+
+  async function take(text: string, onwards: boolean): Promise<boolean> {
+    // What was typed quickly may come before the first answer of the server.
+    if (naming.offers === "box" && around(written).boxes.length === 0) await loadBoxes(path, at);
+    return onTake(text, onwards);
+  }
+
+  return (
+    <NameField
+      key={`${place.join(".")} ${named.text}`}
+      naming={naming}
+      spot={stop}
+      label={nameOfStop(stop)}
+      names={names}
+      onTake={take}
+      onLeave={onLeave}
+    />
+  );
+}
+
+const ICONS = { function: "fn", block: "fb", instance: "var" } as const;
+
+const offerOf = ({ name, kind, type, inputs, outputs, more, comment }: Box): Offer => {
+  const pins = `${inputs.join(", ")}${more ? ", …" : ""}${outputs.length > 0 ? ` → ${outputs.join(", ")}` : ""}`;
+  return { path: name, type: kind === "instance" ? type : pins, about: comment || " ", icon: ICONS[kind] };
+};
+
+const stepsIn = (part: DrawnPart) =>
+  part.kind === "chart"
+    ? (part.drawing?.elements.flatMap(({ element }) => (element.kind === "step" ? [element.name] : [])) ?? [])
+    : [];
