@@ -61,6 +61,7 @@ class Allowance(Enum):
     SIGNED_TEXTS = auto()
     BLOCK_MOVES = auto()
     GENERIC_CONSTANTS = auto()
+    SHORTER_STRINGS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -301,6 +302,11 @@ RULES: dict[Allowance, Rule] = {
         "a constant has one value",
         "a block for each value, or VAR_IN_OUT with ARRAY[*]",
     ),
+    Allowance.SHORTER_STRINGS: Rule(
+        "a STRING of fewer characters for the VAR_IN_OUT of a FUNCTION or METHOD that only reads it",
+        "a variable has the type of the in-out that it is passed to",
+        "`VAR_IN_OUT CONSTANT`",
+    ),
 }
 
 
@@ -325,14 +331,15 @@ _SIEMENS = frozenset(
         *(Allowance.INSTRUCTION_TYPES, Allowance.SIGNED_TEXTS, Allowance.BLOCK_MOVES),
     }
 )
-_CODESYS = frozenset(Allowance) - _LOGIX - _SIEMENS
+_TWINCAT = frozenset({Allowance.SHORTER_STRINGS})
+_CODESYS = frozenset(Allowance) - _LOGIX - _SIEMENS - _TWINCAT
 """All but what only the others have."""
 DIALECTS: dict[DialectName, Dialect] = {
     each.name: each
     for each in (
         Dialect("iec", "IEC 61131-3"),
         Dialect("codesys", "CODESYS", _CODESYS, frozenset({"STANDARD"})),
-        Dialect("twincat", "TwinCAT", _CODESYS, frozenset({"TC2_STANDARD", "STANDARD"})),
+        Dialect("twincat", "TwinCAT", _CODESYS | _TWINCAT, frozenset({"TC2_STANDARD", "STANDARD"})),
         Dialect(
             "siemens",
             "Siemens SCL",

@@ -232,7 +232,7 @@ APART = {
     Allowance.SIGNED_TEXTS, Allowance.BLOCK_MOVES,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
     Allowance.GENERIC_CONSTANTS,
-    Allowance.UNLINKED_ADDRESSES,
+    Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 
@@ -265,6 +265,23 @@ def test_a_broken_language_file_is_told(text: str, message: str) -> None:
     assert found.program is None
     assert [(each.code, each.span.file) for each in found.problems] == [("S003", LANGUAGE_FILE)]
     assert message in found.problems[0].message
+
+
+def test_a_shorter_string_is_passed_where_it_is_only_read() -> None:
+    text = """FUNCTION Size : INT VAR_IN_OUT s : STRING(20); END_VAR Size := LEN(s);{} END_FUNCTION
+FUNCTION_BLOCK Keeper VAR_IN_OUT s : STRING(20); END_VAR VAR n : INT; END_VAR n := LEN(s); END_FUNCTION_BLOCK
+PROGRAM Main VAR n : INT; short : STRING(5); long : STRING(30); k : Keeper; END_VAR {} END_PROGRAM"""
+    for inside, call, dialect, codes in (
+        ("", "n := Size(short);", "twincat", []),
+        ("", "n := Size(short);", "codesys", ["T005"]),
+        ("", "n := Size(long);", "twincat", ["T005"]),
+        ("", "k(s := short);", "twincat", ["T005"]),
+        (" s := 'x';", "n := Size(short);", "twincat", ["T005"]),
+        (" s[0] := 0;", "n := Size(short);", "twincat", ["T005"]),
+    ):
+        name = next(each for each in NAMES if each == dialect)
+        found = check_sources(with_dialect({"a.st": text.format(inside, call)}, name), MODEL)
+        assert [each.code for each in found.problems if each.severity is Severity.ERROR] == codes, (inside, call)
 
 
 def test_a_change_of_what_is_defined_reads_the_files_again() -> None:

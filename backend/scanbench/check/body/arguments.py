@@ -13,12 +13,12 @@ from scanbench.check.body.receivers import is_variable
 from scanbench.check.body.subrange_checks import keeping, noting, with_note
 from scanbench.check.body.targets import declared_target
 from scanbench.check.body.variables import is_broken
-from scanbench.check.context import Rejected
+from scanbench.check.context import Borrowed, Rejected
 from scanbench.check.declare.scopes import decode
 from scanbench.check.dialect import Allowance
 from scanbench.check.system.system_text import STOP
-from scanbench.check.uses import variable_symbol
-from scanbench.problems import Span
+from scanbench.check.uses import Symbol, variable_symbol
+from scanbench.problems import Problem, Span
 from scanbench.program.origin import in_library, is_system
 from scanbench.program.program import (
     Assign,
@@ -186,7 +186,7 @@ def _bind(
     key = member.name.upper()
     value = argument.value if argument else None
     if member.section is Section.IN_OUT:
-        bound.places[key] = in_out(body, member, owner, value, span, bound.before)
+        bound.places[key] = in_out(body, member, owner, value, span, bound.before, once=True)
     elif member.section is Section.INPUT:
         # what may be left out has a default, or is a text
         needed = is_system(member.span) and not any(member.initial) and not isinstance(member.type, StringType)
@@ -236,9 +236,16 @@ def _input(body: Body, member: Member, value: tree.Expression | None, span: Span
 
 
 def in_out(
-    body: Body, member: Member, owner: Record, value: tree.Expression | None, span: Span, before: list[Stmt]
+    body: Body,
+    member: Member,
+    owner: Record,
+    value: tree.Expression | None,
+    span: Span,
+    before: list[Stmt],
+    once: bool = False,
 ) -> Place:
-    """What an in-out of `owner` is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
+    """What an in-out of `owner` is bound to: a variable, or for a constant one a value that `before` puts somewhere. With `once` it
+    is bound for one call only, that of a FUNCTION or method."""
     if value is None:
         what = (
             "output"
@@ -256,7 +263,28 @@ def in_out(
     reader = None if member.copied else variable_symbol(member, owner)  # a copy is written back
     place = targets.target(body, value, how, reader)
     body.report.lent.append(targets.variable(value).span)
+    if once and reader is not None and _is_shorter(place.type, member.type):
+        return _read_as(body, member, reader, place, value, before)
     return _bindable(body, member, place, value)
+
+
+def _is_shorter(actual: Type, formal: Type) -> bool:
+    strings = isinstance(actual, StringType) and isinstance(formal, StringType) and actual.zero and formal.zero
+    return strings and actual.size < formal.size
+
+
+def _read_as(
+    body: Body, member: Member, reader: Symbol, place: Place, value: tree.Expression, before: list[Stmt]
+) -> Place:
+    """A copy of a string in a longer one, where the dialect has that; refused if anything writes to the in-out."""
+    told = f"The in-out `{member.name}` is {member.type}; {place.type} is passed to it, and only read"
+    if not allowed(body, Allowance.SHORTER_STRINGS, value.span, told):
+        return _bindable(body, member, place, value)
+    why = f"The in-out `{member.name}` is {member.type} and something may write to it; {place.type} cannot be bound to it."
+    body.report.borrowed.append(Borrowed(reader, Problem("T005", why, value.span)))
+    copy = body.temporary(member.type, value.span)
+    before.append(Assign(copy, Load(place), value.span))
+    return copy
 
 
 def _constant_in_out(body: Body, member: Member, value: tree.Expression, before: list[Stmt]) -> Place:
