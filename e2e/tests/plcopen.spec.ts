@@ -4,9 +4,9 @@ import { expect, test } from '../fixtures/test';
 const LINE = readFileSync(new URL('../../backend/tests/syntax/plcopen/line.xml', import.meta.url), 'utf8');
 const DRAWN = '<condition><inline name=""><ST><xhtml:p>NOT go</xhtml:p></ST></inline></condition>';
 
-test('a PLCopen file becomes a project that runs, drawn; what is not as it was is told', { tag: '@nightly' }, async ({
-  openAs,
-}) => {
+test('a PLCopen file becomes a project that runs, drawn, and goes out again; what is not as it was is told', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { page } = mika;
@@ -45,6 +45,27 @@ test('a PLCopen file becomes a project that runs, drawn; what is not as it was i
     await mika.watch.add('main.go');
     await mika.watch.set('main.go', 'TRUE');
     await expect(sheet.locator('.el.on')).toHaveCount(6);
+  });
+
+  await test.step('it goes out: what the other form has no place for is told first; the file comes in again as it was', async () => {
+    await mika.top.picker.click();
+    await page.getByRole('menuitem', { name: 'Export as PLCopen XML…' }).click();
+    const out = page.getByRole('dialog', { name: 'Export the program of Line' });
+    await expect(out.getByRole('status')).toHaveText('All of the program is in the file.');
+    await out.getByRole('radio', { name: 'IEC 61131-10' }).click();
+    await expect(out.getByRole('list', { name: /^Left out/ })).toContainText('Main: a chart');
+    await out.getByRole('radio', { name: 'PLCopen XML (TC6)' }).click();
+    await expect(out.getByRole('status')).toHaveText('All of the program is in the file.');
+    const [file] = await Promise.all([
+      page.waitForEvent('download'),
+      out.getByRole('button', { name: 'Save the file' }).click(),
+    ]);
+    expect(file.suggestedFilename()).toBe('Line.xml');
+    await mika.top.picker.click();
+    await page.getByRole('menuitem', { name: 'New project…' }).click();
+    await choose('Line.xml', readFileSync(await file.path(), 'utf8'));
+    await expect(dialog).toContainText('5 files');
+    await expect(dialog.getByRole('list', { name: 'What is not as it was' })).toHaveCount(0);
   });
 });
 
