@@ -11,8 +11,10 @@ END_NETWORK
 END_FUNCTION_BLOCK
 `;
 
-/** Opens the drawing of a block with an empty network, which the main program calls. */
-async function drawing(mika: Ide, server: Server): Promise<Locator> {
+const CHART = EMPTY.replace(/NETWORK[\s\S]*END_NETWORK/, 'INITIAL_STEP Init:\nEND_STEP');
+
+/** Opens the drawing of a block, which the main program calls. */
+async function drawing(mika: Ide, server: Server, block: string): Promise<Locator> {
   const { page } = mika;
   await mika.runs();
   const project = (await server.get<{ id: number; name: string }[]>('/projects'))[0]?.id;
@@ -22,13 +24,13 @@ async function drawing(mika: Ide, server: Server): Promise<Locator> {
     .replace('END_VAR', '  hold : Hold;\nEND_VAR')
     .replace('END_PROGRAM', 'hold(go := start, halt := stop);\nEND_PROGRAM');
   for (const [file, data] of [
-    ['Hold.st', { text: EMPTY, version: 0 }],
+    ['Hold.st', { text: block, version: 0 }],
     ['Main.st', { text: main, version }],
   ] as const)
     expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
   const sheet = page.getByRole('listbox', { name: 'Drawing of Hold.st' });
   await mika.explorer.item('Hold').dblclick();
-  await expect(sheet).toContainText('The motor holds itself');
+  await expect(sheet.getByRole('group')).toBeVisible();
   return sheet;
 }
 
@@ -39,7 +41,7 @@ test('a network is drawn by keys from nothing, is text at once, is built, and it
   const mika = await openAs('Mika');
   const { page } = mika;
   const { keyboard } = page;
-  const sheet = await drawing(mika, server);
+  const sheet = await drawing(mika, server, EMPTY);
   const item = (name: string) => sheet.getByRole('option', { name, exact: true });
   const type = async (text: string, key: string) => {
     await expect(sheet.getByRole('combobox')).toBeFocused();
@@ -95,5 +97,127 @@ test('a network is drawn by keys from nothing, is text at once, is built, and it
     await mika.watch.set('start', 'FALSE');
     await mika.watch.set('stop', 'TRUE');
     await expect(value).toContainText('on FALSE');
+  });
+});
+
+test('a network is drawn with the mouse @nightly', async ({ openAs, server }) => {
+  const mika = await openAs('Mika');
+  const { page } = mika;
+  const sheet = await drawing(mika, server, EMPTY);
+  const item = (name: string) => sheet.getByRole('option', { name, exact: true });
+  const tool = (name: string) => page.getByRole('toolbar', { name: 'Edit the drawing' }).getByRole('button', { name });
+  const offer = (name: RegExp) => page.getByRole('option', { name });
+  const fill = async (text: string) => {
+    await sheet.getByRole('combobox').fill(text);
+    await sheet.getByRole('combobox').press('Enter');
+    await expect(sheet.getByRole('combobox')).toHaveCount(0);
+  };
+
+  await test.step('two boxes from the picker, an input that is double-clicked, and a wire that is dragged', async () => {
+    await sheet.click({ position: { x: 200, y: 20 } });
+    for (const name of ['OR', 'AND']) {
+      await tool('Box').click();
+      await sheet.getByRole('combobox').fill(name);
+      await offer(new RegExp(`^${name} IN1`)).click();
+      await expect(sheet.getByRole('combobox')).toHaveCount(0);
+      await sheet.getByRole('option', { name: /^1: box OR/ }).click();
+    }
+    await item('Input 1 of OR: nothing is connected here').dblclick();
+    await fill('go');
+    await item('Input 2 of OR: nothing is connected here').dblclick();
+    await fill('on');
+    await item('Input 2 of AND: nothing is connected here').dblclick();
+    await fill('halt');
+    await tool('Negate').click();
+    await item('2: box AND to #w2').click();
+    await tool('Assign').click();
+    await fill('on');
+    await item('Input 1 of AND: #w1').click();
+    await tool('Delete').click();
+    await item('Output of OR to #w1').dragTo(item('Input 1 of AND: nothing is connected here'));
+    await expect(item('Input 1 of AND: #w1')).toBeVisible();
+  });
+
+  await test.step('it is built, and its value comes out', async () => {
+    await mika.editor('Hold.st').build();
+    const value = item('3: #w2 to on');
+    await expect(value).toContainText('on FALSE');
+    await mika.watch.set('start', 'TRUE');
+    await expect(value).toContainText('on TRUE');
+  });
+
+  await test.step('what cannot be read is not edited, and says so', async () => {
+    await page.getByRole('radio', { name: 'Both' }).click();
+    await mika.editor('Hold.st').caretAfter('#w1 = OR');
+    await page.keyboard.type(' )');
+    await expect(sheet.getByText('cannot be drawn')).toBeVisible();
+    await item('2: box AND to #w2').click();
+    await tool('Box').click();
+    await expect(page.getByText('This text cannot be read')).toBeVisible();
+  });
+});
+
+test('a chart is drawn by keys from its first step, is built, and runs @nightly', async ({ openAs, server }) => {
+  const mika = await openAs('Mika');
+  const { page } = mika;
+  const { keyboard } = page;
+  const sheet = await drawing(mika, server, CHART);
+  const option = (name: string) => sheet.getByRole('option', { name, exact: true });
+  const type = async (text: string, key: string) => {
+    await expect(sheet.getByRole('combobox')).toBeFocused();
+    await keyboard.type(text);
+    await keyboard.press(key);
+  };
+  const key = async (name: string, text: string, last = 'Enter') => {
+    await expect(sheet).toBeFocused();
+    await keyboard.press(name);
+    await type(text, last);
+  };
+
+  await test.step('a loop of two steps, one beside the other, actions and conditions', async () => {
+    await sheet.focus();
+    await keyboard.press('Home');
+    await key('s', 'Fill', 'Tab');
+    await type('go', 'Enter');
+    await expect(option('Transition from Init to Fill: go')).toBeVisible();
+    await keyboard.press('ArrowDown');
+    await expect(option('Step Fill')).toHaveAttribute('aria-selected', 'true');
+    await key('a', 'on');
+    await expect(option('Action on, N, of step Fill')).toBeVisible();
+    await key('j', 'Init', 'Tab');
+    await type('halt', 'Enter');
+    await expect(option('Transition from Fill to Init: halt')).toBeVisible();
+    await keyboard.press('ArrowUp');
+    await expect(option('Step Fill')).toHaveAttribute('aria-selected', 'true');
+    await key('p', 'Heat');
+    await expect(option('Transition from Init to Fill, Heat: go')).toBeVisible();
+    await key('F2', 'Warm');
+    await expect(option('Transition from Fill, Warm to Init: halt')).toBeVisible();
+  });
+
+  await test.step('it is built, and runs', async () => {
+    await mika.editor('Hold.st').build();
+    await expect(sheet.locator('.step.on')).toHaveCount(1);
+    await mika.watch.set('start', 'TRUE');
+    await expect(sheet.locator('.step.on')).toHaveCount(2);
+    await expect(sheet.locator('.action.closes')).toHaveCount(1);
+    await mika.watch.set('start', 'FALSE');
+    await mika.watch.set('stop', 'TRUE');
+    await expect(sheet.locator('.step.on')).toHaveCount(1);
+  });
+
+  await test.step('with the mouse: a step that is chosen, an action by its button, and what is deleted', async () => {
+    const tool = (name: string) =>
+      page.getByRole('toolbar', { name: 'Edit the drawing' }).getByRole('button', { name });
+    await option('Step Warm').click();
+    await tool('Step').click();
+    await type('Hot', 'Enter');
+    await expect(option('Transition from Fill, Hot to Init: halt')).toBeVisible();
+    await option('Step Hot').click();
+    await tool('Delete').click();
+    await expect(option('Step Hot')).toHaveCount(0);
+    await option('Initial step Init').click();
+    await tool('Delete').click();
+    await expect(page.getByText('A chart needs its initial step.')).toBeVisible();
   });
 });

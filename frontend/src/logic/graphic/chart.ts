@@ -20,6 +20,8 @@ export interface ChartStep {
   name: string;
   initial: boolean;
   actions: readonly ChartAction[];
+  /** Where its name is written. */
+  named: Span;
   span: Span;
 }
 
@@ -33,6 +35,10 @@ export interface ChartTransition {
   condition: string;
   /** The elements of the rung whose power is the condition; null where the condition is an expression. */
   rung: Path | null;
+  /** Where the steps are written, with their brackets, and the condition. */
+  fromAt: Span;
+  toAt: Span;
+  conditionAt: Span;
   span: Span;
 }
 

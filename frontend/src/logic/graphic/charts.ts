@@ -123,11 +123,12 @@ function readStep(reader: Reader): ChartStep {
   const at = reader.at;
   const initial = takeName(reader).toUpperCase() === "INITIAL_STEP";
   const step = takeName(reader);
+  const named = { at: reader.at - step.length, end: reader.at };
   reader.expect(":", "element");
   const actions: ChartAction[] = [];
   while (reader.word().toUpperCase() !== "END_STEP") if (!reader.takes(";")) actions.push(readAction(reader, step));
   takeName(reader);
-  return { kind: "step", name: step, initial, actions, span: { at, end: reader.at } };
+  return { kind: "step", name: step, initial, actions, named, span: { at, end: reader.at } };
 }
 
 function readAction(reader: Reader, step: string): ChartAction {
@@ -162,11 +163,19 @@ function readTransition(reader: Reader): ChartTransition {
     reader.expect(")", "close");
   }
   if (takeName(reader).toUpperCase() !== "FROM") throw new NotRead(reader.at, "element");
-  const from = readNames(reader);
+  const [from, fromAt] = spanned(reader, readNames);
   if (takeName(reader).toUpperCase() !== "TO") throw new NotRead(reader.at, "element");
-  const to = readNames(reader);
-  const { condition, rung } = readCondition(reader);
-  return { kind: "transition", name, priority, from, to, condition, rung, span: { at, end: reader.at } };
+  const [to, toAt] = spanned(reader, readNames);
+  const { condition, rung, conditionAt } = readCondition(reader);
+  const places = { fromAt, toAt, conditionAt };
+  return { kind: "transition", name, priority, from, to, condition, rung, ...places, span: { at, end: reader.at } };
+}
+
+/** What is read, and where that is written. */
+function spanned<T>(reader: Reader, read: (reader: Reader) => T): [T, Span] {
+  reader.skip();
+  const { at } = reader;
+  return [read(reader), { at, end: reader.at }];
 }
 
 function readNames(reader: Reader): string[] {
@@ -177,14 +186,17 @@ function readNames(reader: Reader): string[] {
   return names;
 }
 
-function readCondition(reader: Reader): Pick<ChartTransition, "condition" | "rung"> {
+function readCondition(reader: Reader): Pick<ChartTransition, "condition" | "rung" | "conditionAt"> {
   if (reader.takes(":=")) {
+    const begin = reader.at;
     const written = skipTo(reader, "END_TRANSITION");
     const condition = new Reader(written.trimEnd().replace(/;$/, ""));
     condition.skip();
     const text = oneLine(condition.text.slice(condition.at));
     if (text === "") throw new NotRead(reader.at, "operand");
-    return { condition: text, rung: null };
+    const at = begin + condition.at;
+    const end = begin + condition.text.trimEnd().length;
+    return { condition: text, rung: null, conditionAt: { at, end } };
   }
   reader.expect(":", "element");
   reader.skip();
@@ -192,7 +204,11 @@ function readCondition(reader: Reader): Pick<ChartTransition, "condition" | "run
   const [found] = networksIn(skipTo(reader, "END_TRANSITION"));
   const read = found ? readRung(found) : null;
   if (!found || read?.kind !== "rung") throw new NotRead(from, "element");
-  return { condition: oneLine(found.text.slice(found.body.at, found.body.end)), rung: read.path };
+  return {
+    condition: oneLine(found.text.slice(found.body.at, found.body.end)),
+    rung: read.path,
+    conditionAt: { at: from, end: reader.at },
+  };
 }
 
 const oneLine = (text: string) => text.trim().replace(/\s+/g, " ");

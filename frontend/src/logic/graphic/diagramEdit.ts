@@ -37,7 +37,7 @@ export function at({ items }: Diagram, [index, pin]: Place): At | null {
   return { index, item, input, output };
 }
 
-const blanksAt = (text: string, at: number) => /^[ \t]*/.exec(text.slice(lineStartOf(text, at)))?.[0] ?? "";
+export const blanksAt = (text: string, at: number) => /^[ \t]*/.exec(text.slice(lineStartOf(text, at)))?.[0] ?? "";
 
 /** The end of an item with its `;` and a comment in the same line, and whether the line ends there. */
 function lineEnd(text: string, { span }: DiagramItem): { end: number; last: boolean } {

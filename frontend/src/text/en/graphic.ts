@@ -122,4 +122,11 @@ export const graphic = {
   "graphic.tool.rung": "Rung",
   "graphic.tool.set": "Set",
   "graphic.tools": "Edit the drawing",
+  "graphic.refused.initial": "A chart needs its initial step.",
+  "graphic.refused.parallel": "No transition leads to this step: put a step after it first.",
+  "graphic.refused.rung": "This condition is a rung: edit its text (view Text or Both).",
+  "graphic.tool.action": "Action",
+  "graphic.tool.alternative": "Alternative",
+  "graphic.tool.parallel": "Simultaneous",
+  "graphic.tool.step": "Step",
 };

@@ -124,4 +124,11 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.tool.rung": "ラング",
   "graphic.tool.set": "セット",
   "graphic.tools": "図を編集",
+  "graphic.refused.initial": "チャートには初期ステップが必要です。",
+  "graphic.refused.parallel": "このステップに進むトランジションがありません。先に後のステップを追加してください。",
+  "graphic.refused.rung": "この条件はラングです。テキストで編集してください（表示: テキストまたは両方）。",
+  "graphic.tool.action": "アクション",
+  "graphic.tool.alternative": "選択分岐",
+  "graphic.tool.parallel": "並列分岐",
+  "graphic.tool.step": "ステップ",
 };

@@ -52,7 +52,7 @@ export function ElementField({ path, written, part, named, around, onTake, onLea
 
   return (
     <NameField
-      key={`${place.join(".")} ${named.text}`}
+      key={`${place.join(".")} ${naming.offers} ${named.text}`}
       naming={naming}
       spot={stop}
       label={nameOfStop(stop)}

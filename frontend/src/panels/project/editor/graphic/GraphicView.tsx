@@ -1,8 +1,19 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, type MouseEvent, useEffect, useId, useMemo, useRef, useState } from "react";
+import {
+  type KeyboardEvent,
+  type MouseEvent,
+  type PointerEvent,
+  useEffect,
+  useId,
+  useMemo,
+  useRef,
+  useState,
+} from "react";
 import { baseName } from "../../../../logic/format/paths";
+import { emptyIn } from "../../../../logic/graphic/chartKeys";
 import { NOTHING } from "../../../../logic/graphic/diagram";
 import { diagramOf } from "../../../../logic/graphic/diagramEdit";
+import { connected } from "../../../../logic/graphic/diagramKeys";
 import { type Around, instancesIn, namesIn } from "../../../../logic/graphic/edit";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
@@ -168,11 +179,39 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     if (!made) return false;
     // The field that opens next takes the focus; a blur of this one would close it.
     if (made.naming) return true;
-    const next = onwards ? emptyAfter(made.text, made.place) : null;
+    const found = drawn[at]?.found;
+    const empty = found?.kind === "chart" ? emptyIn(found, made.text) : emptyAfter(made.text, made.place);
+    const next = onwards ? empty : null;
     if (next && editing.press("F2", { rung: at, place: next }, made.text)) return true;
     if (onwards && preview) go({ rung: at, place: elementBeside({ elements: stopsOf(preview) }, made.place) });
     sheet.current?.focus();
     return true;
+  }
+
+  /** An output, or an item, that is being dragged to an input. */
+  const dragged = useRef<Cursor | null>(null);
+
+  function onPointerDown({ target: on, button }: PointerEvent): void {
+    const from = on instanceof Element ? on.closest<SVGElement>(".el.item, [data-side='output']") : null;
+    const index = Number(from?.closest<HTMLElement>("[data-index]")?.dataset.index);
+    dragged.current =
+      button === 0 && from?.dataset.element !== undefined && drawn[index]?.kind === "network"
+        ? { rung: index, place: from.dataset.element.split(".").map(Number) }
+        : null;
+  }
+
+  function onPointerUp({ target: on }: PointerEvent): void {
+    const from = dragged.current;
+    dragged.current = null;
+    const to = on instanceof Element ? on.closest<SVGElement>("[data-side='input']") : null;
+    const part = from && drawn[from.rung];
+    if (!part || !to?.dataset.element || Number(to.closest<HTMLElement>("[data-index]")?.dataset.index) !== from.rung)
+      return;
+    if (readOnly) return;
+    const place = to.dataset.element.split(".").map(Number);
+    editing.begin(from.rung, connected(part.found.text, from.place, place, around()));
+    // The click that ends the drag means nothing.
+    window.addEventListener("click", (event) => event.stopPropagation(), { capture: true, once: true });
   }
 
   function onClick({ target: on }: MouseEvent): void {
@@ -218,6 +257,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         onKeyDown={onKeyDown}
         onFocus={look}
         onClick={onClick}
+        onPointerDown={onPointerDown}
+        onPointerUp={onPointerUp}
         onDoubleClick={onDoubleClick}
         data-pane="ladder"
       >

@@ -38,7 +38,16 @@ const NETWORK: readonly Tool[] = [
   { key: "Ctrl+I", word: "graphic.tool.network" },
 ];
 
-const TOOLS: Record<DrawnPart["kind"], readonly Tool[]> = { rung: RUNG, network: NETWORK, chart: [] };
+const CHART: readonly Tool[] = [
+  { key: "s", word: "graphic.tool.step" },
+  { key: "a", word: "graphic.tool.action" },
+  { key: "v", word: "graphic.tool.alternative" },
+  { key: "p", word: "graphic.tool.parallel" },
+  { key: "j", word: "graphic.tool.jump" },
+  ...NETWORKS,
+];
+
+const TOOLS: Record<DrawnPart["kind"], readonly Tool[]> = { rung: RUNG, network: NETWORK, chart: CHART };
 
 interface Props {
   kind: DrawnPart["kind"];

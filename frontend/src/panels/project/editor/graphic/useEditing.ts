@@ -1,4 +1,5 @@
 import { type KeyboardEvent, useState } from "react";
+import { chartEdit } from "../../../../logic/graphic/chartKeys";
 import { diagramEdit } from "../../../../logic/graphic/diagramKeys";
 import type { Around, Edit, Made, Naming } from "../../../../logic/graphic/edit";
 import { rungEdit } from "../../../../logic/graphic/keys";
@@ -100,7 +101,7 @@ function madeOf(part: DrawnPart, key: string, place: Place, around: (part: Drawn
   const { found } = part;
   const { text, head, indent } = found;
   if (part.kind === "network") return diagramEdit(text, key, place, around(part));
-  if (part.kind === "chart") return null;
+  if (part.kind === "chart") return chartEdit(found, key, place, around(part));
   const { path, comments } = part;
   const plain = key.startsWith("Shift+") ? key.slice("Shift+".length) : key;
   if (path !== null) return rungEdit({ head, path, indent, comments }, plain, place);
