@@ -10,6 +10,7 @@ from scanbench.faults import device_errors
 from scanbench.faults.clear import clear, most_serious, nonfatal
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.inject import ACTIVE, Generate, Recover, present_after, present_choices
+from scanbench.faults.network import asked_of_others, error_on
 from scanbench.faults.present import Active
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Instruction, Location
@@ -37,12 +38,16 @@ class Answers:
         self._view = view
         self._present = view.derived(ACTIVE)
         self.commands: list[Command] = []
+        self._taken: set[int] = set()
+        """Ports of communications instructions that were asked for."""
 
     def add(self, asked: Asked) -> None:
         """Adds the commands for one request of the program; requests are added in the order in which it made them."""
         match asked.form:
             case Form.CLEAR_CODE:
                 self._clear(lambda one: nonfatal(one) and one.code == asked.number)
+            case Form.NETWORK:
+                self._network(asked)
             case Form.CLEAR_FLAGS:
                 self._clear_flags(asked.instruction)
             case _:
@@ -67,6 +72,16 @@ class Answers:
             self._raise(error, ErrorRef(error.id, details))
         elif number == instruction.clears:
             self._clear(lambda one: one.error is error)
+
+    def _network(self, asked: Asked) -> None:
+        """A communications instruction: the error that the one before it left on its port goes."""
+        request = asked_of_others(self._view, asked.instruction, asked.places, self._taken)
+        if request is None:
+            return
+        left = error_on(self._view, request.port)
+        if left:
+            self._do(Recover(_AUTHOR, (left,), way="program"))
+        self.commands.append(request)
 
     def _selected(self, instruction: Instruction, selector: int) -> Callable[[Chosen], bool]:
         if selector == ALL_NONFATAL:

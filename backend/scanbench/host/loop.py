@@ -12,6 +12,7 @@ from pathlib import Path
 from scanbench.engines.engine import Reason
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE
+from scanbench.faults.network import NetworkRequest
 from scanbench.faults.present import Active
 from scanbench.host.answers import Answers
 from scanbench.host.communication import Communication
@@ -166,10 +167,12 @@ class Loop:
 
     def _run(self) -> None:
         resource, pacer = self.resource, self._pacer
-        first, busy = resource.header.scan, resource.measured.busy_ns
+        first, busy, known = resource.header.scan, resource.measured.busy_ns, len(resource.journal)
         begin = self._flows.begin()
         stop = self._debugger.run(pacer.scans if begin is None else 1, pacer.pace)
         self.traces.drain()
+        if any(isinstance(each.command, NetworkRequest) for each in resource.journal[known:]):
+            self._services.entered()  # another PLC is waited for
         scan = resource.header.scan
         pacer.ran(scan - first, stop.reason is Reason.CONDITION, scan)
         if pacer.paused:

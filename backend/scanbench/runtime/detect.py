@@ -2,6 +2,8 @@
 
 from typing import NamedTuple, Protocol
 
+from scanbench.check.system.network_text import OPERANDS
+from scanbench.check.system.system_text import Form
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Command, View
 from scanbench.runtime.trap import TrapInfo
@@ -15,6 +17,8 @@ class Asked(NamedTuple):
     number: int
     form: int = 0
     """`check.system_text.Form`: what `instruction` and `number` say."""
+    places: tuple[int, ...] = ()
+    """Of a communications instruction: where its operands lie in the image."""
 
 
 class Detect(Protocol):
@@ -33,5 +37,13 @@ class Detect(Protocol):
 def read_asked(memory: bytearray | bytes | memoryview) -> tuple[Asked, ...]:
     """What the program asked for in the last scan."""
     count = min(int.from_bytes(memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4], "little"), Layout.ASKED_LIMIT)
-    starts = range(Layout.ASKED, Layout.ASKED + 8 * count, 8)
-    return tuple(Asked(memory[at], int.from_bytes(memory[at + 4 : at + 8], "little"), memory[at + 1]) for at in starts)
+    entries = [bytes(memory[at : at + 8]) for at in range(Layout.ASKED, Layout.ASKED + 8 * count, 8)]
+    found, at = list[Asked](), 0
+    while at < count:
+        entry, at = entries[at], at + 1
+        operands: tuple[int, ...] = ()
+        if entry[1] == Form.NETWORK:
+            operands = tuple(int.from_bytes(each, "little") for each in entries[at : at + len(OPERANDS)])
+            at += len(OPERANDS)
+        found.append(Asked(entry[0], int.from_bytes(entry[4:], "little"), entry[1], operands))
+    return tuple(found)

@@ -18,6 +18,7 @@ from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
 from scanbench.plcmodel.model import Model
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
+from scanbench.server.communication_network import Member, PlcNetwork
 from scanbench.server.communication_plc import SessionPlc
 from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerSeen, ServerWanted
 from scanbench.session.session import Session
@@ -112,6 +113,7 @@ class Communication:
         self._place = Place(data / "cache", data / "opcua", "")
         self._units: dict[int, _Unit] = {}
         self._opening: set[asyncio.Task[None]] = set()
+        self._network = PlcNetwork(self._members)
 
     def protect(self, token: str) -> None:
         """What users of protocols that have users prove with that they may be here. Before anything is opened."""
@@ -120,6 +122,7 @@ class Communication:
     async def begin(self, session: Session) -> None:
         """A PLC is there: opens the servers that were on."""
         unit = self._units[session.id] = _Unit(session, ErrorReaders(session.model))
+        self._network.begin(session)
         kept = session.row.communication or {}
         for kind in self._kinds(session):
             unit.servers[kind] = _Running(_read(kept.get(kind), KINDS[kind].first))
@@ -135,6 +138,7 @@ class Communication:
         unit = self._units.pop(id, None)
         if unit is None:
             return
+        self._network.end(unit.session)
         async with unit.turning:
             for running in unit.servers.values():
                 await _close(running)
@@ -144,6 +148,7 @@ class Communication:
         for task in list(self._opening):
             task.cancel()
         await asyncio.gather(*self._opening, return_exceptions=True)
+        await self._network.close()
         for id in list(self._units):
             await self.end(id)
 
@@ -195,6 +200,16 @@ class Communication:
     def modbus_table(self, session: Session) -> tuple[Mapped, ...]:
         """Which memory each coil and register means."""
         return default(session.model)
+
+    def _members(self) -> list[Member]:
+        """The PLCs that speak FINS."""
+        found = [(unit, unit.servers["fins"]) for unit in self._units.values() if "fins" in unit.servers]
+        return [
+            Member(
+                unit.session, fins.wanted.node, fins.wanted.error_bits, fins.desk if fins.server is not None else None
+            )
+            for unit, fins in found
+        ]
 
     def _kinds(self, session: Session) -> list[ServerKind]:
         return [kind for kind, each in KINDS.items() if each.spoken_by(session.model)]

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from scanbench.faults.history import ErrorRow, History
+from scanbench.faults.network import NetworkRequest
 from scanbench.host.load import Load, Loads
 from scanbench.jobs.client import SharedJob
 from scanbench.plcmodel.model import Model
@@ -72,6 +73,8 @@ class Session:
         self.debugging = Debugging(self.debug, self.tell, partial(keeper.keep_breakpoints, row.id), breakpoints)
         self.tracing = Tracing(self.instance.ask, self.tell, partial(keeper.keep_traces, row.id), traces or {})
         self._resending: asyncio.Task[None] | None = None
+        self.on_network: Callable[[NetworkRequest, int], None] | None = None
+        """Is told what the program asks of other PLCs, and in which scan."""
 
     # ---- what it is -----------------------------------------------------------------------------------------------
 
@@ -243,6 +246,8 @@ class Session:
                 forced = isinstance(command, Force)
                 for path in filter(None, (command.path, command.through)):
                     self.tell(events.ValueWritten(path, command.author, entry.scan, forced))
+            elif isinstance(command, NetworkRequest) and self.on_network is not None:
+                self.on_network(command, entry.scan)
             elif isinstance(command, WriteVariables):
                 for write in command.writes:
                     self.tell(events.ValueWritten(write.path, command.author, entry.scan, False))

@@ -1,5 +1,6 @@
-"""Lines of the log about what protocol clients write: no more than somebody can read."""
+"""Lines of the log about what protocol clients write, and what PLCs exchange: no more than somebody can read."""
 
+from scanbench.faults.network import NetworkAnswer, NetworkRequest
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Entry
 from scanbench.runtime.copy_areas import CopyAreas
@@ -21,7 +22,9 @@ class ToolWrites:
 
     def text(self, entry: Entry) -> str | None:
         """What the log says of an entry; None: nothing now."""
-        if not isinstance(entry.command, WriteAreas | WriteVariables | CopyAreas):
+        if not isinstance(entry.command, WriteAreas | WriteVariables | CopyAreas | NetworkRequest | NetworkAnswer):
+            return entry.plan.message
+        if isinstance(entry.command, NetworkAnswer) and entry.command.end:
             return entry.plan.message
         author, now = entry.command.author, monotonic_ns()
         if now - self._told.get(author, -_EVERY_NS) < _EVERY_NS:
@@ -31,4 +34,8 @@ class ToolWrites:
             self._told.clear()
         self._told[author] = now
         more = self._since.pop(author, 0)
-        return f"{entry.plan.message} ({more} more writes before)" if more else entry.plan.message
+        if not more:
+            return entry.plan.message
+        if isinstance(entry.command, NetworkRequest | NetworkAnswer):
+            return f"{entry.plan.message} ({more} more exchanges before)"
+        return f"{entry.plan.message} ({more} more writes before)"

@@ -10,6 +10,7 @@ from scanbench.engines.engine import Reason
 from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.inject import ACTIVE, Generate, Recover, present_texts
+from scanbench.faults.network_agenda import Network
 from scanbench.faults.reference import parse_reference
 from scanbench.program.program import Program
 from scanbench.recording.timeline import Timeline
@@ -51,7 +52,7 @@ class Plc:
         sources = Sources(project.model, project.files, project.loaded.program.interval_ns, _VERSION)
         self._timeline = Timeline.begin(
             run, LoadedPrograms(project.loaded), _VERSION, pack_body(sources), ENTRIES, AUTHOR, Detection(),
-            agenda=Joined(DisturbanceSchedule()),
+            agenda=Joined(DisturbanceSchedule(), Network()),
         )  # fmt: skip
 
     @property

@@ -7,8 +7,10 @@ other text can: `__SCAN` and other fields of the header, and the model's address
 from dataclasses import dataclass
 from functools import lru_cache
 
-from scanbench.check.system import instruction_text, system_text
+from scanbench.check.body.references import reference_type
+from scanbench.check.system import instruction_text, network_text, system_text
 from scanbench.plcmodel.model import Instruction, Location, MessageInstruction, Model, Special, TextPlace
+from scanbench.plcmodel.network import ports
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
 from scanbench.program.origin import SYSTEM_FILE
@@ -80,6 +82,9 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
     words = Record(SYSTEM.name, Kind.STRUCT)
     for name, type, offset in _HEADER:
         words.place_at(Member(name, type, Section.GLOBAL, _NOWHERE), offset)
+    if ports(model):
+        places = ArrayType(((0, Layout.ASKED_LIMIT - 1),), reference_type(ELEMENTARY["WORD"]))
+        words.place_at(Member(network_text.PLACES, places, Section.GLOBAL, _NOWHERE), Layout.ASKED)
     for number, special in enumerate(model.specials):
         _add(words, system_text.word(number), _type_of(special), special.location, offsets, special.text)
     _add_instructions(words, model, offsets)
@@ -130,7 +135,16 @@ def _add_instructions(words: Record, model: Model, offsets: dict[str, int]) -> N
 
 
 def _text(model: Model) -> str:
-    return "\n".join(filter(None, (system_text.common(model), *instruction_text.instructions(model))))
+    return "\n".join(
+        filter(
+            None,
+            (
+                system_text.common(model),
+                *instruction_text.instructions(model),
+                *network_text.network_instructions(model),
+            ),
+        )
+    )
 
 
 def _type_of(special: Special) -> Type:

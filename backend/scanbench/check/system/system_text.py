@@ -71,6 +71,8 @@ class Form(IntEnum):
     """To clear the error with this code."""
     CLEAR_FLAGS = 4
     """To clear what a `ResetInstruction` is for."""
+    NETWORK = 5
+    """A communications instruction, by its number in `network_text.NAMES`; the entries after it say where its operands lie."""
 
 
 def word(number: int) -> str:
