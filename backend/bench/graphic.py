@@ -1,7 +1,8 @@
 """`python -m bench graphic`: 500 rungs of 12 elements, held against the same logic as expressions of ST.
 
 Each figure is the rungs' divided by the expressions': a scan of run code, a scan of the interpreter, from text to a program that was checked, and to
-machine code.
+machine code. And what looking at a drawing costs: ms of one scan whose 6,000 elements are noted, and of one with some 50 lines in sight. Run code has nothing of
+that in it: it is a scan that is run again by the debug flavour.
 """
 
 import argparse
@@ -15,11 +16,16 @@ from time import perf_counter_ns
 
 from bench.run import MODEL
 from scanbench.check.build import check_sources
+from scanbench.debug.flow import FlowHook
+from scanbench.debug.flow_shown import FlowAsked
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
+from scanbench.runtime.programs import Loaded
+from scanbench.runtime.resource import Resource
 
 RUNGS, CONTACTS, COILS = 500, 11, 500
 NAMES = [f"x{number}" for number in range(300)]
@@ -61,6 +67,22 @@ def took(work: Callable[[], object]) -> float:
     return (perf_counter_ns() - begin) / 1e6
 
 
+def noted(program: Program, last: int) -> float:
+    """ms of a scan in which the power at each element is noted, with the lines up to `last` in sight; the median."""
+    loaded = Loaded.make(program, NativeEngine)
+    resource = Resource(loaded)
+    loaded.debug = DebugBuilds().engine(program, loaded.memory)
+
+    def look() -> None:
+        hook = FlowHook(resource, FlowAsked("Main", "Main", last=last))
+        with resource.listening.instead(hook, hook.listen):
+            resource.run(1)
+        hook.over()
+        assert len(hook.flow.elements) == RUNGS * (CONTACTS + 1)
+
+    return median(took(look) for _ in range(ROUNDS))
+
+
 def measured(scans: int) -> dict[str, float]:
     """Ratios, rungs to expressions, each the median of rounds that take turns; and µs a scan of the rungs."""
     texts = programs()
@@ -77,6 +99,7 @@ def measured(scans: int) -> dict[str, float]:
         times["check"].append([took(partial(checked, text)) for text in texts])
         times["build"].append([took(partial(made, program)) for program in both])
     found = {name: median(rungs / lines for rungs, lines in pairs) for name, pairs in times.items()}
+    found["noted, ms"], found["in sight, ms"] = (noted(both[0], last) for last in (1 << 30, 50))
     found["us a scan"] = median(pair[0] for pair in times["run code"]) * 1000 / scans
     return found
 

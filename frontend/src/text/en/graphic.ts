@@ -16,6 +16,8 @@ export const graphic = {
   "graphic.contact.falling": "Contact {name}, when it falls",
   "graphic.contact.negated": "Closed contact {name}",
   "graphic.contact.rising": "Contact {name}, when it rises",
+  "graphic.difference": "A {control}  A′ {monitor}",
+  "graphic.differences": "{count} different, scan {scan}",
   "graphic.flow.call": "call {call} of {calls}",
   "graphic.flow.earlier": "The call before",
   "graphic.flow.hint":

@@ -18,6 +18,8 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.contact.falling": "接点 {name}（立ち下がり）",
   "graphic.contact.negated": "b接点 {name}",
   "graphic.contact.rising": "接点 {name}（立ち上がり）",
+  "graphic.difference": "A {control}  A′ {monitor}",
+  "graphic.differences": "相違 {count} 件、スキャン {scan}",
   "graphic.flow.call": "{calls} 回中 {call} 回目の呼び出し",
   "graphic.flow.earlier": "前の呼び出し",
   "graphic.flow.hint":

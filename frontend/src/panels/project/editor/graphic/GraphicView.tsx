@@ -27,11 +27,13 @@ import { saveFile } from "../../../../store/page/download";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
 import { useDocuments } from "../../../../store/project/documents";
 import { shownText } from "../../../../store/project/shownProgram";
+import { useVerifyRows } from "../../../../store/verify/verifyRows";
 import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
+import { differencesIn } from "./differences";
 import { ElementField } from "./ElementField";
 import { FlowNote } from "./FlowNote";
 import { marksOf, togglePart } from "./marks";
@@ -63,6 +65,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   useDocuments(({ pous }) => pous);
   const breakpoints = useDebug((debug) => debug.breakpoints);
   const halt = useHaltedLine(path);
+  const verified = useVerifyRows(({ selected, byIndex }) =>
+    selected === null ? null : (byIndex.get(selected) ?? null),
+  );
   const room = Math.max(320, width - BESIDE);
   const drawn = useMemo(() => parts.current.of(text, room), [text, room]);
   const pous = shownText(path).pous;
@@ -299,6 +304,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                     ) : null
                   }
                   twice={twice[item.index] ?? NONE}
+                  differences={differencesIn(rung, path, verified)}
+                  scan={verified?.scan ?? 0}
                   marks={marksOf(rung, path, breakpoints, halt)}
                 />
               </div>

@@ -11,6 +11,7 @@ import { Icon } from "../../../../ui/Icon";
 import type { Pou } from "../../../../wire/types";
 import { ChartPicture } from "./ChartPicture";
 import { DiagramPicture } from "./DiagramPicture";
+import type { ElementDifference } from "./differences";
 import { clear } from "./follow";
 import { followFlow } from "./followFlow";
 import { showRung } from "./live";
@@ -34,10 +35,26 @@ interface Props {
   field: ReactNode;
   marks: PartMarks;
   twice: readonly Twice[];
+  /** Of the verification row that is selected, and its scan. */
+  differences: readonly ElementDifference[];
+  scan: number;
 }
 
 /** One rung, network or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
-export function PartRow({ path, part, number, action, pou, id, cursor, field, marks, twice }: Props) {
+export function PartRow({
+  path,
+  part,
+  number,
+  action,
+  pou,
+  id,
+  cursor,
+  field,
+  marks,
+  twice,
+  differences,
+  scan,
+}: Props) {
   const { found, readable } = part;
   const { label, title, comment, off } = found.head;
   const [said, setSaid] = useState("");
@@ -61,6 +78,12 @@ export function PartRow({ path, part, number, action, pou, id, cursor, field, ma
           {off && <span className="st faint">{t("graphic.off")}</span>}
           {twice.length > 0 && <span className="st warn cut">{twice.map(sayTwice).join("; ")}</span>}
           {marks.halt && <span className="st halted">{marks.next === "" ? marks.halt.text : t("graphic.next")}</span>}
+          {differences.length > 0 && (
+            <span className="st bad">
+              <Icon name="differs" small />
+              {t("graphic.differences", { count: differences.length, scan })}
+            </span>
+          )}
           {said !== "" && <span className="st faint">{said}</span>}
           {!readable && <span className="st bad">{t("graphic.unread")}</span>}
         </div>
@@ -73,6 +96,7 @@ export function PartRow({ path, part, number, action, pou, id, cursor, field, ma
           field={field}
           marks={marks}
           onSaid={setSaid}
+          differences={differences}
         />
         {!readable && <pre className="nettext">{found.text}</pre>}
       </div>
@@ -89,7 +113,10 @@ function Picture({
   field,
   marks,
   onSaid,
-}: Pick<Props, "path" | "part" | "pou" | "id" | "cursor" | "field" | "marks"> & { onSaid: (said: string) => void }) {
+  differences,
+}: Pick<Props, "path" | "part" | "pou" | "id" | "cursor" | "field" | "marks" | "differences"> & {
+  onSaid: (said: string) => void;
+}) {
   const picture = useRef<HTMLDivElement>(null);
   const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou.name)));
   const members = useMembers(({ of }) => of);
@@ -129,6 +156,12 @@ function Picture({
       {diagram && <DiagramPicture drawing={diagram} {...marked} />}
       {chart && <ChartPicture drawing={chart} {...marked} />}
       {field}
+      {differences.map(({ x, y, control, monitor, message }) => (
+        <span key={`${x} ${y} ${message}`} className="elemdiff" style={{ left: x, top: y }} title={message}>
+          <Icon name="differs" small />
+          {t("graphic.difference", { control, monitor })}
+        </span>
+      ))}
     </div>
   );
 }
