@@ -11,7 +11,7 @@ from scanbench.comm.opcua.reading import open_opcua
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.session.session import Session
 from scanbench.verify.contract import Memory
-from scanbench.verify.trace.growing import TIME, Sample, most_samples
+from scanbench.verify.trace.growing import LONGEST, TIME, Sample, most_samples
 from scanbench.verify.trace.mapping import TraceMapping
 from scanbench.wire.events import VerifyPace, VerifyWish
 from scanbench.wire.host import Sources
@@ -66,12 +66,19 @@ class ControllerVerification(Verification):
         self._wanted = [at for at, each in enumerate(found.columns) if each in wanted]
         first = await self._sampler.once(self._wanted)
         self._began_ns, range, limit = first.at_ns, self.status.wanted.range, self.status.wanted.limit
-        return await self._ask(
+        begun = await self._ask(
             lambda ref: BeginController(
                 ref, sources, trace.name, columns, self._cells(first), trace.mapping, range, limit
             ),
             VerifyBegun,
         )  # fmt: skip
+        longest_ms = LONGEST // 2 * begun.interval_ns // 1_000_000  # a sample may come late
+        if self._interval_ms > longest_ms:
+            raise Refused(
+                f"too many scans lie between two samples at an interval of {self._interval_ms:,} ms: "
+                f"choose one of at most {longest_ms:,} ms for this program"
+            )
+        return begun
 
     async def end(self) -> None:
         """See `Verification`."""

@@ -80,7 +80,7 @@ def test_a_second_plc_is_verified_while_it_runs_and_its_fault_is_found(server: S
     assert counts["Main.n"] == counts["Main.high"] == counts["Main.part"] == 0
     assert plc.verification_rows(number, differing=True)["rows"][0]["differences"][0]["cause"] == "logic"
     refused = server.http.patch(f"/api/verifications/{number}", json={"pace": "scan"})
-    assert (refused.status_code, "free pace only" in refused.text) == (409, True)
+    assert (refused.status_code, "free pace only" in refused.text) == (422, True)
     plc.delete_verification(number)
 
 
@@ -169,7 +169,7 @@ def test_a_foreign_controller_is_mapped_by_its_names_and_goes_on_after_a_lost_co
     foreign.start(level=("seven", ua.VariantType.String), twice=(14, SHORT), high=(False, BOOL), part=(7 / 3, SINGLE))
     over = until(server, plc, number, lambda info: info["state"] == "failed")
     assert "Main.level" in over["message"]
-    assert "`seven`" in over["message"]
+    assert "`'seven'`" in over["message"]
 
 
 def test_what_cannot_be_read_is_said_before_anything_begins(server: Server, plc: Plc, foreign: Foreign) -> None:
@@ -187,8 +187,13 @@ def test_what_cannot_be_read_is_said_before_anything_begins(server: Server, plc:
     for each in found["mapping"]["columns"]:
         if each["column"].endswith("level"):
             each["path"], each["role"] = "Main.level", "input"
-    with pytest.raises(Refused, match=r"does not fit the program.*`high`"):
+    with pytest.raises(Refused, match=r"does not fit the program.*`'high'`"):
         plc.begin_trace_verification(found)
+    foreign.stop()
+    address = foreign.start(**GOOD)
+    slow = plc.connect_controller(address, interval_ms=60_000)
+    with pytest.raises(Refused, match=r"interval of 60,000 ms: choose one of at most 50,000 ms"):
+        plc.begin_trace_verification(slow)
     foreign.stop()
     with pytest.raises(Refused, match="nothing listens at"):
         plc.connect_controller(address)

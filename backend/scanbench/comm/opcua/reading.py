@@ -175,7 +175,7 @@ class OpcUaSource:
             if status.value in _NO_VALUE:
                 return ""
             raise Unreachable(f"the controller gives no value of {node.to_string()}: {status.name}", for_good=True)
-        return "" if value.Value is None else _text(value.Value)
+        return "" if value.Value is None else cell_text(value.Value)
 
 
 def _children_of(id: ua.NodeId) -> ua.BrowseDescription:
@@ -194,7 +194,8 @@ def _is_single(value: ua.DataValue) -> bool:
     )
 
 
-def _text(variant: ua.Variant) -> str:
+def cell_text(variant: ua.Variant) -> str:
+    """A single value as the cell of a log. A text is a literal in quotes: its spaces, and quotes of its own, are kept."""
     value: Any = variant.Value
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
@@ -205,7 +206,7 @@ def _text(variant: ua.Variant) -> str:
         passed = aware - _1970
         return str((passed.days * 86_400 + passed.seconds) * 1_000_000_000 + passed.microseconds * 1000)
     if isinstance(value, str):
-        return value or "''"
+        return "'{}'".format(value.replace("$", "$$").replace("'", "$'"))
     return "" if value is None else str(int(value) if isinstance(value, int) else value)
 
 

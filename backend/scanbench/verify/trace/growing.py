@@ -19,8 +19,8 @@ MOST_CELLS = 2_000_000
 MOST_SAMPLES = 100_000
 TIME = "time [ms]"
 """The column with the time of each sample since the first one."""
-LONGEST = 1000
-"""Scans between two samples that the monitor runs. Beyond that it is as after a break."""
+LONGEST = 10_000
+"""Scans from one sample to the next that the monitor runs. Beyond that it is as after a break, once; it cannot be so again and again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +65,8 @@ class GrowingTrace:
         """Each with the place of its column, and its values."""
         self._scans = list(checked.trace.scans.of_rows)
         self._breaks: dict[int, int] = {}
+        self._far = False
+        """The last sample was too far from the one before it."""
         self.trace: Trace = replace(
             checked.trace, inputs=tuple(map(self._growing, checked.trace.inputs)),
             outputs=tuple(map(self._growing, checked.trace.outputs)), breaks=self._breaks,
@@ -78,7 +80,8 @@ class GrowingTrace:
         """With values that more can be added to, and that are exact: the protocol writes no digits."""
         values = list(signal.values)
         real = isinstance(signal.type, Elementary) and signal.type.kind is Kind.REAL
-        made = replace(signal, values=values, exactness=Exactness(REAL_DIGITS) if real else Exactness())
+        single = real and signal.type.size == 4
+        made = replace(signal, values=values, exactness=Exactness(REAL_DIGITS) if single else Exactness())
         self._signals.append((made, self._table.columns.index(signal.column), values))
         return made
 
@@ -99,13 +102,20 @@ class GrowingTrace:
             )
         if scan == last:
             return
+        far = scan - last > LONGEST and not sample.after_break
+        if far and self._far:
+            raise bad(
+                f"The controller goes on by {scan - last:,} scans from one sample to the next, and at most {LONGEST:,} are run: "
+                f"choose a shorter interval."
+            )
         read = [
             self._cell(signal, sample.cells[at]) for signal, at, _ in self._signals
         ]  # all of them are right, or none is added
         for (_, _, values), value in zip(self._signals, read, strict=True):
             values.append(value)
-        if scan > last + 1 and (sample.after_break or scan - last > LONGEST):
+        if scan > last + 1 and (sample.after_break or far):
             self._breaks[last + 1] = scan
+        self._far = far
         self._scans.append(scan)
 
     def _cell(self, signal: Signal, text: str) -> bytes | None:
