@@ -101,8 +101,12 @@ class FlowsOf:
                 return made[0]
 
             try:
-                listen_again(self._timeline, begin.scan, make, begin)
-                self._post(request, Flows(made[0].file, begin.loaded.version, (made[0].flow,)))
+                refusal = listen_again(self._timeline, begin.scan, make, begin)
+                version = begin.loaded.version
+                if refusal is not None:
+                    self._post(request, Flows("", version, (), refusal.message))
+                else:
+                    self._post(request, Flows(made[0].file, version, (made[0].flow,)))
             except UnknownPath as error:
                 self._refuse(request, error)
         now = monotonic_ns()

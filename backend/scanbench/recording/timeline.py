@@ -32,6 +32,8 @@ from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.resource import Measured, Resource
 
 PAST = "this is the past: return to live, or branch from here"
+_NOT_SHOWN = (Diverged, *NOT_AS_RECORDED, NoProgram, RunFileError, OSError)
+"""What running a scan again comes to where the file, its programs or the code are not as they were recorded."""
 
 
 class Timeline:
@@ -217,13 +219,16 @@ class Timeline:
 
     def look_at(self, scan: int, look: Callable[[], None], begin: Moment | None = None) -> Refusal | None:
         """Goes to where a scan began, looks at it there, and comes back to what is shown. `begin` is the state of the PLC before the
-        scan, where somebody has kept it (only live): nothing has to be run up to there then."""
+        scan, where somebody has kept it (only live): nothing has to be run up to there then. What `look` raises is raised, after
+        the return; it is a refusal where the scan does not go as it was recorded."""
         if begin is None:
             return self._visit(scan, stay=False, look=look, begin=True)
         live = self._live = Moment.of(self.resource)
         try:
             begin.restore(self.resource)
             look()
+        except _NOT_SHOWN as error:
+            return Refusal(f"scan {scan} cannot be shown: {error}")
         finally:
             live.restore(self.resource)
             self._live = None
@@ -307,20 +312,26 @@ class Timeline:
     def _visit(
         self, scan: int, stay: bool, look: Callable[[], None] = lambda: None, count: int = 0, begin: bool = False
     ) -> Refusal | None:  # fmt: skip
-        """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown."""
+        """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown or looked at."""
         live, shown, whole = self._live, Moment.of(self.resource), self._whole
         self._live = live or shown  # before anything is moved: other threads ask for what is live
-        refusal = self._move(scan, count, begin or count > 0, was_past=live is not None)
-        if refusal is None:
-            look()
-        if refusal is not None or not stay:
-            shown.restore(self.resource)
-            self._live, self._whole = live, whole
-        return refusal
+        stays = False
+        try:
+            refusal = self._move(scan, count, begin or count > 0, was_past=live is not None)
+            if refusal is None:
+                look()
+                stays = stay
+            return refusal
+        except _NOT_SHOWN as error:
+            return Refusal(f"scan {scan} cannot be shown: {error}")
+        finally:
+            if not stays:
+                shown.restore(self.resource)
+                self._live, self._whole = live, whole
 
     def _move(self, scan: int, count: int, begin: bool, was_past: bool) -> Refusal | None:
         """Puts the resource into the past; `begin`: to where the scan began, should it have trapped. Where it cannot,
-        somebody has to put it back."""
+        somebody has to put it back; `_NOT_SHOWN`."""
         live, journal, resource = self.live_scan, self.live_journal, self.resource
         if scan > live:
             return Refusal(f"scan {scan} has not come yet: the PLC is at scan {live}")
@@ -333,20 +344,17 @@ class Timeline:
         if gap is not None:
             return Refusal(f"scan {scan} cannot be shown: {gap}")
         end = seam(journal, scan, begin)
-        try:
-            resource.leave()  # what was shown keeps its own journal
-            on = checkpoint.scan <= resource.header.scan <= scan and checkpoint.entries <= len(resource.journal) <= end
-            if not (was_past and self._whole and on):
-                loaded = self._kept.get(checkpoint.version)
-                state = state_of(self.recording, checkpoint, loaded)
-                resource.restore(loaded, state, journal.prefix(checkpoint.entries))
-                self._whole = True
-            resource.measured = Measured()
-            self._replay(journal[len(resource.journal) : end], scan)
-            if count and not self._enter(scan, count):
-                return Refusal(f"scan {scan} has no statement {count}: it did not get so far")
-        except (Diverged, *NOT_AS_RECORDED, NoProgram, RunFileError, OSError) as error:
-            return Refusal(f"scan {scan} cannot be shown: {error}")
+        resource.leave()  # what was shown keeps its own journal
+        on = checkpoint.scan <= resource.header.scan <= scan and checkpoint.entries <= len(resource.journal) <= end
+        if not (was_past and self._whole and on):
+            loaded = self._kept.get(checkpoint.version)
+            state = state_of(self.recording, checkpoint, loaded)
+            resource.restore(loaded, state, journal.prefix(checkpoint.entries))
+            self._whole = True
+        resource.measured = Measured()
+        self._replay(journal[len(resource.journal) : end], scan)
+        if count and not self._enter(scan, count):
+            return Refusal(f"scan {scan} has no statement {count}: it did not get so far")
         return None
 
     def _replay(self, entries: Sequence[Entry], scan: int) -> None:

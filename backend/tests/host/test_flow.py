@@ -80,9 +80,21 @@ def test_a_halted_plc_tells_of_this_scan_and_of_the_one_before(tmp_path: Path) -
         assert powers(past)[5] is odd
 
 
+def refused(child: Child) -> str:
+    """Why nothing is told of an instance that is not there."""
+    asked = FlowAsked("Belt", "Main.nobody")
+    answer = child.ask(lambda ref: debug_protocol.WantFlow(ref, asked), protocol.Ack)
+    assert not answer.ok
+    return answer.message
+
+
 def test_what_is_not_there_is_refused(tmp_path: Path) -> None:
     with Child(tmp_path / "a.run", BELT, tmp_path / "cache") as child:
-        asked = FlowAsked("Belt", "Main.nobody")
-        answer = child.ask(lambda ref: debug_protocol.WantFlow(ref, asked), protocol.Ack)
-        assert not answer.ok
-        assert "nobody" in answer.message
+        assert "nobody" in refused(child)
+        child.ask(lambda ref: protocol.Drive(ref, "pause", None, "Ann"), protocol.Ack)
+        scan = child.until(lambda state: state.paused).scan
+        assert "nobody" in refused(child)
+        assert [each.scan for each in flow_of(child).flows] == [scan - 1]
+        answer = child.ask(lambda ref: protocol.Drive(ref, "continue", None, "Ann"), protocol.Ack)
+        assert answer.ok, answer.message
+        child.until(lambda state: state.scan > scan)

@@ -15,6 +15,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Recover
 from scanbench.recording import checkpoints, recording
+from scanbench.recording.moment import Moment
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import replay_file
 from scanbench.recording.timeline import Timeline
@@ -27,6 +28,7 @@ from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import UnknownPath
 from scanbench.wire.codec import ENTRIES
 from tests.amounts import amount
 from tests.recording.recorded import (
@@ -428,4 +430,34 @@ def test_a_refused_step_leaves_what_was_shown(tmp_path: Path, monkeypatch: pytes
     assert (timeline.resource.state, len(timeline.resource.journal)) == (state, entries)
     assert timeline.step(8) is None
     assert value(timeline.resource, "Main.other") == 18
+    timeline.close()
+
+
+@pytest.mark.parametrize("past", [False, True])
+def test_a_look_that_goes_wrong_leaves_what_was_shown(tmp_path: Path, past: bool) -> None:
+    timeline = begun(tmp_path / "run")
+    advance(timeline, 20)
+    if past:
+        assert timeline.goto(10) is None
+    shown = Moment.of(timeline.resource)
+
+    def unknown() -> None:
+        raise UnknownPath("nobody")
+
+    def diverged() -> None:
+        raise Diverged("as it happens")
+
+    with pytest.raises(UnknownPath):
+        timeline.look_at(4, unknown)
+    refused = [timeline.look_at(4, diverged)]
+    if not past:
+        refused.append(timeline.look_at(20, diverged, shown))
+    for each in refused:
+        assert isinstance(each, Refusal)
+        assert "cannot be shown: as it happens" in each.message
+    assert (timeline.past, timeline.live_scan) == (past, 20)
+    assert (timeline.resource.header.scan, timeline.resource.state) == (shown.scan, shown.state)
+    timeline.return_live()
+    advance(timeline, 1)
+    assert timeline.live_scan == 21
     timeline.close()
