@@ -15,7 +15,7 @@ and errors that still hold were entered there.
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from struct import Struct
@@ -183,6 +183,8 @@ def read_contents(file: RunFile, codec: Codec) -> "Reader":
     if reader is None:
         raise Damaged(f"{file.path.name} is damaged at its beginning: nothing of the run can be recovered")
     reader.finish()
+    if file.mended is not None:
+        file.mended = replace(file.mended, unread=frozenset(reader.unread))
     if not reader.found.programs or not reader.found.checkpoints:
         raise Damaged(f"{file.path.name} is damaged before its first checkpoint: nothing of the run can be recovered")
     _check_last(file, reader.found.checkpoints[-1])
@@ -250,6 +252,8 @@ class Reader:
 
     def __init__(self, file: RunFile, codec: Codec, about: About, damaged: bool = False) -> None:
         self.found = Contents(about)
+        self.unread: set[int] = set()
+        """Offsets of the entries that are lost though their blocks are good."""
         self._file, self._codec = file, codec
         self._damaged = damaged
         """Blocks may be missing."""
@@ -294,6 +298,8 @@ class Reader:
                 if entry is not None:
                     found.entries.append(entry)
                     self._entries += 1
+                else:
+                    self.unread.add(block.offset)
             case Kind.KEYFRAME:
                 self._keyframe(block)
             case Kind.DELTA if self._base is not None and block.base in (self._base.crc, 0):

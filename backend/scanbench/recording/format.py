@@ -106,6 +106,8 @@ class Mended:
     blocks: tuple[Block, ...]
     end: int
     """The byte after the last of them; from there on the file is good."""
+    unread: frozenset[int] = frozenset()
+    """Where those begin that cannot be understood, as what they repeat is lost: they are never written again."""
 
     def holes(self) -> list[int]:
         """Where bytes begin that belong to no block."""
@@ -250,8 +252,9 @@ class RunFile:
         if self.mended is not None:
             for block in self.mended.blocks:
                 if block.end <= end:
-                    yield block
                     place = place.after(block)
+                    if block.offset not in self.mended.unread:
+                        yield block
             offset = max(offset, self.mended.end)
         while offset < end:
             found = decode(self.format, os.pread(self.fd, head_size(self.format), offset), offset, place)

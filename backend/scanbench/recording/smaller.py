@@ -4,7 +4,7 @@ import errno
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from pathlib import Path
 
 from scanbench.recording.alike import Slots
@@ -73,17 +73,21 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     cut, kept = plan.cut, tuple[int, ...]()
 
     states = _states(seen)
+    after = cut is None
+    """A disk may have mixed up the blocks: where one lies does not say whether it is before the cut."""
 
     def keep(block: Block, before: int) -> bool:
+        nonlocal after
+        after = after or (cut is not None and block.offset == cut.block.offset)
         if block.offset in plan.dropped or (block.kind in STATES and block.offset not in states):
             return False
-        if cut is None or block.offset >= cut.block.offset:
+        if after:
             return True
         return block.kind is Kind.ENTRY and before in kept
 
     try:
         if cut is not None:
-            kept = _roots(file, cut, codec)
+            kept = _roots(seen, cut, codec)
         about = replace(
             seen.about,
             thinned_before=max(seen.about.thinned_before, plan.thinned_before),
@@ -111,11 +115,12 @@ def _states(seen: Seen) -> frozenset[int]:
     return frozenset(block.offset for each in seen.checkpoints for block in (each.block, each.base))
 
 
-def _roots(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
+def _roots(seen: Seen, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
     """Which of the entries before the cut stay."""
-    blocks = (block for block in file.walk(cut.block.offset) if block.kind is Kind.ENTRY)
+    before = takewhile(lambda block: block.offset != cut.block.offset, seen.file.walk(seen.end))
     slots = Slots()
-    return journal_roots([entry_of(file, block, codec, slots) for block in blocks], codec.folds)
+    entries = [entry_of(seen.file, block, codec, slots) for block in before if block.kind is Kind.ENTRY]
+    return journal_roots(entries, codec.folds)
 
 
 @dataclass(frozen=True, slots=True)

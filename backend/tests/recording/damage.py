@@ -11,8 +11,10 @@ import pytest
 
 from scanbench.recording import recording as recordings
 from scanbench.recording.format import Block, Kind, RunFile
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry
 from scanbench.runtime.write import Write
+from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 from tests.recording.recorded import SECOND, advance, begun, to_program
 
 SCANS = 160
@@ -35,8 +37,9 @@ class Whole:
 
 
 @cache
-def whole() -> Whole:
-    """Commands at odd scans, a state every tenth scan, a second program in the middle."""
+def whole(clients: bool = False) -> Whole:
+    """Commands at odd scans, a state every tenth scan, a second program in the middle; with clients that write again and again,
+    so that there are short blocks."""
     with TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
         patch.setattr(recordings, "DELTAS", 3)
         path = Path(folder, "run")
@@ -45,6 +48,8 @@ def whole() -> Whole:
         for scan in range(SCANS):
             if scan % 6 == 3:
                 assert isinstance(timeline.submit(Write("Ada", "Main.other", str(scan))), Entry)
+            if clients:
+                _clients_write(timeline, scan)
             if scan == SCANS // 2:
                 assert not to_program(timeline, 2, SECOND)
             if scan % 10 == 0:
@@ -59,6 +64,13 @@ def whole() -> Whole:
         programs = {each.offset: file.payload(each)[0] for each in blocks if each.kind is Kind.PROGRAM}
         file.close()
         return Whole(path.read_bytes(), blocks, programs, tuple(states), journal)
+
+
+def _clients_write(timeline: Timeline, scan: int) -> None:
+    for number, author in enumerate(("Modbus 10.0.0.1", "Modbus 10.0.0.2", "FINS 192.168.0.7, node 25")):
+        if scan % (number + 1) == 0:
+            write = AreaWrite("D", 200 + number, (scan + 1).to_bytes(2, "little"))
+            assert isinstance(timeline.submit(WriteAreas(author, (write,))), Entry)
 
 
 @dataclass(frozen=True)
