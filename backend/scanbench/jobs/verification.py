@@ -127,14 +127,18 @@ class VerifyJob:
         verifier.follow(until)
         return self._scans(ask.ref, verifier, range(ask.first, until))
 
-    def _scans(self, ref: int, verifier: Verifier, scans: Sequence[int]) -> ScansDone:
+    def _scans(self, ref: int, verifier: Verifier, scans: range) -> ScansDone:
         batch: list[ScanVerified] = []
         told = monotonic_ns()
-        for scan in scans:
+        scan = scans.start
+        while scan < scans.stop:
+            after = None if self._growing is None else self._growing.after_break(scan)
+            last = scan if after is None else min(after, scans.stop) - 1  # a break is told at once, however long it is
             try:
-                batch.append(verifier.verify(scan))
+                batch.append(replace(verifier.verify(scan), last=last))
             except REFUSALS as why:
                 return replace(_told(ScansDone, ref, batch), failed=_words(why))
+            scan = last + 1
             if self._asked():
                 break
             if monotonic_ns() - told > _TELL_NS:
@@ -169,10 +173,10 @@ def _told(kind: type[S], ref: int, batch: Sequence[ScanVerified], *, whole: bool
     skipped: list[tuple[int, int]] = []
     for each in batch if whole else ():
         if not each.compared:
-            stretched(skipped, each.scan, each.scan)
+            stretched(skipped, each.scan, max(each.scan, each.last))
     compared = sum(each.compared for each in batch) if whole else 0
     return kind(
-        ref, batch[-1].scan if batch else -1, compared, rows, _columns(batch),
+        ref, max(batch[-1].scan, batch[-1].last) if batch else -1, compared, rows, _columns(batch),
         tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
         tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
         max((each.used for each in batch), default=0), tuple(skipped),

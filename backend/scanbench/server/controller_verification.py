@@ -1,5 +1,7 @@
 """A verification whose control device is a controller that runs elsewhere: it is read, and the same table fills as it runs."""
 
+import asyncio
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
@@ -8,6 +10,7 @@ from pathlib import Path
 from scanbench.comm.controller.contract import Connection, Source, Unreachable
 from scanbench.comm.controller.sampling import Read, Sampler, taken
 from scanbench.comm.opcua.reading import open_opcua
+from scanbench.jobs.client import FAULT
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.session.session import Session
 from scanbench.verify.contract import Memory
@@ -18,6 +21,7 @@ from scanbench.wire.host import Sources
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import BeginController, TakeSamples, VerifyBegun
 
+log = logging.getLogger(__name__)
 MOST_WAITING = 500
 """Samples that wait for the monitor; beyond that the oldest are left out."""
 AT_ONCE = 20
@@ -41,8 +45,11 @@ class ControllerVerification(Verification):
         self._elsewhere = True
         self._over = False
         """No more samples come."""
-        self._ended = False
-        """The last ones were handed over."""
+        self._last_from = -1
+        """The scan from which on all the rest was asked for, after the last sample came."""
+        self._left = 0
+        """Samples that are still to be taken."""
+        self._feeding: asyncio.Task[None] | None = None
 
     async def begin(self) -> None:
         """See `Verification`."""
@@ -56,7 +63,8 @@ class ControllerVerification(Verification):
             f"and what is shorter than that is not seen."
         )
         self._change(last=None, note=" ".join(filter(None, (self.status.note, note))))
-        self._do(self._feed(most))
+        self._left = most - 1
+        self._feeding = self._do(self._feed())
 
     async def _begun_trace(self, trace: TraceSource, sources: Sources) -> VerifyBegun:
         found = await self._sampler.begin()
@@ -94,22 +102,43 @@ class ControllerVerification(Verification):
                 "a controller that runs elsewhere waits for nobody: its scans are verified at a free pace only"
             )
         await super().drive(pace, auto, memory, action, author)
+        if self.status.state == "stopped":
+            await self._pause()
+        elif not self._over and not self.over and self._feeding is None:
+            self._feeding = self._do(self._feed())
+
+    async def _pause(self) -> None:
+        """Leaves the controller alone: what it does meanwhile is not read."""
+        feeding, self._feeding = self._feeding, None
+        if feeding is not None:
+            feeding.cancel()
+            await asyncio.gather(feeding, return_exceptions=True)
+        await self._sampler.close()
 
     # ---- samples ----------------------------------------------------------------------------------------------------
 
-    async def _feed(self, most: int) -> None:
+    async def _feed(self) -> None:
         """Reads the controller until enough was read, or it cannot be read any more."""
         try:
-            async for read in taken(self._sampler, self._wanted, most - 1):
-                if self.over:
-                    break
+            async for read in taken(self._sampler, self._wanted, self._left):
+                self._left -= 1
                 self._keep(read)
                 self._poke()
         except Unreachable as error:
             self._fail(error.message)
+        except Exception:
+            log.exception("a controller could not be read")
+            self._fail(FAULT)
         self._over = True
         await self._sampler.close()
         self._poke()
+
+    def _fail(self, why: str) -> None:
+        """See `Verification`; nobody wants samples any more."""
+        super()._fail(why)
+        if self._feeding is not None and self._feeding is not asyncio.current_task():
+            self._feeding.cancel()
+            self._do(self._sampler.close())
 
     def _keep(self, read: Read) -> None:
         self._waiting.append(Sample(self._cells(read), read.after_break))
@@ -122,13 +151,14 @@ class ControllerVerification(Verification):
         return (f"{(read.at_ns - self._began_ns) / 1e6:.3f}", *read.cells)
 
     def _poke_past(self, live: int) -> None:
-        if self._waiting or (self._over and not self._ended):
+        # a request ends early where a further one waits: all is verified when one for the rest goes no further
+        if self._waiting or (self._over and self._last_from != self._next):
             count = min(AT_ONCE, len(self._waiting))
             samples = tuple(self._waiting.popleft() for _ in range(count))
-            first, self._ended = self._next, self._over and not self._waiting
-            last = self._ended
+            first, last = self._next, self._over and not self._waiting
+            self._last_from = first if last else -1
             self._verify(lambda ref: TakeSamples(ref, samples, first, last))
-        elif self._ended:
+        elif self._over:
             self._change(last=self._next - 1, state="done", message=self._said())
 
     def _said(self) -> str:
@@ -144,6 +174,5 @@ class ControllerVerification(Verification):
 
 async def open_source(connection: Connection) -> Source:
     """By the protocol of its address; `Unreachable`."""
-    if connection.protocol == "fins":
-        raise Unreachable("FINS", for_good=True)
+    assert connection.protocol == "opc.tcp"
     return await open_opcua(connection)

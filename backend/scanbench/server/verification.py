@@ -433,10 +433,11 @@ class Verification:
         self._change(state="failed", message=why, auto=False)
         self._do(self.hold.let_go(self.status.by))
 
-    def _do(self, work: Coroutine[None, None, None]) -> None:
+    def _do(self, work: Coroutine[None, None, None]) -> asyncio.Task[None]:
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        return task
 
     def _change(self, status: VerificationStatus | None = None, **changes: object) -> None:
         self.status = replace(status or self.status, **changes)  # type: ignore[arg-type]  # names and types are the status' own

@@ -244,6 +244,8 @@ class ScanVerified:
     """Names that were outputs for the first time."""
     used: int = 0
     """The most uses of a row."""
+    last: int = -1
+    """Where nothing runs: the last scan of the stretch that this one begins; else nothing is said by it."""
 
     @property
     def compared(self) -> bool:

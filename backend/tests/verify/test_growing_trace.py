@@ -4,13 +4,16 @@ from collections.abc import Sequence
 
 import pytest
 
-from scanbench.verify.contract import ScanVerified
+from scanbench.jobs.verification import VerifyJob
+from scanbench.verify.contract import Range, ScanVerified
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.trace.growing import LONGEST, TIME, GrowingTrace, Sample, controller_table
 from scanbench.verify.trace.mapping import ColumnMap, TraceMapping
 from scanbench.verify.trace.subject import TraceSubject
 from scanbench.verify.trace.table import BadTraceFile, Unit
 from scanbench.verify.verifier import Verifier
+from scanbench.wire.host import Sources
+from scanbench.wire.verification import BeginController, ScansDone, TakeSamples, VerifyBegun
 from tests.verify.trace_parts import program_of
 
 SOURCE = """\
@@ -72,3 +75,29 @@ def test_an_lreal_is_compared_exactly_and_a_real_by_the_digits_that_it_has(
 ) -> None:
     controller = Controller(output, ("0", "1", "1.0"))
     assert differing(controller.take(Sample(("10", "1", value)))) == scans
+
+
+def test_a_further_request_leaves_scans_that_the_next_one_verifies_and_a_long_break_is_one_stretch() -> None:
+    program, asked = program_of(SOURCE), [False, True]
+    job = VerifyJob(lambda sources: program, None, lambda said: None, lambda: bool(asked) and asked.pop(0))
+    columns = (ColumnMap("a", "Main.a", "input"), ColumnMap("b", "Main.b", "output"))
+    mapping, names = TraceMapping(TIME, "scan", "hold", columns).to_json(), (TIME, "a", "b")
+    sources = Sources("CJ1M-CPU63", {"Main.st": SOURCE}, program.interval_ns, 1)
+    begun = job.answer(BeginController(1, sources, "opc.tcp://press", names, ("0", "1", "2"), mapping, Range(), 100))
+    assert isinstance(begun, VerifyBegun)
+    far = 1 << 40
+    samples = (
+        Sample(("4", "1", "2")),
+        Sample((str(far), "1", "2"), after_break=True),
+        Sample((str(far + 1), "1", "3")),
+    )
+    part = job.answer(TakeSamples(2, samples, begun.first, last=True))
+    assert isinstance(part, ScansDone)
+    assert (part.scan, part.compared) == (1, 0)
+    rest = job.answer(TakeSamples(3, (), part.scan + 1, last=True))
+    assert isinstance(rest, ScansDone)
+    assert (rest.scan, [row.scan for row in rest.rows if row.first]) == (far + 1, [far + 1])
+    assert (5, far - 1) in rest.skipped or (5, far) in rest.skipped
+    nothing = job.answer(TakeSamples(4, (), rest.scan + 1, last=True))
+    assert isinstance(nothing, ScansDone)
+    assert nothing.scan == -1

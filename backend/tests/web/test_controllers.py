@@ -154,6 +154,11 @@ def test_a_foreign_controller_is_mapped_by_its_names_and_goes_on_after_a_lost_co
     assert found["mapping"]["unit"] == "ms"
     number = plc.begin_trace_verification(found)
     until(server, plc, number, lambda info: info["compared"] > 10)
+    running = plc.verification(number)
+    assert server.http.patch(f"/api/verifications/{number}", json={"action": "stop"}).status_code == 200
+    assert server.http.patch(f"/api/verifications/{number}", json={"action": "resume"}).status_code == 200
+    again = until(server, plc, number, lambda info: info["compared"] > running["compared"] + 30)
+    assert (again["skipped"] > running["skipped"], again["differing"]) == (True, 0)
     foreign.stop()
     away = until(server, plc, number, lambda info: "tried again" in info["message"])
     assert (away["state"], away["differing"]) == ("verifying", 0)

@@ -55,7 +55,7 @@ class Verifications(Asks):
     def connect_controller(
         self, address: str, *, interval_ms: int = 100, nodes: Sequence[str] = (), user: str = "", password: str = ""
     ) -> Steps[shapes.UploadedTrace]:  # fmt: skip
-        """Asks a controller that runs (opc.tcp://HOST:PORT, fins://HOST:PORT) what it has to read. Give it to
+        """Asks a controller that runs (opc.tcp://HOST:PORT) what it has to read. Give it to
         `begin_trace_verification`: then it is read every so many ms, and compared while it runs."""
         project = (yield from self._get(Instance, ""))["project"]["id"]
         body = {

@@ -9,7 +9,7 @@ FASTEST_MS, SLOWEST_MS = 10, 60_000
 """Bounds of the time from one sample to the next."""
 MOST = 999
 """Variables that are read: as many as a log has columns, with that of the time."""
-PROTOCOLS = ("opc.tcp", "fins")
+PROTOCOLS = ("opc.tcp",)
 
 
 class Unreachable(Exception):
@@ -25,12 +25,11 @@ class Connection:
     """A controller, and what is wanted of it."""
 
     address: str
-    """opc.tcp://HOST:PORT/..., fins://HOST:PORT."""
+    """opc.tcp://HOST:PORT/..."""
     interval_ms: int = 100
     """From one sample to the next."""
     nodes: tuple[str, ...] = ()
-    """OPC UA: ids of the nodes that are read; none: all that the server shows. FINS: paths or addresses; none: all variables of the
-    program that have an address."""
+    """Ids of the nodes that are read; none: all that the server shows."""
     user: str = ""
     password: str = field(default="", repr=False)
 
@@ -45,7 +44,7 @@ class Connection:
             host = None
         if not separator or protocol.lower() not in PROTOCOLS or not host:
             raise Unreachable(
-                f"`{self.address}` is no address of a controller: write opc.tcp://HOST:4840 (OPC UA) or fins://HOST:9600 (FINS)",
+                f"`{self.address}` is no address of a controller: write opc.tcp://HOST:4840 (OPC UA)",
                 for_good=True,
             )
         return protocol.lower()

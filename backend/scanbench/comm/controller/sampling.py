@@ -47,7 +47,8 @@ class Sampler:
 
     async def once(self, wanted: Sequence[int]) -> Read:
         """One sample, from the connection that is open; `Unreachable`."""
-        assert self._source is not None
+        if self._source is None:
+            raise Unreachable("the connection was left while the verification was stopped")
         before = monotonic_ns()
         cells = await self._source.read(wanted)
         row = [""] * len(self.found.columns)

@@ -1,6 +1,7 @@
 """A table and its mapping, checked against a program: what the monitor is to be given in each scan, and what is compared."""
 
-from collections.abc import Mapping, Sequence
+from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
@@ -31,6 +32,24 @@ class Signal:
     tolerance: Tolerance = field(default_factory=Tolerance)
 
 
+class Breaks:
+    """Stretches in which nobody looked at the controller: nothing is run there, and the row after one is taken over."""
+
+    def __init__(self) -> None:
+        self._firsts: list[int] = []
+        self._afters: list[int] = []
+
+    def add(self, first: int, after: int) -> None:
+        """One more, later than all others: its first scan, and that of the row after it."""
+        self._firsts.append(first)
+        self._afters.append(after)
+
+    def after(self, scan: int) -> int | None:
+        """The scan of the row after the stretch that has this one; None: it is in none."""
+        at = bisect_right(self._firsts, scan) - 1
+        return self._afters[at] if at >= 0 and scan < self._afters[at] else None
+
+
 @dataclass(frozen=True, slots=True)
 class Trace:
     """A controller log whose columns are mapped to variables: each row is a scan."""
@@ -42,13 +61,11 @@ class Trace:
     outputs: tuple[Signal, ...]
     ignored: tuple[str, ...] = ()
     """Columns that are mapped to nothing: they were not compared."""
-    breaks: Mapping[int, int] = field(default_factory=dict)
-    """Stretches in which nobody looked at the controller: the first scan of each, and that of the row after it. Nothing is run
-    there, and that row is taken over."""
+    breaks: Breaks = field(default_factory=Breaks)
 
     def unseen(self, scan: int) -> bool:
         """Whether it lies in such a stretch."""
-        return any(first <= scan < after for first, after in self.breaks.items())
+        return self.breaks.after(scan) is not None
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Kind
 from scanbench.syntax.literals import UNITS_NS
 from scanbench.verify.trace.axis import plain_name
-from scanbench.verify.trace.bind import Signal, Trace, check
+from scanbench.verify.trace.bind import Breaks, Signal, Trace, check
 from scanbench.verify.trace.clock import number
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping
 from scanbench.verify.trace.scans import MAX_SCAN, Scans
@@ -64,7 +64,7 @@ class GrowingTrace:
         self._signals: list[tuple[Signal, int, list[bytes | None]]] = []
         """Each with the place of its column, and its values."""
         self._scans = list(checked.trace.scans.of_rows)
-        self._breaks: dict[int, int] = {}
+        self._breaks = Breaks()
         self._far = False
         """The last sample was too far from the one before it."""
         self.trace: Trace = replace(
@@ -88,6 +88,10 @@ class GrowingTrace:
     def until(self, last: bool = False) -> int:
         """Scans before this one can be compared: of later ones a value may still come in time, unless this is the last sample."""
         return self._scans[-1] + 1 if last else max(self._scans[-1] + 1 - self._late, self._scans[0] + 1)
+
+    def after_break(self, scan: int) -> int | None:
+        """The scan of the sample after the break that has this scan; None: it is in none."""
+        return self._breaks.after(scan)
 
     def add(self, samples: Sequence[Sample]) -> None:
         """More rows; a further one of the same scan is left out. Raises `BadTraceFile`."""
@@ -114,7 +118,7 @@ class GrowingTrace:
         for (_, _, values), value in zip(self._signals, read, strict=True):
             values.append(value)
         if scan > last + 1 and (sample.after_break or far):
-            self._breaks[last + 1] = scan
+            self._breaks.add(last + 1, scan)
         self._far = far
         self._scans.append(scan)
 
