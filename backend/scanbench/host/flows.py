@@ -68,14 +68,16 @@ class FlowsOf:
                 file = hook.file
         return Flows(file, version, tuple(found), refused)
 
-    def _listened(self, asked: FlowAsked, scan: int, upto: int) -> FlowHook | Refusal:
+    def _listened(
+        self, asked: FlowAsked, scan: int, upto: int, begin: Moment | None = None
+    ) -> FlowHook | Refusal:  # fmt: skip
         made: list[FlowHook] = []
 
         def make(resource: Resource) -> FlowHook:
             made.append(FlowHook(resource, asked, upto))
             return made[0]
 
-        refusal = listen_again(self._timeline, scan, make)
+        refusal = listen_again(self._timeline, scan, make, begin)
         return refusal if refusal is not None else made[0]
 
     # ---- while it runs ----------------------------------------------------------------------------------------------
@@ -87,30 +89,36 @@ class FlowsOf:
         return kept_moment(self._timeline)
 
     def ran(self, begin: Moment) -> None:
-        """The scan has run."""
+        """The scan has run. As many questions are answered as there is time for, at least one; the others wait for a later scan."""
         resource = self._timeline.resource
         if resource.header.scan != begin.scan + 1 or resource.loaded is not begin.loaded or resource.begun:
             return
-        start, requests = monotonic_ns(), list(self._waiting)
-        self._waiting.clear()
-        for request in requests:
-            made: list[FlowHook] = []
-
-            def make(resource: Resource, asked: FlowAsked = request.asked, made: list[FlowHook] = made) -> FlowHook:
-                made.append(FlowHook(resource, asked))
-                return made[0]
-
-            try:
-                refusal = listen_again(self._timeline, begin.scan, make, begin)
-                version = begin.loaded.version
-                if refusal is not None:
-                    self._post(request, Flows("", version, (), refusal.message))
-                else:
-                    self._post(request, Flows(made[0].file, version, (made[0].flow,)))
-            except UnknownPath as error:
-                self._refuse(request, error)
-        now = monotonic_ns()
+        start = now = monotonic_ns()
+        upto = start + begin.loaded.program.interval_ns // _SHARE
+        while self._waiting:
+            self._answer_same(begin)
+            now = monotonic_ns()
+            if now >= upto:
+                break
         self._due = now + _SHARE * (now - start)
+
+    def _answer_same(self, begin: Moment) -> None:
+        """Answers who has waited longest, and all who ask the same."""
+        asked = self._waiting[0].asked
+        same = [each for each in self._waiting if each.asked == asked]
+        self._waiting = deque(each for each in self._waiting if each.asked != asked)
+        try:
+            hook = self._listened(asked, begin.scan, 0, begin)
+            version = begin.loaded.version
+            if isinstance(hook, Refusal):
+                flows = Flows("", version, (), hook.message)
+            else:
+                flows = Flows(hook.file, version, (hook.flow,))
+            for request in same:
+                self._post(request, flows)
+        except UnknownPath as error:
+            for request in same:
+                self._refuse(request, error)
 
     # ---- answers ----------------------------------------------------------------------------------------------------
 

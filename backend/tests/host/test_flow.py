@@ -1,12 +1,19 @@
 """What the code saw, asked of the process of a PLC: while it runs, halted, in the past, on native code."""
 
+import socket
 from pathlib import Path
 
+import pytest
+
 from scanbench.debug.flow_shown import FlowAsked, Flows
+from scanbench.host import flows as flows_module
+from scanbench.host.flows import FlowsOf
+from scanbench.host.link import Link
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from tests.host.child import Child
 from tests.host.test_host_debugging import at_line, set_breakpoints
+from tests.recording.recorded import advance, begun
 
 BELT = """\
 FUNCTION_BLOCK Belt
@@ -98,3 +105,47 @@ def test_what_is_not_there_is_refused(tmp_path: Path) -> None:
         answer = child.ask(lambda ref: protocol.Drive(ref, "continue", None, "Ann"), protocol.Ack)
         assert answer.ok, answer.message
         child.until(lambda state: state.scan > scan)
+
+
+class Told(Link):
+    """What is told, kept."""
+
+    def __init__(self, sock: socket.socket) -> None:
+        super().__init__(sock)
+        self.told: list[tuple[int, int]] = []
+        """By whom it was asked, and the scan."""
+
+    def post(self, message: object) -> None:
+        assert isinstance(message, debug_protocol.FlowIs)
+        self.told.append((message.ref, message.flows.flows[0].scan))
+
+
+def test_who_looks_has_a_share_of_the_time_of_a_scan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 0
+
+    def later() -> int:  # 2 ms go by for each question, of 10 ms; the PLC runs each 10 ms
+        nonlocal now
+        now += 2_000_000
+        return now
+
+    monkeypatch.setattr(flows_module, "monotonic_ns", later)
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        timeline, link = begun(tmp_path / "a.run"), Told(ours)
+        flows = FlowsOf(timeline, link)
+        for ref, first in enumerate((1, 2, 1)):
+            flows.ask(debug_protocol.WantFlow(ref, FlowAsked("Main", "Main", first=first)))
+        begin = flows.begin()
+        assert begin is not None
+        advance(timeline, 1)
+        flows.ran(begin)
+        assert link.told == [(0, 0), (2, 0)]
+        assert flows.begin() is None  # it is the PLC's turn
+        now += 1_000_000_000
+        begin = flows.begin()
+        assert begin is not None
+        advance(timeline, 1)
+        flows.ran(begin)
+        assert link.told == [(0, 0), (2, 0), (1, 1)]
+        assert not flows.waiting
+        timeline.close()
