@@ -1,6 +1,7 @@
 """An XML file of another tool as a tree of elements, read without any of XML's dangers."""
 
 from collections.abc import Iterator
+from math import isfinite
 from typing import cast
 
 from lxml import etree
@@ -64,11 +65,12 @@ def attribute(node: Element | None, name: str, default: str = "") -> str:
 
 
 def number_of(node: Element | None, name: str) -> float:
-    """An attribute as a number; 0 without one, and for what is none."""
+    """An attribute as a finite number; 0 without one, and for what is none."""
     try:
-        return float(attribute(node, name) or 0)
+        found = float(attribute(node, name) or 0)
     except ValueError:
         return 0
+    return found if isfinite(found) else 0
 
 
 def of_type(node: Element | None) -> str:

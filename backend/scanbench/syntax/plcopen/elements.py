@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, line_of, text_of
+from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, line_of, number_of, text_of
 
 SOURCES = ("leftPowerRail", "inVariable", "continuation")
 SINKS = ("coil", "outVariable", "jump", "return", "connector", "rightPowerRail")
@@ -59,8 +59,8 @@ def _thing(node: Element, number: int) -> Thing:
     position = child(node, "position")
     order = attribute(node, "executionOrderId", "0")
     place = (
-        int(order) if order.isdigit() and order != "0" else LAST,
-        float(attribute(position, "y", "0") or 0), float(attribute(position, "x", "0") or 0), number,
+        int(order) if order.isdecimal() and order != "0" else LAST,
+        number_of(position, "y"), number_of(position, "x"), number,
     )  # fmt: skip
     made = Thing(attribute(node, "localId"), kind(node), line_of(node), place)
     made.negated, made.edge = _is_true(node, "negated"), _said(node, "edge")

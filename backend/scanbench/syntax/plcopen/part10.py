@@ -13,6 +13,9 @@ from scanbench.syntax.xml_tree import Element, attribute, child, children, kind,
 
 POUS = {"Program": "program", "FunctionBlock": "functionBlock", "Function": "function"}
 PARAMETERS = {"InputVars": "inputVars", "OutputVars": "outputVars", "InoutVars": "inOutVars"}
+SAID = ("Documentation", "AddData", "UsingDirective")
+"""What says nothing about a program, or is read where it stands."""
+INSIDE = ("Extends", "Implements", "ResultType", "Parameters", "MainBody", "Action", "Transition", "Method")
 SECTIONS = {"Vars": "localVars", "TempVars": "tempVars", "ExternalVars": "externalVars", "GlobalVars": "globalVars"}
 
 
@@ -46,6 +49,8 @@ def _namespace(into: tuple[Element, Element], node: Element | None, name: str) -
                 _spec(add(made, "baseType"), child(each, "UserDefinedTypeSpec"))
             case found if found in POUS:
                 _pou(into[1], each, name)
+            case found if found not in SAID:
+                _unread(into[1], each)
 
 
 def _copy(parent: Element, name: str, node: Element, /, **attributes: str) -> Element:
@@ -53,6 +58,11 @@ def _copy(parent: Element, name: str, node: Element, /, **attributes: str) -> El
     made = add(parent, name, **attributes)
     made.sourceline = node.sourceline
     return made
+
+
+def _unread(parent: Element, node: Element) -> None:
+    """What the reader of TC6 tells as left out."""
+    _copy(parent, "unread", node, name=f"{kind(node)} {attribute(node, 'name')}".strip())
 
 
 # ---- POUs -------------------------------------------------------------------------------------------------------
@@ -75,6 +85,9 @@ def _pou(parent: Element, node: Element, namespace: str) -> None:
         words = " ".join(word for word in ("abstract", "final", "override") if attribute(each, word) == "true")
         own = _copy(made, "method", each, name=attribute(each, "name"), words=f"{access} {words.upper()}".strip())
         _inside(own, each)
+    for each in children(node):
+        if kind(each) not in (*INSIDE, *SECTIONS, *SAID):
+            _unread(made, each)
 
 
 def _named(node: Element | None) -> str:

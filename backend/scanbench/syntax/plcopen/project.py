@@ -46,6 +46,9 @@ def read_project(data: bytes) -> Project:
         read = Read(name, line_of(each), "" if body is None else kind(body))
         made.pous.append(read)
         made.files[_file(space, name)] = _in_namespace(space, _pou(each, read))
+    for each in children(child(root, "types", "pous"), "unread"):
+        said = notes.not_read(attribute(each, "name"), line_of(each))
+        made.pous.append(Read(attribute(each, "name"), line_of(each), "", [said], refused=True))
     configurations = "".join(
         _configuration(each) for each in children(child(root, "instances", "configurations"), "configuration")
     )
@@ -91,6 +94,7 @@ def _pou(node: Element, read: Read) -> str:
     own = "".join(_method(each, read) for each in children(node, "method"))
     body = "".join(_body(each, read, conditions) for each in children(node, "body"))
     methods = ", ".join(attribute(each, "name") for each in own_data(node, "Method", "Property"))
+    read.notes += [notes.not_read(attribute(each, "name"), line_of(each)) for each in children(node, "unread")]
     if methods:
         read.notes.append(notes.no_methods(methods))
     return f"{_head(node, word, read.pou)}{actions}{own}{body}END_{word}\n"

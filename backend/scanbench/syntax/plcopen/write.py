@@ -18,7 +18,7 @@ from scanbench.syntax.plcopen.write_chart import write_chart
 from scanbench.syntax.plcopen.write_declarations import write_initial, write_sections, write_type
 from scanbench.syntax.plcopen.write_diagram import DiagramWriter
 from scanbench.syntax.plcopen.write_ladder import LadderWriter
-from scanbench.syntax.plcopen.write_objects import CannotWrite, Known, Objects, add, paragraph, text
+from scanbench.syntax.plcopen.write_objects import OF_NETWORK, CannotWrite, Known, Objects, add, paragraph, text
 from scanbench.syntax.plcopen.write_part10 import SPACE, to_part10
 from scanbench.syntax.source import Source, Stretch
 from scanbench.syntax.xml_tree import Element
@@ -72,6 +72,7 @@ def write_project(name: str, files: Mapping[str, str], form: Form = Form.TC6) ->
     if form is Form.PART10:
         root = to_part10(root, left)
     for each in root.iter(etree.Element):
+        each.attrib.pop(OF_NETWORK, "")
         if "}" not in str(each.tag):
             each.tag = f"{{{NAMESPACE if form is Form.TC6 else SPACE}}}{each.tag}"
     data = etree.tostring(root, xml_declaration=True, encoding="utf-8", pretty_print=True)

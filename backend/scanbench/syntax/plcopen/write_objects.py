@@ -14,9 +14,11 @@ from scanbench.syntax.xml_tree import Element
 End = tuple[str, str]
 """An object, and its output; empty for the only one."""
 COLUMN, ROW, NETWORK = 120, 40, 2000
+OF_NETWORK = "network"
+"""The number of the network that an object is in: an attribute that no file gets."""
 _STANDARD = {"SEL": ("G", "IN0", "IN1"), "MUX": ("K", "IN0"), "LIMIT": ("MN", "IN", "MX")}
-_TITLE = re.compile(r"'((?:[^'$]|\$.)*)'")
-_ESCAPED = re.compile(r"\$(['$])")
+_TITLE = re.compile(r"""(['"])((?:(?!\1)[^$]|\$.)*)\1""")
+_ESCAPED = re.compile(r"""\$(['"$])""")
 _WIRE = re.compile(r"(?<![\w#])#\w")
 
 
@@ -46,12 +48,14 @@ class Objects:
 
     def __init__(self, body: Element) -> None:
         self.body = body
+        self._network = 0
         self._count = 0
         self._row = 0
         self._column = 0
 
     def next_network(self) -> None:
         """What comes now is below all that was there."""
+        self._network += 1
         self._row = (self._row // NETWORK + 1) * NETWORK if self._count else 0
         self._column = 0
 
@@ -66,7 +70,7 @@ class Objects:
         title = _TITLE.search(written.source.text, written.start, written.end)
         if title is not None:
             _, made = self.make("comment", height="20", width="200")
-            paragraph(add(made, "content"), _ESCAPED.sub(r"\1", title[1]))
+            paragraph(add(made, "content"), _ESCAPED.sub(r"\1", title[2]))
         if label:
             self.make("label", label=label)
 
@@ -74,6 +78,7 @@ class Objects:
         """A new object with its place."""
         id = self.local_id()
         made = add(self.body, kind, localId=id, **attributes)
+        made.set(OF_NETWORK, str(self._network))
         self._row, self._column = self._row + ROW, self._column + 1
         add(made, "position", x=str(self._column * COLUMN), y=str(self._row))
         return id, made

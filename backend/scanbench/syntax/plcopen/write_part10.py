@@ -11,8 +11,8 @@ from lxml import etree
 
 from scanbench.syntax.plcopen.part10 import PARAMETERS, POUS, SECTIONS
 from scanbench.syntax.plcopen.part10_bodies import KINDS, PINS
-from scanbench.syntax.plcopen.write_objects import NETWORK, CannotWrite, add
-from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, number_of, text_of
+from scanbench.syntax.plcopen.write_objects import OF_NETWORK, CannotWrite, add
+from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, text_of
 
 SPACE = "www.iec.ch/public/TC65SC65BWG7TF10"
 XSI = "http://www.w3.org/2001/XMLSchema-instance"
@@ -180,12 +180,12 @@ def _spec(parent: Element, name: str, node: Element | None) -> None:
                 _variable(made, "Member", each, None)
         case "enum" if name == "UserDefinedTypeSpec":
             values = list(children(child(found, "values"), "value"))
-            named = any(attribute(each, "value") for each in values)
+            named = child(found, "baseType") is not None or any(attribute(each, "value") for each in values)
             made.set(TYPE, "EnumTypeWithNamedValueSpec" if named else "EnumTypeSpec")
             for each in values:
                 value = {"value": attribute(each, "value")} if attribute(each, "value") else {}
                 add(made, "Enumerator", name=attribute(each, "name"), **value)
-            if named:
+            if child(found, "baseType") is not None:
                 _type(made, "BaseType", child(found, "baseType"))
         case "subrangeSigned" | "subrangeUnsigned" if name == "UserDefinedTypeSpec":
             made.set(TYPE, "SubrangeTypeSpec")
@@ -216,10 +216,9 @@ def _body(parent: Element, node: Element | None) -> None:
     if language in ("ST", "IL"):
         add(made, language).text = text_of(found)
         return
-    networks: dict[int, list[Element]] = {}
+    networks: dict[str, list[Element]] = {}
     for each in children(found):
-        place = number_of(child(each, "position"), "y")
-        networks.setdefault(int(place) // NETWORK, []).append(each)
+        networks.setdefault(attribute(each, OF_NETWORK), []).append(each)
     rails = {attribute(each, "localId") for each in children(found, "leftPowerRail")}
     for number, objects in enumerate(networks.values(), 1):
         own = [each for each in objects if kind(each) != "leftPowerRail"]

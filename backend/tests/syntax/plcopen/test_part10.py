@@ -125,6 +125,46 @@ def test_what_is_not_read_is_told_by_name() -> None:
     )  # fmt: skip
 
 
+def test_declarations_that_are_not_read_are_told() -> None:
+    text = b"""<Project xmlns="www.iec.ch/public/TC65SC65BWG7TF10"><Types><GlobalNamespace>
+<Interface name="Runs"/>
+<FunctionBlock name="Motor"><Implements><TypeName>Runs</TypeName></Implements>
+<Property name="Speed"/></FunctionBlock></GlobalNamespace></Types></Project>"""
+    assert [(each.pou, each.notes) for each in read_project(text).pous] == [
+        ("Motor", ["Property Speed in line 4 is left out: it is not read"]),
+        ("Interface Runs", ["Interface Runs in line 2 is left out: it is not read"]),
+    ]
+
+
+def test_numbers_that_are_none_break_nothing() -> None:
+    for value in (b"inf", b"nan", b"x", "²".encode()):
+        made = read_project(LOOP.replace(b'priorityInNetwork="0"', b'priorityInNetwork="' + value + b'"'))
+        assert [each.notes for each in made.pous] == [[]]
+
+
+@pytest.mark.parametrize("title", ['"Two hands"', "'it$'s $$5'", '"say $"go$""'])
+@pytest.mark.parametrize("form", Form)
+def test_titles_of_networks_go_out_and_in(title: str, form: Form) -> None:
+    body = f"RUNG late: {title}\n    [a] (a)\nEND_RUNG\nRUNG {title}\n    [/a] (a)\nEND_RUNG\n"
+    written = write_project("T", {"Main.st": f"PROGRAM Main\nVAR a : BOOL; END_VAR\n{body}END_PROGRAM\n"}, form)
+    wanted = {'"Two hands"': "'Two hands'", '"say $"go$""': "'say \"go\"'"}.get(title, title)
+    assert read_project(written.data).files["Main.st"].count(wanted) == 2
+
+
+@pytest.mark.parametrize("form", Form)
+def test_a_long_network_and_enumerations_stay_whole(form: Form) -> None:
+    contacts = " ".join(f"[a{number}]" for number in range(60))
+    variables = ", ".join(f"a{number}" for number in range(60))
+    types = "TYPE\nMode : (off, on := 5);\nOther : UINT (aa, bb);\nEND_TYPE\n"
+    rungs = f"RUNG\n    {contacts} (a0)\nEND_RUNG\nRUNG\n    [a1] (a2)\nEND_RUNG\n"
+    main = f"PROGRAM Main\nVAR {variables} : BOOL; m : Mode; END_VAR\n{rungs}END_PROGRAM\n"
+    written = write_project("Long", {"Types.st": types, "Main.st": main}, form)
+    assert written.left_out == []
+    files = read_project(written.data).files
+    assert rungs in files["Main.st"]
+    assert files["Types.st"] == types
+
+
 @pytest.mark.parametrize("cut", range(300, len(PRESS), 700))
 def test_a_damaged_file_is_refused_or_read_and_breaks_nothing(cut: int) -> None:
     with pytest.raises(BadXml):
