@@ -77,7 +77,7 @@ DIAGRAMS = [
     ("y := #n;\n#n : INT = ADD(#n, b);", "T002", 5, "BOOL"),
     ("#n INT = 1;", "S003", 4, "`=` expected after the wire"),
     ("x := ADD(x, 1)", "S003", 4, "`;` expected at the end of the line"),
-    ("x := ADD(IN1 := x, IN2 := 1, ENO => #ok);", "T010", 4, "The type of `#ok` is not known here"),
+    ("x := ADD(IN1 := x, IN2 := 1, OK => #ok);", "T010", 4, "The type of `#ok` is not known here"),
 ]
 
 

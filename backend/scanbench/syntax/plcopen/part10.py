@@ -14,7 +14,7 @@ from scanbench.syntax.xml_tree import Element, attribute, child, children, kind,
 POUS = {"Program": "program", "FunctionBlock": "functionBlock", "Function": "function"}
 PARAMETERS = {"InputVars": "inputVars", "OutputVars": "outputVars", "InoutVars": "inOutVars"}
 SAID = ("Documentation", "AddData", "UsingDirective")
-"""What says nothing about a program, or is read where it stands."""
+"""What says nothing about a program, or is read with what it belongs to."""
 INSIDE = ("Extends", "Implements", "ResultType", "Parameters", "MainBody", "Action", "Transition", "Method")
 SECTIONS = {"Vars": "localVars", "TempVars": "tempVars", "ExternalVars": "externalVars", "GlobalVars": "globalVars"}
 

@@ -17,8 +17,8 @@ async def on_flow(
     instance: Id,
     pou: Annotated[str, Query(max_length=500)],
     path: Annotated[str, Query(max_length=2000)] = "",
-    call: Annotated[int, Query(ge=0)] = 0,
-    first: Annotated[int, Query(ge=1)] = 1,
+    call: Annotated[int, Query(ge=0, le=1 << 30)] = 0,
+    first: Annotated[int, Query(ge=1, le=1 << 30)] = 1,
     last: Annotated[int, Query(ge=1, le=1 << 30)] = 1 << 30,
 ) -> Flows:
     """Power and values at each element of a POU (a PROGRAM, a block, a FUNCTION, a method) as the code of the instance `path` saw them: in the scan that
