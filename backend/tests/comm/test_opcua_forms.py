@@ -40,6 +40,12 @@ def test_what_is_no_value_of_the_type_is_refused() -> None:
     for wrong in ("abcd", "日"):
         with pytest.raises(NoValue):
             text.data(ua.Variant(wrong, ua.VariantType.String))
+    ended = form_of(StringType(3, zero=True))
+    assert ended is not None
+    assert ended.data(ua.Variant("ab", ua.VariantType.String)) == b"ab\0"
+    assert ended.value(b"ab\0z").Value == "ab"
+    with pytest.raises(NoValue):
+        ended.data(ua.Variant("a\0b", ua.VariantType.String))
 
 
 def test_the_nodes_of_a_program_are_so_many_and_no_more() -> None:

@@ -20,6 +20,7 @@ SHOWN: list[tuple[Type, str, str]] = [
     (ELEMENTARY["CHAR"], "'$0A'", "'$0A'"),
     (ELEMENTARY["WCHAR"], '"ä"', '"ä"'),
     (StringType(4, 2), '"€uro"', '"€uro"'),
+    (StringType(4, zero=True), "'full'", "'full'"),
     (COLOR, "Color#green", "GREEN"),
     (COLOR, "Color.RED", "RED"),
     (COLOR, "5", "GREEN"),
@@ -41,6 +42,8 @@ REFUSED: list[tuple[Type, str, str]] = [
     (ELEMENTARY["TIME_OF_DAY"], "25:00:00", "TOD#12:30:15.5"),
     (ELEMENTARY["CHAR"], "'ab'", "one character"),
     (StringType(2, 2), '"abc"', "at most 2"),
+    (StringType(4, zero=True), "'a$00b'", "16#00"),
+    (StringType(4, zero=True), "'ab cd'", "at most 4"),
     (TO_INT, "4660", "write NULL, or the variable"),
     (TO_INT, "16#1234", "write NULL, or the variable"),
 ]
@@ -50,6 +53,14 @@ REFUSED: list[tuple[Type, str, str]] = [
 def test_what_does_not_fit_is_refused_with_what_does(type: Type, text: str, said: str) -> None:
     with pytest.raises(ValueError, match=said):
         parse_value(type, text)
+
+
+def test_a_string_is_its_bytes_up_to_the_first_zero_where_the_dialect_has_it_so() -> None:
+    ended = StringType(4, zero=True)
+    assert (ended.size, ended.align) == (5, 1)
+    assert parse_value(ended, "'ab'") == b"ab\0"
+    for data, text in ((b"ab\0xy", "ab"), (b"\0bcde", ""), (b"abcd\0", "abcd"), (b"abcde", "abcd")):
+        assert python_value(ended, data) == text
 
 
 def test_a_number_without_a_name_is_shown_as_it_is() -> None:
