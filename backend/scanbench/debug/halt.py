@@ -21,6 +21,24 @@ class Found:
     text: str
     by: str
     breakpoints: tuple[int, ...] = ()
+    left: "Left | None" = None
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """A value that left its subrange, and caused a halt."""
+
+    variable: str
+    """As the line has it: `tank.level`; with `instance` before it, it is a path of the program."""
+    value: int
+    low: int
+    high: int
+    instance: str
+    """Path of the instance that ran; empty in a FUNCTION."""
+    place: str
+    """`Belt.st:12`."""
+    calls: tuple[str, ...]
+    """The calls that were open, the innermost first: `FB_Belt Main.belt[2] Belt.st:12`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +64,8 @@ class Halt:
     task: str
     past: bool
     """The position is earlier than that of the live PLC: nothing can be written; Continue runs up to the live position."""
+    left: Left | None = None
+    """What caused a halt with the reason violation, where the list of violations has it."""
 
 
 def halt_of(resource: Resource, placing: Placing, found: Found, number: int, past: bool) -> Halt:
@@ -53,7 +73,8 @@ def halt_of(resource: Resource, placing: Placing, found: Found, number: int, pas
     scan, inside = resource.header.scan, resource.listening.inside
     if inside is None or not inside.frames:
         return Halt(
-            number, found.reason, found.text, found.by, found.breakpoints, scan, 0, None, "", "", "", past
+            number, found.reason, found.text, found.by, found.breakpoints, scan, 0, None, "", "", "", past,
+            found.left,
         )  # fmt: skip
     frame, root = inside.frames[0], inside.frames[-1]
     span = placing.sites.statements[frame.site].span
@@ -61,5 +82,5 @@ def halt_of(resource: Resource, placing: Placing, found: Found, number: int, pas
     task = placing.task_of.get(root.instance, "")
     return Halt(
         number, found.reason, found.text, found.by, found.breakpoints, scan, inside.count, span, frame.pou.name, instance,
-        task, past,
+        task, past, found.left,
     )  # fmt: skip

@@ -9,6 +9,7 @@ from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.goals import Goal
 from scanbench.debug.halt import Found, HaltReason
 from scanbench.debug.placed import Placed, Placing
+from scanbench.debug.violating import Violating
 from scanbench.debug.watching import Watching
 from scanbench.engines.debug import Frame, Listen
 from scanbench.problems import Span
@@ -72,6 +73,7 @@ class Listener:
         """Halts before the next statement."""
         self.found: Found | None = None
         self._violated = 0
+        self._violating = Violating(resource, placing)
 
     # ---- what it listens for --------------------------------------------------------------------------------------
 
@@ -80,6 +82,7 @@ class Listener:
         self.found = None
         self._watching.follow()
         self._violated = self._violation_count()
+        self._violating.begin(listens=bool(self._violations))
         self._tell()
 
     def _tell(self, in_scan: bool = False) -> None:
@@ -114,6 +117,7 @@ class Listener:
             self._take_due()
             return False
         found = self._after_statement() or self._acting(site, count, scan)
+        self._violating.statement()
         if found is None and self.goal is not None:
             if self.goal.reached(site, count, depth, self._frames, scan):
                 found = reached(self.goal)
@@ -166,9 +170,7 @@ class Listener:
             return pending
         for placed in self._violations:
             if self._acts(placed, None) and self._hit(placed, None, None):
-                return Found(
-                    "violation", "a value left its subrange", placed.breakpoint.author, (placed.breakpoint.id,)
-                )
+                return self._violating.found(placed.breakpoint)
         return None
 
     def _acting(self, site: int, count: int, scan: int) -> Found | None:

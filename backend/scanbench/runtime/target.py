@@ -70,16 +70,24 @@ class Target:
             data = parse_value(self.type, text)
         except ValueError as error:
             return Refusal(f"{self.shown}: {error}")
-        if self.through and isinstance(self.type, Subrange):
+        if self.through and isinstance(self.type, Subrange) and self.outside(text):
             value = int.from_bytes(data, "little", signed=self.type.signed)
-            if not self.type.low <= value <= self.type.high:
-                return Refusal(
-                    f"{self.shown}: {value} is outside of {self.type.name} ({self.type.low} to {self.type.high}). To try out "
-                    f"what the program does with it, write {self.symbol.path} itself"
-                )
+            return Refusal(
+                f"{self.shown}: {value} is outside of {self.type.name} ({self.type.low} to {self.type.high}). To try out "
+                f"what the program does with it, write {self.symbol.path} itself"
+            )
         if self.bit is not None:
             return Patch.of_bit(self.offset, self.bit, data[0] != 0)
         return Patch.whole(self.offset, data)
+
+    def outside(self, text: str) -> str:
+        """What is to be said of a value, as typed, that a subrange does not have; empty where there is nothing."""
+        if not isinstance(self.type, Subrange):
+            return ""
+        value = int.from_bytes(parse_value(self.type, text), "little", signed=self.type.signed)
+        if self.type.low <= value <= self.type.high:
+            return ""
+        return f", outside of {self.type.low} to {self.type.high}: the program finds it where it next reads the variable, and limits it there"
 
 
 def shown(through: str, symbol: Symbol) -> str:

@@ -34,4 +34,4 @@ class Write(Naming):
         forced = any(table.get(at, (0, 0))[0] & mask for at, mask in enumerate(patch.mask, patch.offset))
         if forced:
             return Refusal(f"{target.shown} is forced, so a write would be lost: release the force first")
-        return Plan(everywhere(view, patch), f"{target.shown} := {self.value.strip()}")
+        return Plan(everywhere(view, patch), f"{target.shown} := {self.value.strip()}{target.outside(self.value)}")

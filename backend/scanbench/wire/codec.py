@@ -15,7 +15,7 @@ from scanbench.debug.assign import Assign
 from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, Flows, FlowValue
-from scanbench.debug.halt import Halt
+from scanbench.debug.halt import Halt, Left
 from scanbench.debug.set_value import SetLocal
 from scanbench.faults.absent import GenerateAbsent
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
@@ -112,7 +112,7 @@ _CLASSES: dict[str, type] = {
         events.CheckOutcome, Problem, PouInfo, CheckSite, TaskInfo, TaskProgram, RaisedNumber, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord, DeviceStandby, protocol.DeviceIs, protocol.WantDevice,
-        GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
+        GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Left, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
         debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,

@@ -227,6 +227,11 @@ def test_a_violation_halts_after_the_statement(make: MakeDebug, tmp_path: Path) 
     walker.set(Breakpoint(1, "violation", "Ann"))
     walker.run()
     assert walker.halt.reason == "violation"
+    assert walker.halt.text == "small was 103, outside of 0..100, at main.st:21 in Main.a"
+    left = walker.halt.left
+    assert left is not None
+    assert (left.variable, left.value, left.low, left.high, left.instance) == ("small", 103, 0, 100, "Main.a")
+    assert left.calls == ("Station Main.a main.st:21", "Main Main main.st:27")
     assert (walker.line, walker.halt.instance) == (22, "Main.a")
     assert value(walker.timeline.resource, "Main.a.total") == 103
 

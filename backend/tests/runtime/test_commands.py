@@ -143,6 +143,23 @@ def test_forces_hold_against_the_program_and_share_bytes(engine: EngineFactory) 
     assert not any(table)
 
 
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_write_that_a_subrange_does_not_have_is_done_and_said(engine: EngineFactory) -> None:
+    """So one can try out what the program does with it."""
+    source = "PROGRAM Main VAR x : INT (0..10); y : INT; END_VAR y := x; END_PROGRAM"
+    resource = plc(source, engine)
+    inside = resource.submit(Write("Ada", "Main.x", "10"))
+    assert isinstance(inside, Entry)
+    assert inside.message == "Main.x := 10"
+    outside = resource.submit(Write("Ada", "Main.x", "11"))
+    assert isinstance(outside, Entry)
+    assert outside.message.startswith(
+        "Main.x := 11, outside of 0 to 10: the program finds it where it next reads the variable"
+    )
+    resource.scan()
+    assert value(resource, "Main.y") == 10
+
+
 def test_a_write_that_a_force_would_swallow_is_refused() -> None:
     resource = plc(SOURCE)
     assert isinstance(resource.submit(Force("Ada", "motor", "TRUE")), Entry)

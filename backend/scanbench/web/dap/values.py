@@ -219,4 +219,12 @@ async def on_exception_info(plc: Debuggee, _args: shapes.ExceptionInfo) -> Body:
     halt = plc.session.state.halt
     if halt is None:
         raise Refused("the PLC is not halted")
-    return {"exceptionId": halt.reason, "description": halt.text, "breakMode": "always"}
+    info: Body = {"exceptionId": halt.reason, "description": halt.text, "breakMode": "always"}
+    left = halt.left
+    if left is not None:
+        info["details"] = {
+            "message": halt.text, "typeName": f"{left.low}..{left.high}", "evaluateName": left.variable,
+            "stackTrace": "\n".join(left.calls), "variable": left.variable, "instance": left.instance,
+            "value": left.value, "low": left.low, "high": left.high, "place": left.place,
+        }  # fmt: skip
+    return info

@@ -213,6 +213,22 @@ def test_browsers_share_a_list_and_change_it_one_by_one(server: Server, instance
         assert bob.event("continued")
 
 
+def test_a_value_that_leaves_its_subrange_is_told_with_its_bounds_and_calls(server: Server) -> None:
+    program = PROGRAM.replace("  total : INT;", "  total : INT (0..3);")
+    instance = server.instance("leaves its subrange", "GENERIC-IEC", Main=program)
+    with SocketClient(server, instance) as tool:
+        tool.ask("setExceptionBreakpoints", filters=["violation"])
+        tool.ask("configurationDone")
+        assert tool.event("stopped")["reason"] == "exception"
+        found = tool.ask("exceptionInfo", threadId=1)
+        assert found["description"] == "total was 4, outside of 0..3, at Main.st:8 in Main.a"
+        details = found["details"]
+        assert {name: details[name] for name in ("variable", "instance", "value", "low", "high", "place")} == {
+            "variable": "total", "instance": "Main.a", "value": 4, "low": 0, "high": 3, "place": "Main.st:8",
+        }  # fmt: skip
+        assert details["stackTrace"].splitlines() == [f"Counter Main.a Main.st:{COUNTS}", f"Main Main Main.st:{CALL_A}"]
+
+
 def test_function_and_exception_breakpoints_and_our_own_requests(server: Server, instance: int) -> None:
     with SocketClient(server, instance) as tool:
         tool.ask("configurationDone")

@@ -14,6 +14,16 @@ test("each way asks for its own fields, and names the one that is missing", () =
     search: false,
     candidates: [],
   });
+  expect(wantedOf({ ...FORM, scan: "3", values: "name = 'a;b$'c;'; wide := \"x=;\"; n = 4" })).toMatchObject({
+    values: [
+      { path: "name", value: "'a;b$'c;'" },
+      { path: "wide", value: '"x=;"' },
+      { path: "n", value: "4" },
+    ],
+  });
+  expect(wantedOf({ ...FORM, mode: "vary", scan: "3", vary: "name", tried: "'a,b', 'c'" })).toMatchObject({
+    tried: ["'a,b'", "'c'"],
+  });
   expect(wantedOf({ ...FORM, mode: "vary", scan: "3", vary: "level" })).toBe("tried");
   expect(wantedOf({ ...FORM, mode: "vary", scan: "3", vary: "level", tried: "1, 0..10/5" })).toMatchObject({
     vary: "level",

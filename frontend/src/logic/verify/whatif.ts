@@ -71,11 +71,21 @@ function valuesOf(text: string): { path: string; value: string }[] | null {
   return found.map((part) => ({ path: part?.[1] ?? "", value: part?.[2] ?? "" }));
 }
 
-const listed = (text: string, by: string) =>
-  text
-    .split(by)
-    .map((each) => each.trim())
-    .filter(Boolean);
+/** Parts of a text; a separator within quotes is none: `name = 'a;b'` is one part. */
+function listed(text: string, by: string): string[] {
+  const parts = [""];
+  let quote = "";
+  for (const [at, letter] of [...text].entries()) {
+    if (quote === "" && letter === by) {
+      parts.push("");
+      continue;
+    }
+    if (quote === "" && (letter === "'" || letter === '"')) quote = letter;
+    else if (letter === quote && [...text][at - 1] !== "$") quote = "";
+    parts[parts.length - 1] += letter;
+  }
+  return parts.map((each) => each.trim()).filter(Boolean);
+}
 
 const whole = (text: string): number | undefined => {
   const digits = text.replace(/[\s\u2009,]/g, "");

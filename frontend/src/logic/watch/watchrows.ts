@@ -10,7 +10,7 @@ import { type Filter, matches, type Sort, type SortColumn, sorted } from "./watc
 export const PAGE = 100;
 
 export interface WatchNote {
-  kind: "refused" | "unsent" | "unknown";
+  kind: "refused" | "unsent" | "unknown" | "outside";
   message: string;
   /** Near matches for an unknown name. */
   near: readonly string[];
@@ -186,6 +186,15 @@ export function noteOf(
 ): WatchNote {
   const instead = sent ? corrections(message, entry) : [];
   return { kind: sent ? "refused" : "unsent", message, near, entry, instead, verb };
+}
+
+/** The note of a value that was written although the subrange does not have it; null where it has. */
+export function outsideNote(range: string, value: string, message: string): WatchNote | null {
+  const bounds = /\(\s*(-?\d+)\s*\.\.\s*(-?\d+)\s*\)$/.exec(range);
+  if (!bounds || !/^[+-]?\d+$/.test(value.trim())) return null;
+  const number = BigInt(value.trim().replace("+", ""));
+  const inside = BigInt(bounds[1] ?? 0) <= number && number <= BigInt(bounds[2] ?? 0);
+  return inside ? null : { kind: "outside", message, near: [], instead: [] };
 }
 
 /** The paths to watch: entries, and members that have a value themselves. */

@@ -4,7 +4,7 @@ import { create } from "zustand";
 import { type Format, literalOf } from "../../logic/format/formats";
 import { chosenFor, splitPath } from "../../logic/format/paths";
 import { addEntries, removeEntry, replacePath, setFormat as withFormat } from "../../logic/watch/watchlist";
-import { noteOf, PAGE, type WatchNote } from "../../logic/watch/watchrows";
+import { noteOf, outsideNote, PAGE, type WatchNote } from "../../logic/watch/watchrows";
 import { type Filter, needsAll, nextSort, type Sort, type SortColumn } from "../../logic/watch/watchsort";
 import { t } from "../../text";
 import { type Answer, send } from "../../wire/send";
@@ -252,9 +252,11 @@ export async function force(path: string, root: string, value: string): Promise<
 
 /** A typed value is read in the format of its row. */
 function meant(path: string, root: string, value: string): string {
-  const symbol = useWatches.getState().symbols.get(path) ?? memberSymbol(path);
+  const symbol = symbolOf(path);
   return symbol ? literalOf(symbol, formatOf(path, root), value) : value;
 }
+
+const symbolOf = (path: string) => useWatches.getState().symbols.get(path) ?? memberSymbol(path);
 
 function memberSymbol(path: string) {
   for (const members of useMembers.getState().of.values()) {
@@ -275,6 +277,8 @@ function landed(verb: "write" | "force", path: string, entry: string, answer: An
     set(({ drafts }) => ({ drafts: drafts.get(path) === entry ? without(drafts, path) : drafts }));
     forgetNote(path);
     dismissRefusals();
+    const outside = verb === "write" ? outsideNote(symbolOf(path)?.range ?? "", entry, answer.message) : null;
+    if (outside) set(({ notes }) => ({ notes: new Map(notes).set(path, outside) }));
     return;
   }
   const note = noteOf(answer.sent, answer.message, answer.near ?? [], entry, verb);

@@ -61,6 +61,7 @@ export const common = {
   "menu.label": "Actions",
   "name.missing": "Enter a name.",
   notknown: "Not known.",
+  "watch.outside": "Written.",
   notsent: "Not sent.",
   "notsent.about": "Your entry is kept here. Press Enter again when the connection is back.",
   notwritten: "Not written.",

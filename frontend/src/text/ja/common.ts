@@ -63,6 +63,7 @@ export const common: Record<keyof typeof english, string> = {
   "menu.label": "操作",
   "name.missing": "名前を入れてください。",
   notknown: "不明です。",
+  "watch.outside": "書き込みました。",
   notsent: "未送信です。",
   "notsent.about": "入力は残っています。接続が戻ったら Enter を押してください。",
   notwritten: "書き込めません。",

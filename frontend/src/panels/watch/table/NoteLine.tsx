@@ -15,12 +15,13 @@ interface Props {
 /** The note of a row: why a value was refused and which would be accepted, or which name is unknown and what it may have meant. */
 export function NoteLine({ row, style, index, measured }: Props) {
   const { note, path, root } = row;
-  const refused = note.kind !== "unsent";
+  const refused = note.kind === "refused" || note.kind === "unknown";
   const forcing = note.verb === "force";
   const head = {
     refused: t(forcing ? "notforced" : "notwritten"),
     unsent: t("notsent"),
     unknown: t("notknown"),
+    outside: t("watch.outside"),
   }[note.kind];
   const message = note.message || t("notsent.about");
 
@@ -39,7 +40,7 @@ export function NoteLine({ row, style, index, measured }: Props) {
       data-index={index}
     >
       <span className="full" role="gridcell">
-        <Icon name={refused ? "error" : "wait"} />
+        <Icon name={refused ? "error" : note.kind === "outside" ? "warning" : "wait"} />
         <span role="alert">
           <b>{head}</b> {message}
         </span>
