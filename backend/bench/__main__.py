@@ -26,6 +26,7 @@ SUBJECTS = (
     "pou",
     "graphic",
     "comm",
+    "subranges",
 )
 BUILDING = (
     ("cold", "text to first scan, cold", "ms"),

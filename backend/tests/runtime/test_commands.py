@@ -3,7 +3,7 @@
 import pytest
 
 from scanbench.program.layout import Layout
-from scanbench.runtime.command import Command, Entry, Refusal
+from scanbench.runtime.command import Command, Entry, Plan, Refusal
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory
@@ -148,15 +148,14 @@ def test_a_write_that_a_subrange_does_not_have_is_done_and_said(engine: EngineFa
     """So one can try out what the program does with it."""
     source = "PROGRAM Main VAR x : INT (0..10); y : INT; END_VAR y := x; END_PROGRAM"
     resource = plc(source, engine)
-    inside = resource.submit(Write("Ada", "Main.x", "10"))
-    assert isinstance(inside, Entry)
+    inside, outside = (Write("Ada", "Main.x", value).plan(resource.view) for value in ("10", "11"))
+    assert isinstance(inside, Plan)
     assert inside.message == "Main.x := 10"
-    outside = resource.submit(Write("Ada", "Main.x", "11"))
-    assert isinstance(outside, Entry)
+    assert isinstance(outside, Plan)
     assert outside.message.startswith(
         "Main.x := 11, outside of 0 to 10: the program finds it where it next reads the variable"
     )
-    resource.scan()
+    resource.run(1)
     assert value(resource, "Main.y") == 10
 
 

@@ -2,6 +2,7 @@
 import { json, request } from "./rest";
 import type {
   CheckTraceMapping,
+  NewController,
   NewTraceVerification,
   SavedMapping,
   TraceMapping,
@@ -15,6 +16,8 @@ const mappings = (project: number) => `/projects/${project}/trace-mappings`;
 export const traceImport = {
   upload: (project: number, file: File) =>
     json<UploadedTrace>("POST", `/projects/${project}/traces?name=${encodeURIComponent(file.name)}`, file),
+  connect: (project: number, wanted: NewController) =>
+    json<UploadedTrace>("POST", `/projects/${project}/controllers`, wanted),
   check: (instance: number, wanted: CheckTraceMapping) =>
     json<TraceMappingChecked>("POST", `/instances/${instance}/trace-check`, wanted),
   begin: (instance: number, wanted: NewTraceVerification) =>

@@ -182,6 +182,7 @@ export type UserErrorsDraft = { errors: UserError[]; groups: Shapes["UserGroup"]
 export type UserErrors = Omit<Shapes["UserErrors"], "errors" | "groups"> & UserErrorsDraft;
 
 export type CheckTraceMapping = Shapes["CheckTraceMapping"];
+export type NewController = Shapes["NewController"];
 export type CommandResult = Shapes["CommandResult"];
 export type DisturbanceInfo = Shapes["DisturbanceInfo"];
 export type NewDisturbance = Required<Shapes["NewDisturbance"]>;

@@ -6,7 +6,14 @@ import { carryOver, rangeOf, takeSaved } from "../../logic/verify/traceImport";
 import { t } from "../../text";
 import { Refused } from "../../wire/rest";
 import { traceImport as wire } from "../../wire/traceImport";
-import type { SavedMapping, TraceMapping, TraceMappingChecked, TraceProblem, UploadedTrace } from "../../wire/types";
+import type {
+  NewController,
+  SavedMapping,
+  TraceMapping,
+  TraceMappingChecked,
+  TraceProblem,
+  UploadedTrace,
+} from "../../wire/types";
 import { useBench } from "../plc/bench";
 import { onInstanceChange } from "../plc/reset";
 import { addVerification } from "./verify";
@@ -77,6 +84,22 @@ export async function readTrace(file: File): Promise<void> {
   } catch (error) {
     const problems = error instanceof BadFile ? error.problems : [];
     set({ refused: { name: file.name, message: problems.length > 0 ? "" : messageOf(error), problems } });
+  } finally {
+    set({ reading: null });
+  }
+}
+
+/** Asks a controller what it has to read; it is read again and again while it is verified. */
+export async function readController(wanted: NewController): Promise<void> {
+  const project = useBench.getState().project;
+  if (!project || get().reading !== null) return;
+  set({ reading: wanted.address, refused: null, trouble: null, told: null });
+  try {
+    const trace = await wire.connect(project.id, wanted);
+    set({ trace, mapping: trace.mapping, checked: null });
+    void check();
+  } catch (error) {
+    set({ refused: { name: wanted.address, message: messageOf(error), problems: [] } });
   } finally {
     set({ reading: null });
   }

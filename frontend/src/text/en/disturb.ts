@@ -109,6 +109,16 @@ export const disturb = {
   "disturb.when.next": "In the next scan",
   "disturb.when.scan": "In a scan",
 
+  "import.controller": "Read a controller that runs…",
+  "import.controller.about":
+    "It is read at an interval, and compared while it runs. Nothing is written to it. OPC UA: opc.tcp://HOST:4840.",
+  "import.controller.address": "Address",
+  "import.controller.connect": "Connect",
+  "import.controller.interval": "Read every … ms",
+  "import.controller.interval.bad": "10 to 60,000 ms",
+  "import.controller.nodes": "Nodes, one a line; none: all that the server shows",
+  "import.controller.password": "Password",
+  "import.controller.user": "User",
   "import.trace": "Import controller log…",
   "import.trace.about":
     "The log of a real controller takes the place of the control device: its inputs drive the program here, and its outputs are compared.",

@@ -111,6 +111,16 @@ export const disturb: Record<keyof typeof english, string> = {
   "disturb.when.next": "次のスキャンで",
   "disturb.when.scan": "指定スキャンで",
 
+  "import.controller": "運転中のコントローラを読み出す…",
+  "import.controller.about":
+    "一定の間隔で読み出し、運転しながら比較します。コントローラには何も書き込みません。OPC UA：opc.tcp://ホスト:4840。",
+  "import.controller.address": "アドレス",
+  "import.controller.connect": "接続",
+  "import.controller.interval": "読み出し間隔（ms）",
+  "import.controller.interval.bad": "10 ～ 60,000 ms",
+  "import.controller.nodes": "ノード（1 行に 1 個）。なければサーバが示すすべて",
+  "import.controller.password": "パスワード",
+  "import.controller.user": "ユーザー",
   "import.trace": "コントローラのログを取り込む…",
   "import.trace.about":
     "実機のログが制御装置の代わりになります。その入力でここのプログラムを動かし、出力を比較します。",

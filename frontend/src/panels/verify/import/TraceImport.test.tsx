@@ -4,6 +4,7 @@ import { unused } from "../../../logic/verify/traceImport";
 import { openTraceImport } from "../../../store/verify/traceImport";
 import { box, button, choose, textOf } from "../../../testing/find";
 import { openPage } from "../../../testing/page";
+import { refusal } from "../../../testing/routes";
 import { symbol } from "../../../testing/samples";
 import type { FakeServer } from "../../../testing/server";
 import { t } from "../../../text";
@@ -92,6 +93,25 @@ test("a broken file is refused with its row, and nothing of it is there", async 
   expect(textOf(alert)).toContain(t("import.trace.problem.row", { row: 3 }));
   expect(screen.queryByRole("table", { name: t("import.trace.columns") })).toBeNull();
   expect(start()).toHaveProperty("disabled", true);
+});
+
+test("a controller that runs takes the place of a file; what is wrong with it is told", async () => {
+  const { server, user } = await openImport((server) =>
+    server.on("POST", "/projects/*/controllers", () => refusal("nothing listens there")),
+  );
+  await user.click(screen.getByText(t("import.controller")));
+  const connect = button(t("import.controller.connect"));
+  expect(connect).toHaveProperty("disabled", true);
+  await user.type(screen.getByLabelText(t("import.controller.address")), "press4:4840");
+  await user.type(screen.getByLabelText(t("import.controller.nodes")), "ns=4;s=Main.level{enter}ns=4;i=12");
+  await user.click(connect);
+  await waitFor(() => expect(textOf(screen.getByRole("dialog"))).toContain("nothing listens there"));
+  const asked = server.asked.filter(({ path }) => path.endsWith("/controllers"));
+  expect(asked[0]?.body).toMatchObject({
+    address: "opc.tcp://press4:4840",
+    interval_ms: 100,
+    nodes: ["ns=4;s=Main.level", "ns=4;i=12"],
+  });
 });
 
 test("what is wrong is told with row and column; corrected by hand and by offers, the mapping can be verified", async () => {

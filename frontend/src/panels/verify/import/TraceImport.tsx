@@ -14,6 +14,7 @@ import { AskName } from "../../../ui/AskName";
 import { Dialog } from "../../../ui/Dialog";
 import { Icon } from "../../../ui/Icon";
 import { Axis } from "./Axis";
+import { ChooseController } from "./ChooseController";
 import { ChooseFile } from "./ChooseFile";
 import { Mapping } from "./Mapping";
 import { Problems } from "./Problems";
@@ -69,6 +70,7 @@ function ImportDialog() {
             </p>
           )}
           <ChooseFile />
+          <ChooseController />
           {refused && <Refused />}
           {trace && mapping && (
             <>
