@@ -3,6 +3,7 @@
 import asyncio
 import logging
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from scanbench.history.campaign.contract import OUTCOMES, CampaignWanted, Trial
 from scanbench.host.run_files import created
 from scanbench.jobs.client import FAULT, alone
 from scanbench.runtime.clock import fresh_token, monotonic_ns
+from scanbench.server.going import GoingFiles
 from scanbench.server.history import Open
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
@@ -43,17 +45,42 @@ class _Campaign:
 
 
 class Campaigns:
-    """Of all PLCs of a server. They are in memory: what one tried comes again with the same seed."""
+    """Of all PLCs of a server. What they tried is in memory; after a restart of the server they are tried again, which comes to the
+    same, as the seed says which ones."""
 
     def __init__(self, runs: Path, cache: Path, open: Open) -> None:
         self._runs, self._cache, self._open = runs, cache, open
         self._next = 1
         self._all: dict[int, _Campaign] = {}
+        self._taking_up = asyncio.Lock()
+        self._going = GoingFiles(runs.with_name("campaigns"))
 
     async def close(self) -> None:
-        """Ends what runs."""
-        for id in list(self._all):
-            await self.forget(id)
+        """Ends what runs; it comes back when the server starts again."""
+        tasks = [each.task for each in self._all.values() if each.task is not None]
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        await self._going.close()
+
+    async def take_up(self, sessions: Mapping[int, Session]) -> None:
+        """Those that were there when the server ended, one after the other; until then they say that they wait."""
+        for each in await asyncio.to_thread(lambda: list(self._going.all())):
+            self._next = max(self._next, each.id + 1)
+            state = each.status
+            session = sessions.get(state.instance) if isinstance(state, CampaignState) else None
+            if session is None:
+                self._going.forget(each.id)
+                continue
+            assert isinstance(state, CampaignState)
+            fresh = replace(state, done=0, outcomes=(), silent=0, over=False, message="")
+            more = each.more
+            campaign = self._all[each.id] = _Campaign(session, fresh, more["run"], int(more["until"]), more["created"])
+            campaign.task = asyncio.get_running_loop().create_task(self._again(campaign))
+
+    async def _again(self, campaign: _Campaign) -> None:
+        async with self._taking_up:
+            await self._run(campaign)
 
     async def forget_instance(self, instance: int) -> None:
         """Ends those of an instance that goes."""
@@ -80,10 +107,12 @@ class Campaigns:
         mine = [id for id, each in self._all.items() if each.session is session and each.over]
         for id in mine[: max(0, len(mine) - KEPT + 1)]:
             del self._all[id]
+            self._going.forget(id)
         id, self._next = self._next, self._next + 1
         state = CampaignState(id, session.id, author, wanted, of=wanted.count)
         campaign = self._all[id] = _Campaign(session, state, str(run), until, begun)
         campaign.task = asyncio.get_running_loop().create_task(self._run(campaign))
+        self._going.keep(id, state, {"run": str(run), "until": str(until), "created": begun})
         _tell(campaign)
         return campaign.state
 
@@ -91,6 +120,7 @@ class Campaigns:
         """Cancels one, or forgets what came of it."""
         campaign = self._get(id)
         del self._all[id]
+        self._going.forget(id)
         if campaign.task is not None and not campaign.over:
             campaign.task.cancel()
             await asyncio.wait((campaign.task,))

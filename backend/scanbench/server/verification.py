@@ -79,6 +79,7 @@ class Verification:
             id, session.id, author, wanted, "trace" if trace else source, wanted.pace, trace=trace.name if trace else ""
         )
         self._trace, self._on_change = trace, on_change
+        self.mapping = "" if trace is None else trace.mapping
         self._job = Job(cache, self._on_end)
         self._run = session.instance.runs
         self._gone = self._elsewhere = False
@@ -93,7 +94,9 @@ class Verification:
         """A step is under way, not whole scans."""
         self._until = 0
         """Scans before this one were over as scans were asked for."""
-        self._halt = 0
+        self._halt = self._behind = 0
+        """The halt that was compared; up to which scan one that is taken up again may lag behind."""
+        self.begin_from: int | None = None  # where one begins that follows the PLC, and is taken up again
         self.hold = Hold(session, lambda: hand_over(self))
         self._owed = 0
         """Scans that somebody may still go on by, with pace `scan`."""
@@ -118,6 +121,9 @@ class Verification:
                 lambda ref: BeginVerify(ref, path, wanted.range, wanted.limit, live, first), VerifyBegun
             )
         self._change(begun(self.status, answer, self._live_scan))  # it took a while until now
+        if self.begin_from is not None and self.status.source == "live":
+            self._behind = self._live_scan
+            self._change(first=min(max(self.begin_from, answer.first), self._behind))
         self._next = self.status.first
         session.listen(self._on_event)
         if self.status.pace != "free" and self.status.source == "live":
@@ -246,7 +252,7 @@ class Verification:
         elif status.pace == "step":
             self._poke_halt(live)
         elif self._next < self._live_end:
-            if status.pace == "free" and live - self._next > MOST_LAG:
+            if status.pace == "free" and live - self._next > MOST_LAG and self._next >= self._behind:
                 self._skip(live - CAUGHT_UP)
             self._scans(self._next, self._live_end - 1, live)
 

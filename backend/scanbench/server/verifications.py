@@ -1,7 +1,7 @@
 """The verifications of a server: those that go on, and those that somebody kept."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeVar
@@ -15,7 +15,9 @@ from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
 from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.server.controller_verification import ControllerVerification
+from scanbench.server.going import GoingFiles
 from scanbench.server.kept import readable, unreadable
+from scanbench.server.taken_up import before_it, take_up
 from scanbench.server.uploads import TraceFile
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.server.verify_rows import Rows, RowsPage
@@ -27,7 +29,7 @@ from scanbench.verify.trace.mapping import TraceMapping
 from scanbench.wire.codec import LENGTH, BadMessage, pack, pack_body, unpack_kept
 from scanbench.wire.events import VerificationsChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.wire.refused import Refused
-from scanbench.wire.verification import KeptRows, UseRow
+from scanbench.wire.verification import KeptRows
 
 A = TypeVar("A")
 MOST = 10
@@ -72,6 +74,9 @@ class Verifications:
         self._later: asyncio.TimerHandle | None = None
         self._untold: set[int] = set()
         self._read_last: dict[int, Rows] = {}
+        self._going = GoingFiles(directory.with_name("verifying"))
+        self._closing = False
+        self._taking_up: set[asyncio.Task[None]] = set()
 
     def tidy(self) -> None:
         """Removes files that belong to nothing any more. Waits for the disk."""
@@ -83,10 +88,35 @@ class Verifications:
                 path.unlink(missing_ok=True)
 
     async def close(self) -> None:
-        """Ends all of them."""
+        """Ends all of them; they come back when the server starts again."""
+        self._closing = True
+        for task in self._taking_up:
+            task.cancel()
+        await asyncio.gather(*self._taking_up, return_exceptions=True)
         if self._later is not None:
             self._later.cancel()
         await asyncio.gather(*(each.end() for each in self._all.values()))
+        await self._going.close()
+
+    async def take_up(self, sessions: Mapping[int, Session]) -> None:
+        """Those that were there when the server ended: as soon as their PLC has started."""
+        for each in await asyncio.to_thread(lambda: list(self._going.all())):
+            self._next = max(self._next, each.id + 1)
+            status = each.status
+            session = sessions.get(status.instance) if isinstance(status, VerificationStatus) else None
+            if session is None:
+                self._going.forget(each.id)
+                continue
+            assert isinstance(status, VerificationStatus)
+            status = before_it(status)
+            trace = TraceSource(each.data, status.trace, each.more["mapping"]) if status.source == "trace" else None
+            made = self._all[each.id] = Verification(
+                each.id, session, status.wanted, trace, status.by, self._cache, self._on_change, self._hand_over
+            )
+            work = take_up(made, status, trace, lambda each=made: self._tell(each.session))  # type: ignore[misc]
+            task = asyncio.get_running_loop().create_task(work)
+            self._taking_up.add(task)
+            task.add_done_callback(self._taking_up.discard)
 
     async def forget_instance(self, instance: int) -> None:
         """Ends those of an instance that goes."""
@@ -129,6 +159,8 @@ class Verifications:
         except BaseException:
             await self._drop(id)
             raise
+        data = trace.file if trace is not None and connection is None else None
+        self._going.keep(id, made.status, {"mapping": "" if trace is None else trace.mapping}, data)
         session.log.add(author, f"verification {id} begins: {made.status.title}")
         return made.status
 
@@ -167,10 +199,6 @@ class Verifications:
         await verification.set_cells(edits)
         return verification.status
 
-    async def uses(self, id: int, scan: int, call: int) -> tuple[UseRow, ...]:
-        """The used-variable record of one row."""
-        return await self.one(id).uses(scan, call)
-
     async def rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
         """Rows from index `first` on."""
         return await asyncio.to_thread(self.one(id).rows.as_now().page, first, count, differing)
@@ -202,6 +230,7 @@ class Verifications:
         verification = self._all.pop(id, None)
         if verification is None:  # two at once
             return
+        self._going.forget(id)
         await verification.end()
         self._told.pop(id, None)
         self._tell(verification.session)
@@ -218,6 +247,8 @@ class Verifications:
                 self._later = asyncio.get_running_loop().call_later(_TELL_NS / 1e9, self._catch_up)
             return
         self._told[id] = now, status
+        if status.state not in ("starting", "verifying", "waiting") and not self._closing:
+            self._going.keep(id, status, {"mapping": verification.mapping})
         self._untold.discard(id)
         self._tell(verification.session)
 

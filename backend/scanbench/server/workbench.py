@@ -102,6 +102,8 @@ class Workbench:
                 log.error("%s", error)
             else:
                 self.looks.left(session)
+        await self.verifications.take_up(self._sessions)
+        await self.campaigns.take_up(self._sessions)
         if self.models:
             self._warming = asyncio.get_running_loop().create_task(self._warm())
 

@@ -54,6 +54,8 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
         drive = f"/api/instances/{paused}/run"
         server.http.post(drive, json={"action": "pause", "speed": 0})
         scan = server.http.post(drive, json={"action": "scan"}).json()["scan"]
+        paths = verified(server, paused, instance)
+        before = [server.http.get(path).json() for path in paths]
         until(lambda: kept(tmp_path, instance) == ["generated"])  # history is written in the background
         pids = [each["state"]["pid"] for each in server.http.get("/api/instances").json()]
         assert len(pids) == 4  # the samples and these
@@ -81,6 +83,29 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
             if state["state"] == "starting":
                 state = browser.wait_state("paused")
             assert (state["state"], state["scan"], state["speed"]) == ("paused", scan, 0)
+            browser.wait(lambda: [again.http.get(path).json() for path in paths] == before)
+
+
+def verified(server: Server, paused: int, running: int) -> list[str]:
+    """Verifications and a campaign that are over, or wait: where to ask what came of them."""
+    url = f"/api/instances/{paused}"
+    for wanted in ({"first": 0}, {"first": 0, "last": 0, "range": {"pou": "Main"}}, {}):
+        assert server.http.post(f"{url}/verifications", json=wanted).status_code == 201
+    long = server.http.post(f"/api/instances/{running}/verifications", json={"first": 0, "last": 50}).json()
+    campaign = server.http.post(f"{url}/campaigns", json={"count": 3, "seed": 7, "window": 1})
+    assert campaign.status_code == 201, campaign.text
+    infos = [*server.http.get(f"{url}/verifications").json(), long]
+    paths = [
+        path for each in infos for path in (f"/api/verifications/{each['id']}", f"/api/verifications/{each['id']}/rows")
+    ]
+    paths.append(f"/api/campaigns/{campaign.json()['id']}")
+
+    def over() -> bool:
+        states = [server.http.get(path).json().get("state") for path in paths[:-1:2]]
+        return states == ["done", "done", "verifying", "done"] and server.http.get(paths[-1]).json()["state"]["over"]
+
+    until(over)
+    return paths
 
 
 def children(pid: int) -> list[int]:

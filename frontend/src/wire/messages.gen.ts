@@ -269,8 +269,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * The campaigns of this PLC since the server was started, the newest first
-         * @description The campaigns of this PLC since the server was started, the newest first.
+         * The campaigns of this PLC, the newest first
+         * @description The campaigns of this PLC, the newest first.
          */
         get: operations["list_instance_campaigns"];
         put?: never;

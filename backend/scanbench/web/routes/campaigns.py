@@ -24,7 +24,7 @@ _MOST = 500
 
 @router.get("/instances/{instance}/campaigns")
 async def on_campaigns(bench: Bench, instance: Id) -> list[CampaignState]:
-    """The campaigns of this PLC since the server was started, the newest first."""
+    """The campaigns of this PLC, the newest first."""
     return bench.campaigns.of(bench.session(instance))
 
 

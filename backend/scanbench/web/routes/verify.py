@@ -101,7 +101,7 @@ async def on_cells(bench: Bench, request: Request, verification: Id, cells: wire
 @router.get("/verifications/{verification}/uses")
 async def on_uses(bench: Bench, verification: Id, scan: Scan, call: Scan = 1) -> tuple[UseRow, ...]:
     """The used-variable record of one row, in the order of use."""
-    return await bench.verifications.uses(verification, scan, call)
+    return await bench.verifications.one(verification).uses(scan, call)
 
 
 @router.get("/verifications/{verification}/export", response_class=Response)

@@ -117,7 +117,7 @@ export const disturb = {
   "import.controller.interval": "Read every … ms",
   "import.controller.interval.bad": "10 to 60,000 ms",
   "import.controller.nodes": "Nodes, one a line; none: all that the server shows",
-  "import.controller.password": "Password",
+  "import.controller.secret": "Secret of the user",
   "import.controller.user": "User",
   "import.trace": "Import controller log…",
   "import.trace.about":

@@ -119,7 +119,7 @@ export const disturb: Record<keyof typeof english, string> = {
   "import.controller.interval": "読み出し間隔（ms）",
   "import.controller.interval.bad": "10 ～ 60,000 ms",
   "import.controller.nodes": "ノード（1 行に 1 個）。なければサーバが示すすべて",
-  "import.controller.password": "パスワード",
+  "import.controller.secret": "パスワード",
   "import.controller.user": "ユーザー",
   "import.trace": "コントローラのログを取り込む…",
   "import.trace.about":

@@ -39,7 +39,7 @@ export function ChooseController() {
         />
         <Field label={t("import.controller.user")} value={user} onChange={setUser} />
         <label className="field">
-          <span>{t("import.controller.password")}</span>
+          <span>{t("import.controller.secret")}</span>
           <input
             className="inp"
             type="password"
