@@ -155,6 +155,7 @@ def test_a_write_that_a_subrange_does_not_have_is_done_and_said(engine: EngineFa
     assert outside.message.startswith(
         "Main.x := 11, outside of 0 to 10: the program finds it where it next reads the variable"
     )
+    done(resource, Write("Ada", "Main.x", "11"))
     resource.run(1)
     assert value(resource, "Main.y") == 10
 
