@@ -188,13 +188,11 @@ class TraceMapping(Wire):
 class NewController(Wire):
     """A controller that runs elsewhere, to be read as the control device. Nothing is written to it."""
 
-    address: str = Field(
-        min_length=1, max_length=500, description="opc.tcp://HOST:PORT of an OPC UA server, or fins://HOST:PORT"
-    )
+    address: str = Field(min_length=1, max_length=500, description="opc.tcp://HOST:PORT of an OPC UA server")
     interval_ms: int = Field(default=100, ge=10, le=60_000, description="from one sample to the next")
     nodes: list[Annotated[str, Field(min_length=1, max_length=500)]] = Field(
         default=[], max_length=999,
-        description="ids of OPC UA nodes, or addresses for FINS; none: all that the server shows, or all variables of the program that have an address",
+        description="ids of OPC UA nodes; none: all that the server shows",
     )  # fmt: skip
     user: str = Field(default="", max_length=200, description="OPC UA; empty: nobody in particular")
     password: str = Field(default="", max_length=200)

@@ -6339,7 +6339,7 @@ export interface components {
         NewController: {
             /**
              * Address
-             * @description opc.tcp://HOST:PORT of an OPC UA server, or fins://HOST:PORT
+             * @description opc.tcp://HOST:PORT of an OPC UA server
              */
             address: string;
             /**
@@ -6350,7 +6350,7 @@ export interface components {
             interval_ms: number;
             /**
              * Nodes
-             * @description ids of OPC UA nodes, or addresses for FINS; none: all that the server shows, or all variables of the program that have an address
+             * @description ids of OPC UA nodes; none: all that the server shows
              * @default []
              */
             nodes: string[];
