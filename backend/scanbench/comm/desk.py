@@ -4,9 +4,10 @@ import asyncio
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from scanbench.comm.door import Door
+from scanbench.faults.line_faults import NO_FAULT, LineFault
 from scanbench.public import Moment, Public
 from scanbench.runtime.clock import monotonic_ns, wall_time
 
@@ -56,22 +57,6 @@ class LineCut(ConnectionError):
     """The connection ends, without an answer."""
 
 
-@dataclass(frozen=True, slots=True)
-class LineFault(Public):
-    """What is wrong with the line between a server and its clients. The PLC itself does what it was asked."""
-
-    PUBLIC: ClassVar = "CommunicationFault"
-    GIVEN: ClassVar = True
-
-    kind: Literal["none", "silent", "late", "cut", "refused"] = "none"
-    """silent: no answer comes. late: each answer comes `late_ms` later. cut: connections end at the next request, before it is done.
-    refused: nobody can connect."""
-    late_ms: int = 1000
-
-
-NO_FAULT = LineFault()
-
-
 @dataclass(slots=True)
 class _Client:
     seen: ClientSeen
@@ -114,6 +99,11 @@ class Desk:
         """`LineCut` where the line is: then it is not done."""
         if self.fault.kind == "cut":
             raise LineCut
+
+    @property
+    def elsewhere(self) -> bool:
+        """The PLC is not at the node at which clients look for it."""
+        return self.fault.kind == "node"
 
     async def on_the_way(self, answer: bytes) -> bytes:
         """What comes to the client of an answer, when it comes; empty: nothing."""

@@ -9,6 +9,7 @@ from scanbench.faults.device import Watched, read_device
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DISTURBED, disturbances
 from scanbench.faults.inject import ACTIVE
+from scanbench.faults.line_faults import BROKEN_LINES
 from scanbench.faults.preview import preview
 from scanbench.host.link import Link
 from scanbench.host.lookup import watch_item
@@ -195,8 +196,9 @@ class Services:
         journal = self._resource.journal
         present = journal.derived(ACTIVE)
         in_effect = protocol.InEffect(
-            dict(present), armed_faults(journal.derived(ARMED)), disturbances(journal.derived(DISTURBED))
-        )
+            dict(present), armed_faults(journal.derived(ARMED)), disturbances(journal.derived(DISTURBED)),
+            tuple(journal.derived(BROKEN_LINES).values()),
+        )  # fmt: skip
         if in_effect != self._in_effect:
             self._in_effect = in_effect
             self._link.post(in_effect)

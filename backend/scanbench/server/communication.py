@@ -2,13 +2,13 @@
 
 import asyncio
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Protocol
 
-from scanbench.comm.desk import NO_FAULT, Desk, LineFault
+from scanbench.comm.desk import Desk
 from scanbench.comm.door import Plc
 from scanbench.comm.fins.service import FinsServer
 from scanbench.comm.modbus.mapping import Mapped, default
@@ -16,23 +16,19 @@ from scanbench.comm.modbus.service import modbus_server
 from scanbench.comm.opcua.service import PORT as OPC_UA_PORT
 from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
-from scanbench.plcmodel.model import Model
+from scanbench.faults.line_faults import NO_FAULT, SERVER_NAMES, BreakLine, LineFault, MendLine, ServerKind, servers_of
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
 from scanbench.server.communication_network import Member, PlcNetwork
 from scanbench.server.communication_plc import SessionPlc
-from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerSeen, ServerWanted
+from scanbench.server.communication_shapes import CommunicationSeen, ServerSeen, ServerWanted
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.typed import BadValue, make_kept
-from scanbench.wire.events import User, UsersChanged
+from scanbench.wire.events import Event, LinesChanged, User, UsersChanged
 from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
 _PORTS = 1 << 16
-_LATEST_MS = 60_000
-_FAULTS = {
-    "none": "nothing is wrong", "silent": "no answer comes", "late": "answers come late", "cut": "cut", "refused": "nobody can connect",
-}  # fmt: skip
 _NODES = range(1, 255)
 _FIRST = ServerWanted()
 
@@ -53,10 +49,8 @@ class Server(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A protocol: what it is called, the models that speak it, how its server is made, and how it is set at first."""
+    """A protocol: how its server is made, and how it is set at first."""
 
-    name: str
-    spoken_by: Callable[[Model], bool]
     make: Callable[[Desk, ServerWanted, Plc, Place], Server]
     first: ServerWanted = _FIRST
     slow: bool = False
@@ -65,15 +59,11 @@ class Kind:
 
 KINDS: Mapping[ServerKind, Kind] = {
     "fins": Kind(
-        "FINS",
-        lambda model: model.vendor == "omron",
         lambda desk, wanted, _plc, _place: FinsServer(desk, wanted.node, wanted.error_bits),
     ),
-    "slmp": Kind("SLMP", lambda model: model.vendor == "mitsubishi", lambda desk, *_: slmp_server(desk)),
-    "modbus": Kind("Modbus TCP", lambda model: True, lambda desk, *_: modbus_server(desk)),
+    "slmp": Kind(lambda desk, *_: slmp_server(desk)),
+    "modbus": Kind(lambda desk, *_: modbus_server(desk)),
     "opcua": Kind(
-        "OPC UA",
-        lambda model: True,
         lambda desk, wanted, plc, place: OpcUaServer(desk, plc, place, wanted.anonymous_writes),
         ServerWanted(port=OPC_UA_PORT),
         slow=True,
@@ -102,6 +92,8 @@ class _Unit:
     readers: ErrorReaders
     servers: dict[ServerKind, _Running] = field(default_factory=dict)
     turning: asyncio.Lock = field(default_factory=asyncio.Lock)
+    ignore: Callable[[], None] = field(default=lambda: None)
+    """Ends hearing of its lines."""
 
 
 class Communication:
@@ -112,7 +104,7 @@ class Communication:
         self._store = store
         self._place = Place(data / "cache", data / "opcua", "")
         self._units: dict[int, _Unit] = {}
-        self._opening: set[asyncio.Task[None]] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
         self._network = PlcNetwork(self._members)
 
     def protect(self, token: str) -> None:
@@ -124,12 +116,11 @@ class Communication:
         unit = self._units[session.id] = _Unit(session, ErrorReaders(session.model))
         self._network.begin(session)
         kept = session.row.communication or {}
-        for kind in self._kinds(session):
+        unit.ignore = self._follow_lines(unit)
+        for kind in servers_of(session.model):
             unit.servers[kind] = _Running(_read(kept.get(kind), KINDS[kind].first))
             if KINDS[kind].slow and unit.servers[kind].wanted.on:
-                task = asyncio.get_running_loop().create_task(self._turn_later(unit, kind))
-                self._opening.add(task)
-                task.add_done_callback(self._opening.discard)
+                self._begin_task(self._turn_later(unit, kind))
             else:
                 await self._turn(unit, kind)
 
@@ -138,6 +129,7 @@ class Communication:
         unit = self._units.pop(id, None)
         if unit is None:
             return
+        unit.ignore()
         self._network.end(unit.session)
         async with unit.turning:
             for running in unit.servers.values():
@@ -145,9 +137,9 @@ class Communication:
 
     async def close(self) -> None:
         """Closes all servers."""
-        for task in list(self._opening):
+        for task in list(self._tasks):
             task.cancel()
-        await asyncio.gather(*self._opening, return_exceptions=True)
+        await asyncio.gather(*self._tasks, return_exceptions=True)
         await self._network.close()
         for id in list(self._units):
             await self.end(id)
@@ -162,11 +154,11 @@ class Communication:
         """Switches a server on or off, or gives it other settings; they are kept. `Refused`."""
         unit = self._units[session.id]
         if kind not in unit.servers:
-            raise Refused(f"{session.model.name} does not speak {KINDS[kind].name}", tuple(unit.servers))
+            raise Refused(f"{session.model.name} does not speak {SERVER_NAMES[kind]}", tuple(unit.servers))
         _refuse_wrong(wanted)
         async with unit.turning:
             await _close(unit.servers[kind])
-            unit.servers[kind] = _Running(wanted)
+            unit.servers[kind] = _Running(wanted, fault=unit.servers[kind].fault)
             await self._turn(unit, kind)
             kept: dict[str, object] = {each: asdict(running.wanted) for each, running in unit.servers.items()}
             await asyncio.to_thread(self._store.instances.keep_communication, session.id, kept)
@@ -174,27 +166,17 @@ class Communication:
         return self.seen(session)
 
     async def break_line(self, session: Session, kind: ServerKind, fault: LineFault, author: str) -> CommunicationSeen:
-        """Lets something be wrong with the line to the clients of a server, or nothing any more. It ends with the server. `Refused`."""
+        """Lets something be wrong with the line to the clients of a server, or nothing any more. `Refused`."""
         unit = self._units[session.id]
-        if not 0 <= fault.late_ms <= _LATEST_MS:
-            raise Refused(f"an answer can come up to {_LATEST_MS} ms late, not {fault.late_ms}")
+        running = unit.servers.get(kind)
+        if running is None:
+            raise Refused(f"{session.model.name} does not speak {SERVER_NAMES[kind]}", tuple(unit.servers))
+        command = MendLine(author, kind) if fault.kind == "none" else BreakLine(author, kind, fault)
+        ack = await session.submit(command)
+        if not ack.ok:
+            raise Refused(ack.message)
         async with unit.turning:
-            running = unit.servers.get(kind)
-            if running is None or not running.wanted.on:
-                raise Refused(f"{KINDS[kind].name} is not switched on: switch the server on first")
-            closed = running.fault.kind == "refused"
-            running.fault = fault
-            if fault.kind == "refused":
-                await _close(running)
-            elif closed:
-                await self._turn(unit, kind)
-            if running.desk is not None:
-                running.desk.fault = fault
-            if isinstance(running.server, OpcUaServer):
-                running.server.break_line(fault)
-        session.log.add(
-            author, f"line of {KINDS[kind].name}: {_FAULTS[fault.kind]}", "error" if fault.kind != "none" else "recover"
-        )
+            await self._apply(unit, kind, running, fault if fault.kind != "none" else NO_FAULT)
         return self.seen(session)
 
     def modbus_table(self, session: Session) -> tuple[Mapped, ...]:
@@ -211,8 +193,41 @@ class Communication:
             for unit, fins in found
         ]
 
-    def _kinds(self, session: Session) -> list[ServerKind]:
-        return [kind for kind, each in KINDS.items() if each.spoken_by(session.model)]
+    def _begin_task(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def _follow_lines(self, unit: _Unit) -> Callable[[], None]:
+        """Does to clients what the journal says of the lines: also after a start, and where the PLC goes on from its past. What is given
+        back ends that."""
+
+        def hear(event: Event) -> None:
+            if isinstance(event, LinesChanged) and not unit.session.state.past_by:
+                self._begin_task(self._bring_up_to_date(unit))
+
+        unit.session.listen(hear)
+        return lambda: unit.session.ignore(hear)
+
+    async def _bring_up_to_date(self, unit: _Unit) -> None:
+        async with unit.turning:
+            faults = {each.server: each.fault for each in unit.session.errors.lines}
+            for kind, running in unit.servers.items():
+                if self._units.get(unit.session.id) is unit:
+                    await self._apply(unit, kind, running, faults.get(kind, NO_FAULT))
+
+    async def _apply(self, unit: _Unit, kind: ServerKind, running: _Running, fault: LineFault) -> None:
+        if fault == running.fault:
+            return
+        closed, running.fault = running.fault.kind == "refused", fault
+        if fault.kind == "refused":
+            await _close(running)
+        elif closed:
+            await self._turn(unit, kind)
+        if running.desk is not None:
+            running.desk.fault = fault
+        if isinstance(running.server, OpcUaServer):
+            running.server.break_line(fault)
 
     async def _turn_later(self, unit: _Unit, kind: ServerKind) -> None:
         async with unit.turning:
@@ -223,7 +238,7 @@ class Communication:
         """Opens a server that is wanted on; where that cannot be, its trouble says why."""
         running = unit.servers[kind]
         wanted = running.wanted
-        if not wanted.on:
+        if not wanted.on or running.fault.kind == "refused":
             return
         desk = Desk(
             lambda name: SessionDoor(unit.session, name, unit.readers),
@@ -247,7 +262,7 @@ def _told(kind: ServerKind, running: _Running) -> str:
     """What the log says of a server that was set."""
     if running.trouble:
         return running.trouble
-    name = KINDS[kind].name
+    name = SERVER_NAMES[kind]
     return f"{name} server on: {_address(kind, running)}" if running.server else f"{name} server off"
 
 

@@ -37,6 +37,11 @@ class Member:
     error_bits: bool
     desk: Desk | None
 
+    @property
+    def elsewhere(self) -> bool:
+        """It is not at its node now."""
+        return self.desk is not None and self.desk.elsewhere
+
 
 class _Silent(Exception):
     """Nothing comes back."""
@@ -98,13 +103,13 @@ class PlcNetwork:
             return NOT_ON, b""
         if request.network:
             return NO_ROUTE, b""
-        found = [each for each in members if each.node == request.node]
+        found = [each for each in members if each.node == request.node and not each.elsewhere]
         if len(found) != 1:
             return (TWICE if found else NO_NODE), b""
         made = _frame_of(session, request)
         if made is None:
             return NO_AREA, b""
-        if not await own.desk.on_the_way(b"\0") or own.desk.fault.kind == "cut":
+        if not await own.desk.on_the_way(b"\0") or own.desk.fault.kind in ("cut", "node"):
             raise _Silent
         frame = await self._sent(own, found[0], request, *made)
         if not request.answered:

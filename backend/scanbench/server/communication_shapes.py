@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from scanbench.comm.desk import ClientSeen, FrameSeen, LineFault
+from scanbench.comm.desk import ClientSeen, FrameSeen
+from scanbench.faults.line_faults import LineFault, ServerKind
 from scanbench.public import Public
-
-ServerKind = Literal["fins", "slmp", "modbus", "opcua"]
 
 
 @dataclass(frozen=True, slots=True)

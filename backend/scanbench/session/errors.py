@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow, History, Swept
+from scanbench.faults.line_faults import BrokenLine
 from scanbench.faults.present import Active
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.plcmodel.model import Model
@@ -36,6 +37,7 @@ class Errors:
         self._past_version = 0
         self._armed: tuple[ArmedInfo, ...] = ()
         self._disturbances: tuple[DisturbanceInfo, ...] = ()
+        self._lines: tuple[BrokenLine, ...] = ()
 
     @property
     def rows(self) -> list[ErrorRow]:
@@ -61,6 +63,11 @@ class Errors:
     def armed(self) -> tuple[ArmedInfo, ...]:
         """The faults that are armed."""
         return self._armed
+
+    @property
+    def lines(self) -> tuple[BrokenLine, ...]:
+        """The lines to clients that something is wrong with."""
+        return self._lines
 
     @property
     def disturbances(self) -> tuple[DisturbanceInfo, ...]:
@@ -154,6 +161,9 @@ class Errors:
         if in_effect.disturbances != self._disturbances:
             self._disturbances = in_effect.disturbances
             self._publish(events.Disturbances(self._disturbances))
+        if in_effect.lines != self._lines:
+            self._lines = in_effect.lines
+            self._publish(events.LinesChanged(self._lines))
         self._present = in_effect.errors
         state = self._state()
         if state.past_by:

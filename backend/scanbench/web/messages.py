@@ -334,6 +334,7 @@ class Hello(Wire):
     forces: tuple[ForcedValue, ...]
     device: DeviceErrors | None = Field(description="null until the PLC was there once")
     armed: tuple[ArmedInfo, ...]
+    lines: events.LinesChanged
     diagnostics: Diagnostics
     timeline: events.TimelineChanged
     breakpoints: list[BreakpointInfo]
@@ -431,6 +432,7 @@ ServerMessage = Annotated[
     | events.TimelineChanged
     | events.ValueWritten
     | events.ArmedChanged
+    | events.LinesChanged
     | SweepProgress
     | WatchListChanged
     | Dap

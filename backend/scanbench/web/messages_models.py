@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from scanbench.faults.line_faults import ServerKind
 from scanbench.web.messages_base import Wire
 from scanbench.web.messages_errors import ErrorGroup
 
@@ -51,5 +52,6 @@ class ModelInfo(ModelSummary):
     code_words: list[str] = Field(
         description="the words of the error code, the low one first; two where it has 32 bits"
     )
+    servers: tuple[ServerKind, ...] = Field(description="the protocols that its communication unit speaks")
     status_words: list[str] = Field(description="words shown under the tree, e.g. A400, A401, A402")
     catalogue: list[ErrorGroup]

@@ -1,6 +1,7 @@
 """The session's dataclasses -> wire shapes. Nothing is decided here."""
 
 from scanbench.faults.history import ErrorRow
+from scanbench.faults.line_faults import servers_of
 from scanbench.plcmodel import model as plc
 from scanbench.plcmodel.facts import share
 from scanbench.plcmodel.hardware import Fitted
@@ -234,6 +235,7 @@ def model_info(model: plc.Model) -> messages_models.ModelInfo:
         code_words=[]
         if word is None
         else [model.format(word.area, word.byte + at, None, 16) for at in range(0, word.bits // 8, 2)],
+        servers=servers_of(model),
         status_words=list(model.status_words),
         hardware=model.fitted is not None,
         fits=[

@@ -12,6 +12,7 @@ from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
+from scanbench.faults.line_faults import BrokenLine
 from scanbench.faults.raised_numbers import RaisedNumber
 from scanbench.problems import Problem, Severity
 from scanbench.program.sites import CheckSite
@@ -231,6 +232,16 @@ class ArmedChanged(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class LinesChanged(Public):
+    """The lines to clients that something is wrong with, whenever they change."""
+
+    PUBLIC: ClassVar = "Lines"
+
+    broken: tuple[BrokenLine, ...]
+    type: Literal["lines"] = "lines"
+
+
+@dataclass(frozen=True, slots=True)
 class SweepChanged:
     """A sweep of the project began, went on or ended."""
 
@@ -384,6 +395,7 @@ Told = (
     | DiagnosticsChanged
     | TimelineChanged
     | ArmedChanged
+    | LinesChanged
     | SweepChanged
     | WatchListChanged
     | BreakpointsChanged

@@ -12,6 +12,7 @@ from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.device_shapes import DeviceErrors
 from scanbench.faults.disturb.disturb import DisturbanceInfo
+from scanbench.faults.line_faults import BrokenLine
 from scanbench.faults.present import Active
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reference import ErrorRef
@@ -302,11 +303,13 @@ class PlcState:
 
 @dataclass(frozen=True, slots=True)
 class InEffect:
-    """What holds at the scan that is shown: the errors that are present, the faults that are armed, what disturbs it."""
+    """What holds at the scan that is shown: the errors that are present, the faults that are armed, what disturbs it, broken lines."""
 
     errors: dict[str, Active]
     armed: tuple[ArmedInfo, ...] = ()
     disturbances: tuple[DisturbanceInfo, ...] = ()
+    lines: tuple[BrokenLine, ...] = ()
+    """Lines to clients that something is wrong with."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -63,7 +63,7 @@ class OpcUaErrors:
 
 @dataclass(frozen=True, slots=True)
 class OpcUaFault:
-    """What is wrong with the line to the clients from now on; see `comm.desk.LineFault`."""
+    """What is wrong with the line to the clients from now on; see `faults.line_faults.LineFault`."""
 
     kind: str
     late_ms: int

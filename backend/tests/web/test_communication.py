@@ -16,6 +16,7 @@ from pymcprotocol.mcprotocolerror import MCProtocolError  # type: ignore[import-
 from pymodbus.client import ModbusTcpClient
 from pymodbus.exceptions import ConnectionException
 
+from scanbench.faults.line_faults import BreakLine, MendLine
 from scanbench.recording.blocks import read_contents
 from scanbench.recording.format import RunFile
 from scanbench.runtime.write_areas import WriteAreas
@@ -337,6 +338,41 @@ def test_what_is_wrong_with_the_line_is_seen_by_clients(server: Server) -> None:
     break_line(server, instance, "modbus", "none")
     with ModbusTcpClient("127.0.0.1", port=other) as modbus:
         assert modbus.read_holding_registers(100, count=1).registers == [7]
+
+
+def test_a_fault_of_the_line_is_in_the_run_and_outlives_the_server(server: Server, tmp_path: Path) -> None:
+    instance = server.instance("kept line", MODEL, main=SOURCE)
+    port = switch_on(server, instance, "fins")
+    with server.browser(instance) as browser:
+        assert browser.hello["lines"]["broken"] == []
+        break_line(server, instance, "fins", "node")
+        told = browser.wait_for("lines")
+        assert told["broken"][0]["server"] == "fins"
+        assert told["broken"][0]["fault"]["kind"] == "node"
+    client = fins(port)
+    assert client.memory_area_read("D100").code == b"\x02\x01", "it is at a different node"
+    client.close()
+    port = switch_on(server, instance, "fins")
+    client = fins(port)
+    assert client.memory_area_read("D100").code == b"\x02\x01", "switched off and on it is still there"
+    with server.browser(instance) as browser:
+        log = browser.hello["log"]
+        assert [each["kind"] for each in log if each["text"].startswith("line of FINS")] == ["error"]
+        break_line(server, instance, "fins", "none")
+    until(lambda: words(client.memory_area_read("D100")) == [0])
+    client.close()
+    wrong = server.http.put(f"/api/instances/{instance}/communication/opcua/fault", json={"kind": "node"})
+    assert "no node numbers" in wrong.json()["message"]
+    run = tmp_path / "run.scanrun"
+    run.write_bytes(server.http.get(f"/api/instances/{instance}/export").content)
+    file = RunFile.open(run, read_only=True)
+    commands = [each.command for each in read_contents(file, ENTRIES).found.entries]
+    file.close()
+    assert [type(each).__name__ for each in commands if isinstance(each, BreakLine | MendLine)] == [
+        "BreakLine",
+        "MendLine",
+    ]
+    assert scanbench("replay", str(run)).returncode == 0
 
 
 def test_servers_that_cannot_be_say_why(server: Server) -> None:

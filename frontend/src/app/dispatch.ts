@@ -99,6 +99,9 @@ function dispatch(message: ServerMessage): void {
     case "errors":
       onErrors(message.rows, message.whole);
       return;
+    case "lines":
+      usePlc.setState({ lines: message.broken });
+      break;
     case "armed":
       usePlc.setState({ armed: message.faults });
       return;

@@ -375,7 +375,8 @@ export interface paths {
         get?: never;
         /**
          * Lets something be wrong with the line to the clients of a server, or nothing any more
-         * @description Lets something be wrong with the line to the clients of a server, or nothing any more.
+         * @description Lets something be wrong with the line to the clients of a server, or nothing any more. It is in the run file, and stays when
+         *     the PLC or its server is switched off and on.
          */
         put: operations["save_instance_communication_fault"];
         post?: never;
@@ -3403,6 +3404,22 @@ export interface components {
             type: "breakpoints";
         };
         /**
+         * BrokenLine
+         * @description A line that somebody broke.
+         */
+        BrokenLine: {
+            /** By */
+            by: string;
+            fault: components["schemas"]["CommunicationFault"];
+            /** Scan */
+            scan: number;
+            /**
+             * Server
+             * @enum {string}
+             */
+            server: "fins" | "slmp" | "modbus" | "opcua";
+        };
+        /**
          * Build
          * @description `agreed`: variables may be initialised again; without it a build that would do so only reports what it would do.
          */
@@ -3975,17 +3992,18 @@ export interface components {
         };
         /**
          * CommunicationFault
-         * @description What is wrong with the line between a server and its clients. The PLC itself does what it was asked.
+         * @description What is wrong with the line between a server and its clients.
          */
         CommunicationFault: {
             /**
              * Kind
-             * @description silent: no answer comes. late: each answer comes `late_ms` later. cut: connections end at the next request, before it is done.
-             *     refused: nobody can connect.
+             * @description silent: the PLC does what it was asked, and no answer comes, so that clients run into their time limit. late: each answer comes
+             *     `late_ms` later. cut: connections end at the next request, before it is done. refused: nobody can connect. node: the PLC has a
+             *     different node number than its clients believe, so that their requests reach nobody.
              * @default none
              * @enum {string}
              */
-            kind: "none" | "silent" | "late" | "cut" | "refused";
+            kind: "none" | "silent" | "late" | "cut" | "refused" | "node";
             /**
              * Late Ms
              * @default 1000
@@ -5706,6 +5724,7 @@ export interface components {
             /** Forces */
             forces: components["schemas"]["ForceInfo"][];
             instance: components["schemas"]["Instance"];
+            lines: components["schemas"]["Lines"];
             /** Log */
             log: components["schemas"]["LogLine"][];
             timeline: components["schemas"]["Timeline"];
@@ -6011,6 +6030,19 @@ export interface components {
             value: string;
         };
         /**
+         * Lines
+         * @description The lines to clients that something is wrong with, whenever they change.
+         */
+        Lines: {
+            /** Broken */
+            broken: components["schemas"]["BrokenLine"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "lines";
+        };
+        /**
          * Log
          * @description New lines of the log.
          */
@@ -6212,6 +6244,11 @@ export interface components {
             hardware: boolean;
             /** Name */
             name: string;
+            /**
+             * Servers
+             * @description the protocols that its communication unit speaks
+             */
+            servers: ("fins" | "slmp" | "modbus" | "opcua")[];
             /**
              * Status Words
              * @description words shown under the tree, e.g. A400, A401, A402
@@ -7954,7 +7991,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["CampaignState"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["People"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["DraftEdited"] | components["schemas"]["Draft"] | components["schemas"]["Device"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["Lines"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Retrospective"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["CampaignState"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
         /**
          * SetCell
          * @description An input of the set data, edited.

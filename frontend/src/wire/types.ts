@@ -15,6 +15,7 @@ export type TraceWhen = TraceTrigger["when"];
 export type AppInfo = Shapes["AppInfo"];
 export type Area = Shapes["Area"];
 export type ArmedFault = Shapes["ArmedFault"];
+export type BrokenLine = Shapes["BrokenLine"];
 export type BreakpointInfo = Shapes["BreakpointInfo"];
 export type Binding = Shapes["Binding"];
 export type BoundTo = Shapes["BoundTo"];

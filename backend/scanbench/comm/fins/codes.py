@@ -7,6 +7,7 @@ class End(IntEnum):
     """Main and sub code of an answer."""
 
     OK = 0x0000
+    NO_NODE = 0x0201
     NO_UNIT = 0x0202
     UNDEFINED = 0x0401
     TOO_LONG = 0x1001

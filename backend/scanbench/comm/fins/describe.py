@@ -11,6 +11,7 @@ _SEVERAL, _TRANSFER = 0x0104, 0x0105
 _SHOWN = 4
 
 OUTCOMES = {
+    End.NO_NODE: "the PLC has a different node number",
     End.NO_UNIT: "no such unit: DA2 has to be 00, the CPU Unit",
     End.UNDEFINED: "the model does not know this command",
     End.TOO_LONG: "the request is too long",

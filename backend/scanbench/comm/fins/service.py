@@ -8,9 +8,10 @@ from typing import cast
 from scanbench.comm.desk import Desk, LineCut
 from scanbench.comm.door import Door
 from scanbench.comm.fins import tcp_frame as tcp
+from scanbench.comm.fins.codes import End
 from scanbench.comm.fins.commands import respond
 from scanbench.comm.fins.describe import described, outcome
-from scanbench.comm.fins.frame import Request, parse
+from scanbench.comm.fins.frame import Request, answer, parse
 from scanbench.comm.tcp import PIECE, Listener, end_all
 
 log = logging.getLogger("scanbench")
@@ -30,7 +31,10 @@ class Answering:
     async def answer(self, name: str, door: Door, request: Request, frame: bytes) -> bytes:
         """The answer to a frame, which is noted; empty where none is wanted, or none comes. `LineCut`."""
         self.desk.before_request()
-        answered, end = await respond(request, door, self.desk.read_only, self._error_bits)
+        if self.desk.elsewhere:
+            answered, end = answer(request, End.NO_NODE), End.NO_NODE
+        else:
+            answered, end = await respond(request, door, self.desk.read_only, self._error_bits)
         self.desk.note(name, described(request, door.model), outcome(end), frame, answered)
         return await self.desk.on_the_way(answered) if request.wants_answer else b""
 

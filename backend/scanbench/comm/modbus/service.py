@@ -4,7 +4,7 @@ from collections.abc import Awaitable, Iterator
 
 from scanbench.comm.desk import Desk
 from scanbench.comm.door import Door
-from scanbench.comm.modbus.frame import Broken, Request, Stream
+from scanbench.comm.modbus.frame import Broken, Code, Request, Stream, failure
 from scanbench.comm.modbus.functions import Target, described, outcome, respond
 from scanbench.comm.modbus.mapping import default
 from scanbench.comm.tcp import Answers, Listener, tcp_server
@@ -18,7 +18,11 @@ def modbus_server(desk: Desk) -> Listener:
 
         async def answer(request: Request, frame: bytes) -> bytes:
             desk.before_request()
-            answered, code = await respond(request, target, desk.read_only)
+            code: Code | None
+            if desk.elsewhere:
+                answered, code = failure(request, Code.NO_TARGET), Code.NO_TARGET
+            else:
+                answered, code = await respond(request, target, desk.read_only)
             desk.note(name, described(request), outcome(code), frame, answered)
             return answered
 

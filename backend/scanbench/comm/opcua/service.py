@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 
-from scanbench.comm.desk import Desk, LineFault
+from scanbench.comm.desk import Desk
 from scanbench.comm.door import Away, Door, Plc
+from scanbench.faults.line_faults import LineFault
 from scanbench.host.zygote import OPC_UA, NoProcess, Process
 from scanbench.jobs.channel import connect, messages
 from scanbench.jobs.client import FAULT

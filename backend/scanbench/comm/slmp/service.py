@@ -5,7 +5,7 @@ from collections.abc import Awaitable, Iterator
 from scanbench.comm.desk import Desk
 from scanbench.comm.door import Door
 from scanbench.comm.slmp.commands import described, outcome, respond
-from scanbench.comm.slmp.frame import Broken, Request, Stream
+from scanbench.comm.slmp.frame import Broken, End, Request, Stream, failure
 from scanbench.comm.tcp import Answers, Listener, tcp_server
 
 
@@ -17,7 +17,10 @@ def slmp_server(desk: Desk) -> Listener:
 
         async def answer(request: Request, frame: bytes) -> bytes:
             desk.before_request()
-            answered, end = await respond(request, door, desk.read_only)
+            if desk.elsewhere:
+                answered, end = failure(request, End.NO_STATION), End.NO_STATION
+            else:
+                answered, end = await respond(request, door, desk.read_only)
             desk.note(name, described(request, door), outcome(end), frame, answered)
             return answered
 

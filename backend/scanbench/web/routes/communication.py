@@ -3,9 +3,9 @@
 from fastapi import APIRouter, Request
 from fastapi.responses import Response
 
-from scanbench.comm.desk import LineFault
 from scanbench.comm.modbus.mapping import Mapped, as_csv
-from scanbench.server.communication_shapes import CommunicationSeen, ServerKind, ServerWanted
+from scanbench.faults.line_faults import LineFault, ServerKind
+from scanbench.server.communication_shapes import CommunicationSeen, ServerWanted
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
@@ -31,7 +31,8 @@ async def on_set(
 async def on_break_line(
     bench: Bench, request: Request, instance: Id, kind: ServerKind, fault: LineFault
 ) -> CommunicationSeen:
-    """Lets something be wrong with the line to the clients of a server, or nothing any more."""
+    """Lets something be wrong with the line to the clients of a server, or nothing any more. It is in the run file, and stays when
+    the PLC or its server is switched off and on."""
     return await bench.communication.break_line(bench.session(instance), kind, fault, user_of(request).name)
 
 

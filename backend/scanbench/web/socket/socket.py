@@ -142,6 +142,7 @@ class Client:
             forces=self._session.forces.all,
             device=self._session.device.known,
             armed=self._session.errors.armed,
+            lines=events.LinesChanged(self._session.errors.lines),
             diagnostics=translate.diagnostics(self._session.log.violations),
             timeline=self._session.log.timeline,
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),

@@ -5,7 +5,16 @@ import { byKind, type Rows, withRows } from "../../logic/plc/errorInstances";
 import { type Deed, forbidden } from "../../logic/plc/permits";
 import { t } from "../../text";
 import type { LinkStatus } from "../../wire/socket";
-import type { ArmedFault, Diagnostics, ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../../wire/types";
+import type {
+  ArmedFault,
+  BrokenLine,
+  Diagnostics,
+  ErrorHistoryRow,
+  Hello,
+  InstanceState,
+  LogLine,
+  User,
+} from "../../wire/types";
 import { setClock } from "./clock";
 
 export type { LinkStatus } from "../../wire/socket";
@@ -23,6 +32,8 @@ export interface Plc {
   instances: Rows;
   /** Scheduled and recurring faults that are not over. */
   armed: readonly ArmedFault[];
+  /** Lines to clients of the communication unit that something is wrong with. */
+  lines: readonly BrokenLine[];
   log: readonly LogLine[];
   /** Violations that the compiler's embedded checks found while the program ran. */
   diagnostics: Diagnostics;
@@ -38,6 +49,7 @@ const nothing: Plc = {
   errors: new Map(),
   instances: new Map(),
   armed: [],
+  lines: [],
   log: [],
   diagnostics: NO_DIAGNOSTICS,
 };
@@ -71,6 +83,7 @@ export function onHello(hello: Hello): void {
     users: hello.users,
     ...known(withRows(new Map(), hello.errors)),
     armed: hello.armed,
+    lines: hello.lines.broken,
     log: hello.log,
     diagnostics: hello.diagnostics,
   });

@@ -25,6 +25,9 @@ export const communication = {
   "communication.fault.cut.about": "Connections end at the next request, which is not done",
   "communication.fault.late": "Late",
   "communication.fault.late.about": "Each answer comes later",
+  "communication.fault.node": "Wrong node",
+  "communication.fault.node.about":
+    "The PLC has a different node number than its clients believe: their requests reach nobody",
   "communication.fault.none": "None",
   "communication.fault.none.about": "Nothing is wrong with the line",
   "communication.fault.refused": "Refused",
@@ -72,4 +75,13 @@ export const communication = {
   "communication.users":
     "A client that writes gives any user name, with the token of this server. Security: none, or Basic256Sha256 (sign and encrypt).",
   "communication.word": "Word",
+  "lines.break": "Break",
+  "lines.break.of": "Break the line of {name}",
+  "lines.broken": "{count} broken",
+  "lines.by": "by {by}, scan {scan}",
+  "lines.label": "Communication lines",
+  "lines.late": "{ms} ms late",
+  "lines.mend": "Mend",
+  "lines.mend.of": "Mend the line of {name}",
+  "lines.whole": "nothing wrong",
 };

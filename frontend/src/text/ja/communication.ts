@@ -27,6 +27,8 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.fault.cut.about": "次の要求で接続が切れ、要求は実行されません",
   "communication.fault.late": "遅延",
   "communication.fault.late.about": "応答が遅れて届きます",
+  "communication.fault.node": "ノード違い",
+  "communication.fault.node.about": "PLC のノード番号がクライアントの想定と異なり、要求はどこにも届きません",
   "communication.fault.none": "なし",
   "communication.fault.none.about": "回線に異常はありません",
   "communication.fault.refused": "接続拒否",
@@ -74,4 +76,13 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.users":
     "書き込むクライアントには、任意のユーザー名と、パスワードとしてこのサーバのトークンが必要です。セキュリティはなし、または Basic256Sha256（署名と暗号化）です。",
   "communication.word": "ワード",
+  "lines.break": "異常を発生",
+  "lines.break.of": "{name} の回線に異常を発生",
+  "lines.broken": "{count} 件の異常",
+  "lines.by": "{by}、スキャン {scan}",
+  "lines.label": "通信回線",
+  "lines.late": "{ms} ms 遅れ",
+  "lines.mend": "復旧",
+  "lines.mend.of": "{name} の回線を復旧",
+  "lines.whole": "異常なし",
 };

@@ -19,6 +19,7 @@ import "./errors.css";
 import "./reaction.css";
 import { FilterMenu } from "./FilterMenu";
 import { FirstSteps } from "./FirstSteps";
+import { Lines } from "./Lines";
 import { refusedRow } from "./refusal";
 import { StatusWords } from "./StatusWords";
 
@@ -94,6 +95,7 @@ function Simulator({ model }: { model: ModelInfo }) {
       />
       {error && selected !== null && <Details error={error} of={selected} />}
       {!error && untouched && <FirstSteps />}
+      <Lines servers={model.servers} />
       <ArmedList />
       <StatusWords words={model.status_words} code={model.code_words} />
       <Actions refusedInTree={refused !== null} />

@@ -3,7 +3,7 @@ import { t } from "../../../text";
 import { Segments } from "../../../ui/Segments";
 import type { CommunicationFault, CommunicationServer } from "../../../wire/types";
 
-const KINDS = ["none", "silent", "late", "cut", "refused"] as const;
+const KINDS = ["none", "silent", "late", "cut", "refused", "node"] as const;
 const LATE = [100, 1000, 5000] as const;
 
 /** What is wrong with the line to the clients: takes effect at once, and ends with the server. */
@@ -16,7 +16,7 @@ export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault
         <Segments
           label={t("communication.fault")}
           value={now}
-          options={KINDS.map((value) => ({
+          options={KINDS.filter((value) => value !== "node" || kind !== "opcua").map((value) => ({
             value,
             word: t(`communication.fault.${value}`),
             title: t(`communication.fault.${value}.about`),

@@ -1,0 +1,110 @@
+"""Faults of communication: what is wrong with the line between a server of the communication unit and its clients.
+
+The PLC and its memory know nothing of it but what comes of it: a SEND that gets no answer ends with an error of its port. The
+journal says which lines are broken; the server (`server/communication.py`) does to clients what it says. A line stays broken when
+the PLC restarts: somebody has to mend it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from scanbench.plcmodel.model import Model
+from scanbench.public import Public
+from scanbench.runtime.command import Category, Command, Entry, Plan, Refusal, View
+from scanbench.runtime.journal import Fold
+
+ServerKind = Literal["fins", "slmp", "modbus", "opcua"]
+SERVER_NAMES: Mapping[ServerKind, str] = {"fins": "FINS", "slmp": "SLMP", "modbus": "Modbus TCP", "opcua": "OPC UA"}
+LATEST_MS = 60_000
+_VENDORS: Mapping[ServerKind, str] = {"fins": "omron", "slmp": "mitsubishi"}
+"""Whose models alone speak a protocol."""
+
+
+@dataclass(frozen=True, slots=True)
+class LineFault(Public):
+    """What is wrong with the line between a server and its clients."""
+
+    PUBLIC: ClassVar = "CommunicationFault"
+    GIVEN: ClassVar = True
+
+    kind: Literal["none", "silent", "late", "cut", "refused", "node"] = "none"
+    """silent: the PLC does what it was asked, and no answer comes, so that clients run into their time limit. late: each answer comes
+    `late_ms` later. cut: connections end at the next request, before it is done. refused: nobody can connect. node: the PLC has a
+    different node number than its clients believe, so that their requests reach nobody."""
+    late_ms: int = 1000
+
+
+NO_FAULT = LineFault()
+_TOLD = {
+    "silent": "no answer comes", "cut": "connections end", "refused": "nobody can connect", "node": "the PLC has a different node number",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class BrokenLine(Public):
+    """A line that somebody broke."""
+
+    PUBLIC: ClassVar = "BrokenLine"
+
+    server: ServerKind
+    fault: LineFault
+    by: str
+    scan: int
+
+
+def servers_of(model: Model) -> tuple[ServerKind, ...]:
+    """The protocols that a model speaks."""
+    return tuple(kind for kind in SERVER_NAMES if _VENDORS.get(kind, model.vendor) == model.vendor)
+
+
+@dataclass(frozen=True, slots=True)
+class BreakLine(Command):
+    """Something is wrong with a line from now on, instead of what was."""
+
+    category: ClassVar[Category] = "error"
+
+    server: ServerKind
+    fault: LineFault
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """Nothing in memory."""
+        name = SERVER_NAMES[self.server]
+        if self.server not in servers_of(view.model):
+            return Refusal(f"{view.model.name} does not speak {name}", servers_of(view.model))
+        if not 0 <= self.fault.late_ms <= LATEST_MS:
+            return Refusal(f"an answer can come up to {LATEST_MS} ms late, not {self.fault.late_ms}")
+        if self.fault.kind == "node" and self.server == "opcua":
+            return Refusal("OPC UA has no node numbers of PLCs: choose a different fault")
+        if self.fault.kind == "none":
+            return Refusal("no fault is given: MendLine takes one back")
+        late = f"answers come {self.fault.late_ms} ms late"
+        return Plan((), f"line of {name}: {_TOLD.get(self.fault.kind, late)}")
+
+
+@dataclass(frozen=True, slots=True)
+class MendLine(Command):
+    """Nothing is wrong with a line any more."""
+
+    category: ClassVar[Category] = "recover"
+
+    server: ServerKind
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """Nothing in memory."""
+        name = SERVER_NAMES[self.server]
+        whole = self.server not in view.derived(BROKEN_LINES)
+        return Plan((), f"line of {name}: nothing was wrong" if whole else f"line of {name}: nothing is wrong any more")
+
+
+def _step(broken: Mapping[str, BrokenLine], entry: Entry) -> Mapping[str, BrokenLine]:
+    match entry.command:
+        case BreakLine() as made:
+            return {**broken, made.server: BrokenLine(made.server, made.fault, made.author, entry.scan)}
+        case MendLine() as made if made.server in broken:
+            return {kind: each for kind, each in broken.items() if kind != made.server}
+    return broken
+
+
+BROKEN_LINES: Fold[Mapping[str, BrokenLine]] = Fold({}, _step)
+"""Those that something is wrong with, by server."""
