@@ -1,7 +1,6 @@
 """What comes by itself of communications instructions: ports that are ready, answers that never came, and the error of a port."""
 
 from scanbench.check.system.network_text import NAMES
-from scanbench.engines.observe import Observed
 from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.network import TIMEOUT, WAITING, NetworkAnswer, PortsReady
 from scanbench.faults.reference import ErrorRef
@@ -10,7 +9,6 @@ from scanbench.program.origin import SYSTEM_FILE
 from scanbench.program.program import Program
 from scanbench.runtime.agenda import NOTHING, Met, Waits
 from scanbench.runtime.command import Command, Plan, Refusal, View
-from scanbench.runtime.programs import Loaded
 
 
 class Network:
@@ -59,10 +57,6 @@ class Network:
             return NOTHING
         ends = [each.until for each in view.derived(WAITING).values()]
         return Waits(min(ends)) if ends else NOTHING
-
-    def observed(self, loaded: Loaded) -> Observed:
-        """Nobody waits for statements here."""
-        raise NotImplementedError
 
 
 def _uses(program: Program) -> bool:

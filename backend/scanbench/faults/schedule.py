@@ -72,7 +72,7 @@ class Schedule:
         self._look(lanes, view)
         return self._waits
 
-    def observed(self, loaded: Loaded) -> Observed:
+    def _observed(self, loaded: Loaded) -> Observed:
         """Made again: whoever wants it soon has `make` prepare it."""
         return self._make(loaded.statements, loaded.memory)
 
@@ -99,7 +99,7 @@ class Schedule:
             if _acknowledgeable(lane):
                 texts[lane.wanted.shape.acknowledge] = None
         conditions = tuple(self._condition(each, view.program) for each in texts)
-        self._waits = Waits(min(dues, default=None), conditions, sites)
+        self._waits = Waits(min(dues, default=None), conditions, sites, self._observed if sites else None)
 
     def _meaningless(self, lanes: Lanes, view: View) -> Iterator[Disarm]:
         """Ends of faults that wait for something that this program does not have."""

@@ -3,6 +3,7 @@
 The resource asks in the seam of a run, and journals what is entered; a replay re-enters that and never asks.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -22,6 +23,8 @@ class Waits:
     conditions: tuple[Condition, ...] = ()
     sites: frozenset[int] = frozenset()
     """Statements (`symbols.sites`): while there are any, the run comes back after every scan."""
+    observed: Callable[[Loaded], Observed] | None = None
+    """Makes code of a program that notes the statements it reaches, on its memory; where there are `sites`."""
     inside: Insider | None = None
     """Who enters something inside of the scan that is next: that one runs alone, in the debug flavour."""
 
@@ -50,6 +53,3 @@ class Agenda(Protocol):
 
     def waits(self, view: View) -> Waits:
         """What it waits for, when nothing is due."""
-
-    def observed(self, loaded: Loaded) -> Observed:
-        """Code of this program that notes the statements it reaches, on its memory: made while it waits for any."""

@@ -2,10 +2,8 @@
 
 from dataclasses import replace
 
-from scanbench.engines.observe import Observed
 from scanbench.runtime.agenda import NOTHING, Agenda, Met, Waits
 from scanbench.runtime.command import Command, Refusal, View
-from scanbench.runtime.programs import Loaded
 
 
 class Joined:
@@ -13,8 +11,8 @@ class Joined:
 
     def __init__(self, *agendas: Agenda) -> None:
         self._agendas = agendas
-        self._asked = self._observing = agendas[0]
-        """Whose command was due last; who waits for statements."""
+        self._asked = agendas[0]
+        """Whose command was due last."""
 
     def due(self, view: View, met: Met) -> Command | None:
         """See `Agenda`."""
@@ -36,15 +34,9 @@ class Joined:
             each = agenda.waits(view)
             if each is NOTHING:
                 continue
-            if each.sites:
-                self._observing = agenda
             scans = [scan for scan in (all.scan, each.scan) if scan is not None]
             all = each if all is NOTHING else replace(
                 all, scan=min(scans, default=None), conditions=(*all.conditions, *each.conditions),
-                sites=all.sites | each.sites, inside=all.inside or each.inside,
+                sites=all.sites | each.sites, observed=all.observed or each.observed, inside=all.inside or each.inside,
             )  # fmt: skip
         return all
-
-    def observed(self, loaded: Loaded) -> Observed:
-        """See `Agenda`."""
-        return self._observing.observed(loaded)

@@ -139,8 +139,8 @@ class Resource:
         waits, first, listening = self.waiting.waits(self.view), self.header.scan, self.listening
         if waits.scan is not None:
             scans = min(scans, waits.scan - first)
-        agenda, insider = self.waiting.agenda, waits.inside
-        listening.observe(agenda.observed if waits.sites and agenda is not None else None)
+        insider = waits.inside
+        listening.observe(waits.observed)
         if insider is not None and not self._finishing and listening.takes_over():
             return Stop(Reason.INTERRUPTED)
         alone = bool(waits.sites) or insider is not None

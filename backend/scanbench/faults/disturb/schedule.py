@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 
-from scanbench.engines.observe import Observed
 from scanbench.faults.disturb.definition import bits_of, chance, single_value, writing_sites
 from scanbench.faults.disturb.disturb import DISTURBED, Disturbed
 from scanbench.faults.disturb.fire import Firing, Flip, Hold, Unfired, Unhold
@@ -10,7 +9,6 @@ from scanbench.faults.disturb.result import Results, Wish
 from scanbench.program.program import Program
 from scanbench.runtime.agenda import NOTHING, Met, Waits
 from scanbench.runtime.command import Command, Refusal, View
-from scanbench.runtime.programs import Loaded
 
 
 class DisturbanceSchedule:
@@ -62,10 +60,6 @@ class DisturbanceSchedule:
             if at is not None and at > scan:
                 scans.append(at)
         return Waits(min(scans, default=None), inside=Results(view.program, self._wishes) if self._wishes else None)
-
-    def observed(self, loaded: Loaded) -> Observed:
-        """See `Agenda`; a disturbance waits for no statement."""
-        raise NotImplementedError("observed code is made for who waits for statements")
 
     def _result(self, each: Disturbed, view: View) -> Unfired | None:
         """A result of a scan that is over and was not disturbed, or cannot be."""
