@@ -36,7 +36,7 @@ help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
 	@echo "make test    lint, types, layers, unit and case tests, frontend, the main browser stories"
 	@echo "make check   lint, types and layers only"
-	@echo "make nightly what \`make test\` leaves out to stay quick: the other browser stories, far more random programs"
+	@echo "make nightly what \`make test\` leaves out to stay quick: slow tests, the other browser stories, far more random programs"
 	@echo "make coverage  how much of the backend its tests run, and which files less than 80 %"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make bench-ui  what opening the page costs: bytes, time to the first live value, frames"
@@ -133,7 +133,7 @@ nightly: setup-test
 	@.ci/steps nightly-unit nightly-e2e
 
 nightly-unit:
-	@cd backend && SCANBENCH_NIGHTLY=1 $(BIN)/python $(PYTEST) -m "nightly or hypothesis"
+	@cd backend && SCANBENCH_NIGHTLY=1 $(BIN)/python $(PYTEST) -m "nightly or slow or hypothesis"
 
 nightly-e2e: frontend/dist/.stamp
 	@cd e2e && $(NPM) run --silent nightly

@@ -1,6 +1,6 @@
 """How much of what is made up is compared: in `make test` so much that it stays quick, in `make nightly` and CI far more.
 
-`make nightly` runs the tests marked `nightly` and those of hypothesis, which mark themselves.
+`make nightly` runs the tests marked `nightly` or `slow` and those of hypothesis, which mark themselves.
 """
 
 import os
@@ -11,6 +11,9 @@ import pytest
 
 NIGHTLY = bool(os.environ.get("SCANBENCH_NIGHTLY"))
 nightly = pytest.mark.nightly
+"""Of what this test compares, `make nightly` compares more."""
+slow = pytest.mark.slow
+"""Only in `make nightly`: it takes many seconds, and a shorter test shows most of what it shows."""
 _T = TypeVar("_T")
 
 

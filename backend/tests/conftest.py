@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, settings
 
 from scanbench.engines.native import jit
 from scanbench.host.zygote import zygote
-from tests.amounts import amount
+from tests.amounts import NIGHTLY, amount
 
 # The same examples on every run: a red test stays red until it is fixed. SCANBENCH_EXPLORE=1 goes looking for new ones.
 settings.register_profile(
@@ -27,8 +27,12 @@ LONG = ("tests/web/", "tests/test_", "tests/engines/")
 """Files of minutes: begun last, they would keep one worker at work alone."""
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The workers take whole files in this order, and end together."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """The workers take whole files in this order, and end together. Slow tests are left out by day, unless one names them (`-m slow`)."""
+    if not NIGHTLY and not config.option.markexpr:
+        left_out = [item for item in items if item.get_closest_marker("slow") is not None]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if item.get_closest_marker("slow") is None]
     items.sort(key=lambda item: not item.nodeid.startswith(LONG))
 
 

@@ -8,8 +8,8 @@ from tests.programs import INGREDIENTS, conditions, generate
 from tests.programs.compare import checked, compare, difference, levels
 from tests.programs.reduce import reduced
 
-PROGRAMS = amount(1000, 90)
-BY_VALUE = amount(300, 30)
+PROGRAMS = amount(1000, 50)
+BY_VALUE = amount(300, 16)
 """Programs whose blocks take their in-outs by value."""
 BATCH = 50
 MOST_REFUSED = BATCH // 5

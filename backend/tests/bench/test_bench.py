@@ -14,6 +14,7 @@ from bench.pace import PERIODS_MS, report, run_pace_bench
 from bench.run import PROGRAMS, BenchError, Row, run_bench
 from bench.trace import run_trace_bench
 from scanbench.taps import trace_buffer
+from tests.amounts import slow
 
 
 def test_a_program_beside_its_twin() -> None:
@@ -87,6 +88,7 @@ def test_an_unknown_program_is_named() -> None:
     assert "noop" in PROGRAMS
 
 
+@slow
 def test_what_building_takes(tmp_path: Path) -> None:
     blocks = large("big10kflat").split("END_FUNCTION_BLOCK")[:20]
     program = "PROGRAM Main\nVAR u : Unit0; END_VAR\n  u();\nEND_PROGRAM\n"
@@ -97,6 +99,7 @@ def test_what_building_takes(tmp_path: Path) -> None:
     assert all(figure >= 0 for figure in figures.values()), figures
 
 
+@slow
 def test_what_breakpoints_cost() -> None:
     program = conveyor()
     costs = measure_costs(program)

@@ -27,7 +27,7 @@ from scanbench.verify.contract import Range
 from scanbench.verify.run_subject import RunSubject
 from scanbench.verify.verifier import Verifier
 from scanbench.wire.codec import ENTRIES
-from tests.amounts import amount
+from tests.amounts import amount, slow
 from tests.runtime.bench import program
 from tests.verify.verified_runs import record
 
@@ -72,6 +72,7 @@ def tried(folder: Path, wanted: CampaignWanted) -> Campaign:
         return run_campaign(reader, wanted, bench(folder, program(SOURCE)))
 
 
+@slow
 def test_the_same_seed_tries_the_same(tmp_path: Path) -> None:
     wanted = CampaignWanted(seed=5, count=30, first=10, last=150, window=20)
     one = tried(tmp_path, wanted)

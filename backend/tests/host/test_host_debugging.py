@@ -12,6 +12,7 @@ from scanbench.taps.covered import CoveredOutcome
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.host import Driven
+from tests.amounts import slow
 from tests.host.child import Child
 
 STATIONS = """FUNCTION_BLOCK Station
@@ -212,6 +213,7 @@ def test_coverage_says_what_was_reached(tmp_path: Path, cache: Path) -> None:
         )
 
 
+@slow
 def test_a_plain_breakpoint_runs_on_fast_code_once_that_is_built(tmp_path: Path, cache: Path) -> None:
     with Child(tmp_path / "a.run", STATIONS, cache, Driven(speed=0)) as child:
         set_breakpoints(child, at_line(6, instance="", condition="total > 4000000 AND total < 0"))

@@ -23,6 +23,7 @@ from scanbench.runtime.programs import Loaded, LoadedPrograms
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.wire.host import Sources
+from tests.amounts import slow
 
 BLOCK = (
     """\
@@ -157,7 +158,12 @@ def broken(directory: Path, change: Callable[[bytes], bytes]) -> None:
 
 
 @pytest.mark.parametrize(
-    "change", [lambda data: data[:-7], lambda data: b"", lambda data: data[:99] + b"\0\0" + data[101:]]
+    "change",
+    [
+        lambda data: data[:-7],
+        pytest.param(lambda data: b"", marks=slow),
+        pytest.param(lambda data: data[:99] + b"\0\0" + data[101:], marks=slow),
+    ],
 )
 def test_a_broken_cache_is_no_cache(tmp_path: Path, change: Callable[[bytes], bytes]) -> None:
     builder = Builder(tmp_path)
@@ -205,6 +211,7 @@ def test_where_the_worker_dies_quick_code_runs_on(monkeypatch: pytest.MonkeyPatc
     plc.run(10)
 
 
+@slow
 def test_one_of_many_optimises(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Both begin with quick code; the second takes what the first has made."""
     builders = [Builder(tmp_path), Builder(tmp_path)]
@@ -239,6 +246,7 @@ def resident_kb() -> int:
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4
 
 
+@slow
 def test_code_that_is_swapped_out_is_freed() -> None:
     builder = Builder(None)
     plc: Resource | None = None

@@ -19,6 +19,7 @@ from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import Splitter, pack
 from scanbench.wire.host import PlcState
+from tests.amounts import slow
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
 LARGE = "PROGRAM Main\nVAR n : ARRAY[1..{0}] OF DINT; END_VAR\n  n[1] := n[1] + 1;\nEND_PROGRAM\n"
@@ -151,6 +152,7 @@ def test_hosts_survive_their_zygote(tmp_path: Path) -> None:
         born_later.sock.close()
 
 
+@slow
 def test_a_frozen_zygote_is_given_up(tmp_path: Path) -> None:
     zygote = Zygote(grace_s=0.1)
     zygote.start()

@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from scanbench import __version__
+from tests.amounts import slow
 
 ROOT = Path(__file__).parents[3]
 BUILD = "from hatchling.build import build_wheel; import sys; print(build_wheel(sys.argv[1]))"
@@ -134,6 +135,7 @@ def test_it_runs_with_its_own_models_page_and_samples(
     assert json.loads(said.stdout)["scans"] == 10, said.stderr
 
 
+@slow
 def test_it_serves_from_an_empty_folder(run: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path) -> None:
     served = run("python", "-c", SERVE)
     assert served.returncode == 0, served.stderr

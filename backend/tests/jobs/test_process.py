@@ -48,6 +48,7 @@ from scanbench.wire.jobs import (
     SweepPlanned,
     Trying,
 )
+from tests.amounts import slow
 from tests.faults.reacting import MAKES, ref
 from tests.runtime.bench import model
 
@@ -93,9 +94,10 @@ class Job:
         return self.process.wait(30)
 
 
-@pytest.fixture
-def job(tmp_path: Path) -> Iterator[Job]:
-    made = Job(tmp_path / "cache")
+@pytest.fixture(scope="module")
+def job(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Job]:
+    """One process for all of them, as the server has: each question is answered as if it were the first."""
+    made = Job(tmp_path_factory.mktemp("jobs") / "cache")
     yield made
     assert made.end() == 0
 
@@ -298,6 +300,7 @@ def test_why_there_is_no_program_is_told_and_a_fault_in_its_build_is_none_of_the
         reaction_in(*asked, failing(KeyError(3)), MAKES["native"])
 
 
+@slow
 def test_a_sweep_over_states(job: Job, tmp_path: Path) -> None:
     """One with the program that is swept, one of an older version, carried over as an online change does."""
     new = begun(tmp_path / "new.run")
@@ -376,6 +379,7 @@ def test_it_ends_with_its_parent(tmp_path: Path) -> None:
     assert ended
 
 
+@slow
 def test_what_a_debugger_entered_inside_of_scans_belongs_to_both_runs(job: Job, tmp_path: Path) -> None:
     timeline = begun(tmp_path / "1.run")
     advance(timeline, 20)

@@ -11,7 +11,8 @@ from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.language.format import edits, formatted
 from scanbench.plcmodel.model import Model
-from tests.amounts import amount, some
+from scanbench.program.layout import Layout
+from tests.amounts import amount, slow, some
 from tests.caseformat import MODELS, read_cases
 from tests.check.test_no_crash import WORDS
 from tests.language.reading import FILE
@@ -33,6 +34,8 @@ def keeps(text: str, model: Model, scans: int, name: str = FILE, **others: str) 
     assert (before is None) == (after is None)
     if before is not None and after is not None:
         memory = bytearray(before.initial_image), bytearray(after.initial_image)
+        for image in memory:  # so that a loop without end is not gone round 50 million times
+            image[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = (200_000).to_bytes(8, "little")
         ends = [ReferenceEngine(each, image).run(scans) for each, image in zip((before, after), memory, strict=True)]
         assert ends[0].reason == ends[1].reason
         assert memory[0] == memory[1]
@@ -50,9 +53,10 @@ def test_samples_are_formatted_as_they_are_or_again(path: Path) -> None:
     assert keeps(path.read_text("utf-8"), GENERIC, 1) is not None
 
 
-@pytest.mark.parametrize("name", some(sorted(UNITS), 2, 1))
+@slow
+@pytest.mark.parametrize("name", sorted(UNITS))
 def test_a_large_program_does_the_same(name: str) -> None:
-    assert keeps(large(name), GENERIC, amount(200, 1)) is not None
+    assert keeps(large(name), GENERIC, 200) is not None
 
 
 def test_random_programs_do_the_same() -> None:

@@ -130,13 +130,13 @@ def test_what_ends_a_block_has_the_block_formatted_with_enter() -> None:
 
 
 def test_random_programs_are_stored_in_the_layout_in_which_they_are_typed() -> None:
-    for seed in range(amount(60, 2)):
+    for seed in range(amount(60, 1)):
         text = formatted(FILE, generate(seed))
         assert text is not None
         assert Typist().type(text) == text
 
 
-@settings(max_examples=amount(400, 30))
+@settings(max_examples=amount(400, 20))
 @given(st.text(alphabet="aE_NDIF;:=(*)/'\n\r ,\t{}", max_size=60), st.integers(0, 60), st.sampled_from("\n;F"))
 @example("}", 1, ";")
 def test_nothing_but_blanks_and_case_ever_changes(text: str, caret: int, key: str) -> None:

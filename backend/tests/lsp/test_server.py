@@ -10,6 +10,7 @@ from pytest_lsp import LanguageClient
 
 from scanbench.web.lsp.server import make_server
 from scanbench.web.lsp.stdio import folder_of
+from tests.amounts import slow
 from tests.lsp.client import conversation, opened
 
 BLOCK = """\
@@ -156,6 +157,7 @@ def test_completion_signatures_symbols_and_folding(folder: Path) -> None:
     conversation(folder, talk)
 
 
+@slow
 def test_a_client_may_want_statements_among_the_symbols(folder: Path) -> None:
     async def talk(client: LanguageClient) -> list[str]:
         doc = opened(client, folder / "main.st")
@@ -200,6 +202,7 @@ def test_a_document_and_some_of_its_lines_are_formatted(folder: Path) -> None:
     conversation(folder, talk)
 
 
+@slow
 def test_what_was_typed_is_formatted(folder: Path) -> None:
     async def talk(client: LanguageClient) -> None:
         doc = opened(client, folder / "main.st", "PROGRAM Main\nVAR 数:INT; END_VAR\nIF 数>1 THEN\n数:=1;\n  END_IF\n")
@@ -231,6 +234,7 @@ def test_a_problem_can_be_mended(folder: Path) -> None:
     conversation(folder, talk)
 
 
+@slow
 def test_arguments_show_their_parameters(folder: Path) -> None:
     async def talk(client: LanguageClient) -> None:
         text = MAIN.replace("total := 0;", "(* 𝒳 *) total := LIMIT(0, total, 9);")
@@ -245,6 +249,7 @@ def test_arguments_show_their_parameters(folder: Path) -> None:
     conversation(folder, talk)
 
 
+@slow
 def test_checks_of_subranges_are_hints_where_a_client_wants_them(folder: Path) -> None:
     async def talk(client: LanguageClient) -> list[types.InlayHint]:
         text = MAIN.replace("total : INT", "total : INT(0..200)").replace("total > 100", "total > 200")
@@ -297,6 +302,7 @@ def test_callers_and_what_is_called(folder: Path) -> None:
     conversation(folder, talk)
 
 
+@slow
 def test_a_block_says_how_many_instances_it_has_and_how_often_it_is_named(folder: Path) -> None:
     async def talk(client: LanguageClient) -> list[types.Command]:
         doc = opened(client, folder / "inc.st")

@@ -26,7 +26,7 @@ from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.amounts import amount
+from tests.amounts import amount, slow
 from tests.recording.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, tidy, to_program
 from tests.runtime.bench import value
 
@@ -369,6 +369,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
+@slow
 def test_two_processes_replay_a_million_scans_of_a_killed_run_to_the_same_hash(tmp_path: Path) -> None:
     path = tmp_path / "run"
     killed = _python(RECORD, path)

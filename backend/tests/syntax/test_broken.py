@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from scanbench.syntax.cursor import MAX_DEPTH, MAX_PROBLEMS
 from scanbench.syntax.lexer import KEYWORDS, MAX_UNREADABLE
 from scanbench.syntax.tree import File
-from tests.amounts import amount
+from tests.amounts import amount, slow
 from tests.syntax.shown import complaints, read, show
 
 WORDS = [
@@ -121,6 +121,7 @@ BOMBS = {
 }
 
 
+@slow
 def test_bombs_are_refused() -> None:
     """Depth, length and number: what took more than time in proportion would not come to an end here."""
     for name, text in BOMBS.items():

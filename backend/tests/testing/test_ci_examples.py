@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 import scanbench
+from tests.amounts import slow
 
 ROOT = Path(__file__).parents[3]
 BIN = Path(sys.executable).parent
@@ -24,7 +25,7 @@ def commands(name: str) -> list[str]:
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("name", ["gitlab-ci.yml", "github-actions.yml"])
+@pytest.mark.parametrize("name", [pytest.param("gitlab-ci.yml", marks=slow), "github-actions.yml"])
 def test_its_commands_do_what_it_says(name: str, tmp_path: Path) -> None:
     copytree(Path(scanbench.__file__).parent / "samples" / "conveyor", tmp_path / "plc")
     (tmp_path / "tests").mkdir()

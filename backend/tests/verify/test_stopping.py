@@ -12,7 +12,7 @@ from scanbench.faults.disturb.disturb import Disturb
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.program.program import Program
 from scanbench.recording.programs import cached, on
-from tests.amounts import amount, nightly
+from tests.amounts import amount, nightly, slow
 from tests.runtime.bench import program
 from tests.verify.verified_runs import record, verifier
 
@@ -78,7 +78,7 @@ def test_each_is_found_where_it_stops_the_plc(seed: int, made: Program, tmp_path
     found_where_it_stops(made, tmp_path, *stops(seed))
 
 
-@nightly
+@slow
 def test_a_loop_that_does_not_end_is_found(made: Program, tmp_path: Path) -> None:
     found_where_it_stops(made, tmp_path, *stops(1, LOOP))
 

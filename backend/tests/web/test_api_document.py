@@ -9,6 +9,7 @@ import httpx
 
 from scanbench.web.openapi import document
 from tests import client_shapes
+from tests.amounts import slow
 from tests.api_page import PAGE, page
 from tests.web.server import PATIENCE_S, Server
 
@@ -75,6 +76,7 @@ class Client:
         return None
 
 
+@slow
 def test_a_client_made_of_the_document_works(server: Server) -> None:
     client = Client(str(server.http.base_url), server.token)
     with client.http:

@@ -17,8 +17,8 @@ from tests.web.test_sweeps import finished
 
 Json = dict[str, object]
 JSON = {"Content-Type": "application/json"}
-EACH = amount(8, 2)
-"""Bodies of one route, chosen from all that there are."""
+EACH = amount(8, 1)
+"""Bodies of one route, chosen from all that there are; as many are taken of those that are odd for every route, and of the addresses."""
 IDS = ("0", "-1", str(2**31), str(2**63), str(10**20), "nobody", "%00")
 NUMBERS = (-1, 0, 1.5, 2**31, 2**53, 2**63, 2**64, 10**400, True, "7")
 TEXTS = (
@@ -75,7 +75,7 @@ class Api:
         for parameter in parameters:
             name, schema = str(parameter["name"]), cast(Json, parameter["schema"])
             odd = IDS if self._kind(schema) == "integer" else tuple(quote(str(text)[:9000], safe="") for text in TEXTS)
-            for value in odd:
+            for value in self._random.sample(odd, min(len(odd), 2 * EACH)):
                 yield self._address(path, parameters, {name: value})
         if not deleting:
             yield self._address(path, parameters, {})
@@ -95,7 +95,7 @@ class Api:
         odd = list(BODIES)
         if body is not None:
             told = [json.dumps(each).encode() for each in self._odd("", self._schema_of(body))]
-            odd = self._random.sample(odd, 4) + self._random.sample(told, min(EACH, len(told)))
+            odd = self._random.sample(odd, min(4, EACH)) + self._random.sample(told, min(EACH, len(told)))
         return odd
 
     # ---- by schema ------------------------------------------------------------------------------------------------
@@ -192,7 +192,7 @@ def test_no_request_makes_the_server_fail(alone: Server, named: Json) -> None:
         assert reply.status_code < 500, told
         if reply.status_code >= 400:
             assert reply.json()["message"], told
-    assert statuses[200] > 50, f"nearly everything was refused, nothing was tried: {statuses}"
+    assert statuses[200] > amount(50, 30), f"nearly everything was refused, nothing was tried: {statuses}"
     now = alone.state(cast(int, named["instance"]))
     assert now["restarts"] == 0, now
     assert now["state"] not in ("failed", "restarting", "silent", "no_space"), (

@@ -12,6 +12,7 @@ import pytest
 
 from scanbench.client import Plc, Refused, connect
 from scanbench.web.openapi import document
+from tests.amounts import slow
 from tests.cli.calling import scanbench
 from tests.web.server import Server
 
@@ -119,6 +120,7 @@ def test_a_script_arms_faults_and_takes_them_back(server: Server) -> None:
         plc.arm("battery-error", start={"kind": "line", "file": "main.st", "line": 99})
 
 
+@slow
 def test_the_examples_of_the_docs_run(tmp_path: Path) -> None:
     page = (Path(__file__).parents[3] / "docs" / "scripts.md").read_text("utf-8")
     examples = re.findall(r"```python\n(.*?)```", page, re.DOTALL)

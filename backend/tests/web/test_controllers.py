@@ -12,6 +12,7 @@ from asyncua import ua
 
 from scanbench.client import Plc, Refused, connect
 from scanbench.client.shapes.verification import VerificationInfo
+from tests.amounts import slow
 from tests.web.server import PATIENCE_S, Server
 from tests.web.test_communication import MODEL
 from tests.web.test_opcua import switch_on
@@ -143,6 +144,7 @@ SHORT, SINGLE, BOOL = ua.VariantType.Int16, ua.VariantType.Float, ua.VariantType
 GOOD = {"level": (40, SHORT), "twice": (80, SHORT), "high": (False, BOOL), "part": (40 / 3, SINGLE)}
 
 
+@slow
 def test_a_foreign_controller_is_mapped_by_its_names_and_goes_on_after_a_lost_connection(
     server: Server, plc: Plc, foreign: Foreign
 ) -> None:

@@ -3,6 +3,7 @@
 import os
 import signal
 
+from tests.amounts import slow
 from tests.web.server import Browser, Server
 
 COUNT = """
@@ -39,6 +40,7 @@ def test_first_start_runs_the_sample(server: Server) -> None:
         browser.wait(lambda: any(m["type"] == "state" and m["state"]["scan"] > first + 20 for m in browser.messages))
 
 
+@slow
 def test_a_silent_plc_is_alive(server: Server) -> None:
     instance = server.instance("silent", MODEL, main=COUNT)
     with server.browser(instance) as browser:

@@ -21,6 +21,7 @@ from scanbench.recording.blocks import read_contents
 from scanbench.recording.format import RunFile
 from scanbench.runtime.write_variables import WriteVariables
 from scanbench.wire.codec import ENTRIES
+from tests.amounts import slow
 from tests.cli.calling import scanbench
 from tests.web.server import PATIENCE_S, Server
 from tests.web.test_communication import MODEL, break_line, raise_battery_error, seen, until
@@ -303,6 +304,7 @@ def build(server: Server, instance: int, text: str) -> None:
     assert built["ok"], built
 
 
+@slow
 def test_a_changed_program_a_kill_and_a_plc_that_is_off(server: Server, tmp_path: Path) -> None:
     instance = server.instance("opc ua life", MODEL, main=SOURCE)
     address = switch_on(server, instance)

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 from websockets.sync.client import connect
 
+from tests.amounts import slow
 from tests.web.server import PATIENCE_S, Server
 
 SOURCE = "PROGRAM Main\nVAR n : DINT; basic AT A402.12 : BOOL; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
@@ -40,7 +41,7 @@ def until(condition: Callable[[], bool], timeout: float = PATIENCE_S) -> None:
         time.sleep(0.02)
 
 
-@pytest.mark.parametrize("kill", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("kill", [pytest.param(signal.SIGTERM, marks=slow), signal.SIGKILL])
 def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.Signals) -> None:
     with Server(tmp_path) as server:
         instance = server.instance("kept", "CJ1M-CPU63", main=SOURCE)
@@ -114,6 +115,7 @@ def children(pid: int) -> list[int]:
     return found + [int(each) for path in threads for each in (path / "children").read_text().split()]
 
 
+@slow
 def test_a_server_ends_with_all_its_children_also_frozen_ones(tmp_path: Path) -> None:
     with Server(tmp_path) as server:
         instance = server.instance("frozen", "CJ1M-CPU63", main=SOURCE)
@@ -145,6 +147,7 @@ def test_a_plc_that_dies_again_and_again_is_given_up_and_can_be_revived(server: 
         browser.wait(lambda: (browser.number("Main.n") or 0) > 5)
 
 
+@slow
 def test_a_slow_browser_gets_a_snapshot_and_the_others_do_not_wait(server: Server) -> None:
     count = 20_000
     source = (

@@ -5,6 +5,7 @@ from functools import partial
 
 import pytest
 
+from tests.amounts import slow
 from tests.web.server import Browser, Message, Server
 
 MODEL = "CJ1M-CPU63"
@@ -170,6 +171,7 @@ def test_how_the_program_reacts_is_found_out_by_itself(server: Server) -> None:
         assert reaction_of(browser, "io-bus-error")["verdict"] == "stopped"
 
 
+@slow
 def test_a_reaction_that_was_being_recorded_is_found_after_a_restart_of_the_server(
     tmp_path_factory: pytest.TempPathFactory,
 ) -> None:

@@ -1,5 +1,6 @@
 """Sweeps on a server: states, progress, findings, cancel and resume, comparison, an opened cell."""
 
+from tests.amounts import slow
 from tests.web.server import Browser, Message, Server
 from tests.web.test_simulator import MODEL, PROGRAM
 
@@ -27,6 +28,7 @@ def verdicts(server: Server, sweep: int, state: str) -> dict[str, str | None]:
     return {cell["error"]: cell["verdict"] for cell in whole["cells"] if cell["state"] == state}
 
 
+@slow
 def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None:
     instance = server.instance("swept", MODEL, main=PROGRAM)
     project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
@@ -107,6 +109,7 @@ def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None
         assert server.http.get(f"/api/sweeps/{sweep}").status_code == 404
 
 
+@slow
 def test_a_sweep_is_cancelled_and_resumed(server: Server) -> None:
     instance = server.instance("cancelled", MODEL, main=PROGRAM)
     with server.browser(instance) as browser:

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.amounts import slow
 from tests.web.server import Browser, Message, Server
 
 MODEL = "CJ1M-CPU63"
@@ -271,6 +272,7 @@ def test_killed_in_the_past_of_a_changed_run(server: Server) -> None:
         shown(browser, "Main.level", 5)
 
 
+@slow
 def test_a_million_scans_come_out_the_same_though_it_was_killed(server: Server, tmp_path: Path) -> None:
     """What three hosts ran, each killed before the next, another process replays to the same bytes."""
     instance = server.instance("a million", MODEL, main=COUNT)

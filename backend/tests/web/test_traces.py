@@ -7,6 +7,7 @@ import signal
 import struct
 from dataclasses import dataclass
 
+from tests.amounts import slow
 from tests.web.server import Message, Server
 
 MODEL = "CJ1M-CPU63"
@@ -232,6 +233,7 @@ def test_csv_kept_and_read_again(server: Server) -> None:
     assert server.http.get(f"/api/trace-records/{kept['id']}").status_code == 404
 
 
+@slow
 def test_a_large_trace_goes_out_page_by_page(server: Server) -> None:
     instance = paused(server, "trace large")
     trace = made(server, instance, scans=500_000)

@@ -3,6 +3,7 @@
 import httpx
 import pytest
 
+from tests.amounts import slow
 from tests.web.server import Server
 from tests.web.test_verify import MODEL, paused, scans
 
@@ -16,6 +17,7 @@ END_PROGRAM
 """
 
 
+@slow
 def test_the_smallest_change_is_asked_for(server: Server) -> None:
     instance = server.instance("what if", MODEL, main=PROGRAM)
     with server.browser(instance) as browser:

@@ -34,7 +34,7 @@ def agree(seed: int, opt_level: int) -> None:
         assert first_difference(program, *memories) == "", f"scan {scan} of\n{source}"
 
 
-@settings(max_examples=amount(160, 26))
+@settings(max_examples=amount(160, 12))
 @given(st.integers(0, (1 << 32) - 1), st.sampled_from([0, 2, 2, 2]))
 def test_the_engines_agree(seed: int, opt_level: int) -> None:
     agree(seed, opt_level)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.amounts import slow
 from tests.web.dap.client import PATIENCE_S, StdioClient
 from tests.web.dap.test_socket import CALL_A, FIRST, PROGRAM
 
@@ -110,6 +111,7 @@ def test_a_tool_that_leaves_while_it_is_refused_gets_both_answers() -> None:
         assert client.process.wait(PATIENCE_S) == 0
 
 
+@slow
 def test_a_service_that_is_no_server_of_ours_is_refused(mailer: str, nested: str, program: Path) -> None:
     with StdioClient() as client:
         client.ask("initialize", adapterID="scanbench")
@@ -122,6 +124,7 @@ def test_a_service_that_is_no_server_of_ours_is_refused(mailer: str, nested: str
         assert client.response(seq)["success"]
 
 
+@slow
 def test_attaching_can_be_cancelled_while_nobody_answers(silent: str) -> None:
     with StdioClient() as client:
         client.ask("initialize", adapterID="scanbench")
@@ -136,6 +139,7 @@ def test_attaching_can_be_cancelled_while_nobody_answers(silent: str) -> None:
         assert client.process.wait(PATIENCE_S) == 0
 
 
+@slow
 def test_nonsense_between_messages_is_answered(program: Path) -> None:
     with StdioClient() as client:
         client.launch(program, stopOnEntry=True)
@@ -180,6 +184,7 @@ def test_no_process_is_left_when_the_stream_ends_at_a_halt(program: Path) -> Non
         wait_until_ended(pids)
 
 
+@slow
 def test_thousands_of_breakpoints(tmp_path: Path) -> None:
     count = 2_500
     file = tmp_path / "Long.st"
@@ -199,6 +204,7 @@ def test_thousands_of_breakpoints(tmp_path: Path) -> None:
         assert client.stack()[0]["line"] == 3 + 2001
 
 
+@slow
 def test_what_was_built_is_kept_for_the_user_alone(program: Path, tmp_path: Path) -> None:
     cache = tmp_path / "cache"
     place: dict[str, object] = {"source": {"path": str(program)}, "breakpoints": [{"line": CALL_A}]}

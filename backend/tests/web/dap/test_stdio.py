@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.amounts import slow
 from tests.web.dap.client import PATIENCE_S, Closed, StdioClient
 from tests.web.dap.test_socket import CALL_A, FIRST, PROGRAM
 from tests.web.server import Server
@@ -79,6 +80,7 @@ def test_arguments_are_checked(project: Path) -> None:
         assert "does not exist" in client.refused("launch", program=str(project / "no.st"))
 
 
+@slow
 def test_a_launch_can_be_cancelled_and_tried_again(project: Path) -> None:
     with StdioClient() as client:
         client.ask("initialize", adapterID="scanbench")
@@ -94,6 +96,7 @@ def test_a_launch_can_be_cancelled_and_tried_again(project: Path) -> None:
         client.event("stopped")
 
 
+@slow
 def test_the_interval_counts(tmp_path: Path) -> None:
     (tmp_path / "main.st").write_text(TIMED)
     with StdioClient(cwd=tmp_path) as client:
@@ -104,6 +107,7 @@ def test_the_interval_counts(tmp_path: Path) -> None:
         assert client.value("Main.t.ET") == "T#750ms"
 
 
+@slow
 def test_no_debug_runs_through(project: Path) -> None:
     with StdioClient() as client:
 
@@ -119,6 +123,7 @@ def test_no_debug_runs_through(project: Path) -> None:
         assert not [each for each in client.messages if each.get("event") == "stopped"]
 
 
+@slow
 def test_bytes_that_are_no_messages_end_it() -> None:
     with StdioClient() as client:
         client.put_bytes(b"GET / HTTP/1.1\r\n\r\n")
@@ -156,6 +161,7 @@ def test_attaching_to_a_server(server: Server) -> None:
     assert server.state(instance)["state"] == "running"
 
 
+@slow
 def test_a_server_that_is_gone_ends_the_session(tmp_path: Path) -> None:
     with Server(tmp_path / "bench") as server:
         instance = server.instance("gone", "GENERIC-IEC", Main=PROGRAM)
