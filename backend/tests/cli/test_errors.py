@@ -283,6 +283,26 @@ def test_the_whole_catalogue_of_the_sample() -> None:
     assert result.returncode == 1
 
 
+def test_the_filling_sample_and_the_place_that_it_forgot(tmp_path: Path) -> None:
+    filling = str(files("scanbench").joinpath("samples/filling"))
+    running = tmp_path / "states.json"
+    running.write_text('[{"name": "Pouring", "scans": 200, "do": ["5: start=TRUE", "9: start=FALSE"]}]', "utf-8")
+    some = ("basic-io-error", "special-io-unit-error", "cpu-bus-unit-error", "battery-error", "cpu-bus-unit-setting-error")
+    only = [word for each in some for word in ("--only", each)]
+    result = scanbench("errors", "sweep", filling, *only, "--states", str(running), "--json")
+    assert result.returncode == 1, result.stderr
+    told = {each["id"]: each for each in json.loads(result.stdout)["results"]}
+    assert {id: each["verdict"] for id, each in told.items()} == {
+        "basic-io-error:rack=0,slot=0": "acted", "basic-io-error:rack=0,slot=1": "acted",
+        "special-io-unit-error:unit=0": "acted", "cpu-bus-unit-error:unit=2": "acted", "battery-error": "acted",
+        "cpu-bus-unit-setting-error:unit=2": "stored",
+    }  # fmt: skip
+    assert all(each["outcome"] == "passed" for cell in told.values() for each in cell["required"])
+    assert len(told["basic-io-error:rack=0,slot=1"]["required"]) == 5
+    (forgotten,) = (each for each in told["cpu-bus-unit-setting-error:unit=2"]["differences"] if "Alarm" in each["path"])
+    assert forgotten["path"] == "Main.alarms.settingAlarm"
+
+
 def test_a_state_after_a_restart_and_a_fault_with_a_shape(project: Path) -> None:
     given = states(
         project, [{"name": "Again", "do": ["5: Main.on=TRUE", "7: raise battery-error for 3", "20: restart cold"]}]

@@ -129,7 +129,7 @@ def test_what_cannot_be_taken_makes_no_project(
 
 def test_a_project_begins_with_a_template(server: Server) -> None:
     known = {each["id"]: each for each in server.http.get("/api/templates").json()}
-    assert {"error-handler", "instruction-list", "sequence", "conveyor", "dosing"} == set(known)
+    assert {"error-handler", "instruction-list", "sequence", "conveyor", "dosing", "filling"} == set(known)
     for each in known.values():
         new = {"name": f"from {each['id']}", "model": each["model"], "template": each["id"]}
         made = server.http.post("/api/projects", json=new)
