@@ -287,7 +287,13 @@ def test_the_filling_sample_and_the_place_that_it_forgot(tmp_path: Path) -> None
     filling = str(files("scanbench").joinpath("samples/filling"))
     running = tmp_path / "states.json"
     running.write_text('[{"name": "Pouring", "scans": 200, "do": ["5: start=TRUE", "9: start=FALSE"]}]', "utf-8")
-    some = ("basic-io-error", "special-io-unit-error", "cpu-bus-unit-error", "battery-error", "cpu-bus-unit-setting-error")
+    some = (
+        "basic-io-error",
+        "special-io-unit-error",
+        "cpu-bus-unit-error",
+        "battery-error",
+        "cpu-bus-unit-setting-error",
+    )
     only = [word for each in some for word in ("--only", each)]
     result = scanbench("errors", "sweep", filling, *only, "--states", str(running), "--json")
     assert result.returncode == 1, result.stderr
@@ -299,7 +305,9 @@ def test_the_filling_sample_and_the_place_that_it_forgot(tmp_path: Path) -> None
     }  # fmt: skip
     assert all(each["outcome"] == "passed" for cell in told.values() for each in cell["required"])
     assert len(told["basic-io-error:rack=0,slot=1"]["required"]) == 5
-    (forgotten,) = (each for each in told["cpu-bus-unit-setting-error:unit=2"]["differences"] if "Alarm" in each["path"])
+    (forgotten,) = (
+        each for each in told["cpu-bus-unit-setting-error:unit=2"]["differences"] if "Alarm" in each["path"]
+    )
     assert forgotten["path"] == "Main.alarms.settingAlarm"
 
 
