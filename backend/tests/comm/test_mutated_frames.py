@@ -19,7 +19,7 @@ from tests.comm.bench import LocalDoor, machine
 
 FRAMES = amount(100_000, 320)
 AT_ONCE = 16
-"""On one connection: a length that is wrong swallows what comes behind it."""
+"""On one connection: a length that is wrong swallows what comes after it."""
 MOST_BYTES = 4 << 20
 """More than this may not be left over."""
 
