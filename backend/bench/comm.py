@@ -21,9 +21,10 @@ from typing import Any
 
 import httpx
 
+from bench.fins_clients import PER_SECOND, WORDS, Udp, fins, fins_from
 from bench.opcua_clients import reads, subscribed
 
-CLIENTS, PER_SECOND, WORDS = 50, 20, 100
+CLIENTS = 50
 UA_CLIENTS, UA_NODES, UA_MS, UA_CHANGING = 10, 1000, 100, 100
 """So many clients subscribe to so many variables each, ten times a second; so many of them change with each scan."""
 UA_READY_S = 25.0
@@ -115,42 +116,6 @@ def _cpu(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / _TICKS
 
 
-class Udp(asyncio.DatagramProtocol):
-    """One FINS client: a question, then its answer."""
-
-    def __init__(self, node: int) -> None:
-        self.node = node
-        self.answered: asyncio.Future[bytes] | None = None
-
-    def datagram_received(self, data: bytes, addr: tuple[str, int]) -> None:
-        if self.answered is not None and not self.answered.done():
-            self.answered.set_result(data)
-
-
-async def fins(port: int, clients: int, seconds: float) -> list[float]:
-    """Latencies of reads of 100 words, each client 20 times a second."""
-    loop, took = asyncio.get_running_loop(), list[float]()
-
-    async def one(node: int) -> None:
-        transport, client = await loop.create_datagram_endpoint(lambda: Udp(node), remote_addr=("127.0.0.1", port))
-        frame = (
-            bytes.fromhex("800002000100") + bytes((0, node, 0, 1)) + bytes.fromhex("0101820064") + bytes((0, 0, WORDS))
-        )
-        begin = loop.time() + node / clients / PER_SECOND
-        for at in range(int(seconds * PER_SECOND)):
-            await asyncio.sleep(begin + at / PER_SECOND - loop.time())
-            client.answered = loop.create_future()
-            asked = loop.time()
-            transport.sendto(frame)
-            answer = await asyncio.wait_for(client.answered, 10)
-            took.append(loop.time() - asked)
-            assert answer[12:14] == b"\0\0", answer[:14].hex()
-        transport.close()
-
-    await asyncio.gather(*(one(node) for node in range(1, clients + 1)))
-    return took
-
-
 async def modbus(port: int, clients: int, seconds: float) -> list[float]:
     """The same by Modbus."""
     loop, took = asyncio.get_running_loop(), list[float]()
@@ -199,12 +164,14 @@ def measure(bench: Bench, what: str, work: Any, seconds: float) -> Load:
 
 
 def measure_opcua(
-    bench: Bench, what: str, work: Callable[..., list[float]], port: int, clients: int, nodes: int, seconds: float
-) -> Load:
-    """Clients that have subscribed, or that read. A latency is from request to answer; of what is subscribed to, from when a value was
+    bench: Bench, what: str, work: Callable[..., list[float]], port: int, clients: int, nodes: int, seconds: float,
+    beside: tuple[int, int] | None = None,
+) -> list[Load]:  # fmt: skip
+    """`beside`: port and number of clients of FINS at the same time, in a process of their own. Clients that have subscribed, or that read. A latency is from request to answer; of what is subscribed to, from when a value was
     read in the PLC to when the client has it."""
     begin = time.time() + UA_READY_S
-    with ProcessPoolExecutor(clients) as pool:
+    with ProcessPoolExecutor(clients + 1) as pool:
+        others = None if beside is None else pool.submit(fins_from, *beside, begin, seconds)
         waiting = [
             pool.submit(work, port, nodes, UA_MS, begin + each * UA_MS / clients / 1000, seconds)
             for each in range(clients)
@@ -215,8 +182,10 @@ def measure_opcua(
         time.sleep(seconds)
         lasted, after, state = time.perf_counter() - at, bench.cpu(), bench.state
         took = sorted(each for one in waiting for each in one.result())
+        asked = None if others is None else sorted(others.result())
     percent = [100 * (b - a) / lasted for a, b in zip(before, after, strict=True)]
-    return _load(what, took, lasted, percent, state)
+    loads = [_load(what, took, lasted, percent, state)]
+    return loads if asked is None else [*loads, _load("  FINS then", asked, lasted, percent, state)]
 
 
 def _load(what: str, took: list[float], lasted: float, percent: list[float], state: dict[str, Any]) -> Load:
@@ -243,8 +212,18 @@ def main() -> None:
                 measure(bench, "no client", None, given.seconds),
                 measure(bench, "FINS", fins(port, given.clients, given.seconds), given.seconds),
                 measure(bench, "Modbus", modbus(other, min(16, given.clients), given.seconds), given.seconds),
-                measure_opcua(bench, "OPC UA reads", reads, ua, given.ua_clients, WORDS, given.seconds),
-                measure_opcua(bench, "OPC UA", subscribed, ua, given.ua_clients, UA_NODES, given.seconds),
+                *measure_opcua(bench, "OPC UA reads", reads, ua, given.ua_clients, WORDS, given.seconds),
+                *measure_opcua(bench, "OPC UA", subscribed, ua, given.ua_clients, UA_NODES, given.seconds),
+                *measure_opcua(
+                    bench,
+                    "OPC UA, FINS",
+                    subscribed,
+                    ua,
+                    given.ua_clients,
+                    UA_NODES,
+                    given.seconds,
+                    (port, given.clients),
+                ),
                 measure(bench, "broken frames", storm(port, given.storm), given.seconds),
                 measure(bench, "no client", None, given.seconds),
             ]

@@ -6,6 +6,7 @@ from typing import Any
 from asyncua import ua
 from asyncua.server import internal_subscription, monitored_item_service
 from asyncua.server.monitored_item_service import MonitoredItemService, MonitoredItemValues
+from asyncua.server.subscription_service import SubscriptionService
 from asyncua.ua import uaprotocol_auto
 
 from scanbench.comm.opcua.space import Variable
@@ -71,6 +72,30 @@ class _Items(MonitoredItemService):
             await super()._trigger_event(event, mid)
         except Exception:  # the others are told
             log.exception("a subscriber of OPC UA could not be told of an event")
+
+
+class Publishing:
+    """Tells clients right after values were read: in asyncua each subscription has a clock of its own, so that a value lies there for half
+    of its interval in the mean. That clock goes on, for what is no value."""
+
+    def __init__(self, service: SubscriptionService) -> None:
+        self._service = service
+        self._last: dict[int, float] = {}
+        """When each subscription was told."""
+
+    async def sampled(self, now: float, interval_s: float) -> None:
+        """Values were read at `now`, and are every `interval_s`: each subscription is told as often as it wants."""
+        there = self._service.subscriptions
+        self._last = {id: at for id, at in self._last.items() if id in there}
+        for id, each in list(there.items()):
+            rest = each.data.RevisedPublishingInterval / 1000 - interval_s / 2
+            if not each._triggered_datachanges or now - self._last.get(id, -rest) < rest:
+                continue
+            self._last[id] = now
+            try:
+                await each.publish_results()
+            except Exception:  # the others are told
+                log.exception("a subscription of OPC UA could not be told")
 
 
 def _number(value: ua.DataValue | None) -> float | None:

@@ -15,6 +15,7 @@ from scanbench.comm.opcua.connection import Line
 from scanbench.comm.opcua.errors import Errors
 from scanbench.comm.opcua.forms import Form
 from scanbench.comm.opcua.ids import INDEX, own, standard
+from scanbench.comm.opcua.items import Publishing
 from scanbench.comm.opcua.link import Link
 from scanbench.comm.opcua.socket import OpcUa
 from scanbench.comm.opcua.space import NAMESPACE, Space, Variable
@@ -63,6 +64,7 @@ class Plc:
         """Makes the nodes that are always there, and listens. `OSError`."""
         iserver = ToPlc(Desk(self._start, self._link, self._space, self._values, {}, (_PLC, _ERRORS)))
         _use(iserver, self._space)
+        self._values.publishing = Publishing(iserver.subscription_service)
         server = self._server = OpcUa(self._start, iserver, self._line)
         await server.prepare()
         index = await server.register_namespace(NAMESPACE)

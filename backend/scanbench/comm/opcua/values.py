@@ -8,6 +8,7 @@ from typing import cast
 
 from asyncua import ua
 
+from scanbench.comm.opcua.items import Publishing
 from scanbench.comm.opcua.link import Link, NotThere
 from scanbench.comm.opcua.space import Space, Variable
 from scanbench.runtime.clock import wall_time
@@ -35,6 +36,7 @@ class Values:
         self._wanted = asyncio.Event()
         self.interval_ms = SLOWEST_MS
         """How often is read what clients have subscribed to: as the fastest of them wants it."""
+        self.publishing: Publishing | None = None
 
     # ---- read once ------------------------------------------------------------------------------------------------
 
@@ -107,6 +109,8 @@ class Values:
             self._watched = {each.id: None for each in there}
             if there:
                 await self.refresh(there)
+                if self.publishing is not None:
+                    await self.publishing.sampled(loop.time(), self.interval_ms / 1000)
 
     async def refresh(self, variables: Sequence[Variable]) -> None:
         """Gives their nodes what changed, at once: a client sees all of it as of one scan."""
