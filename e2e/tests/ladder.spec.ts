@@ -101,6 +101,38 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(sheet.getByText('Rungs 1, 2 write on')).toHaveCount(0);
   });
 
+  await test.step('elements and rungs are copied as text, repeated, named and switched off', async () => {
+    await sheet.focus();
+    await keyboard.press('Control+L');
+    await keyboard.press('Control+C');
+    await keyboard.press('Control+V');
+    await expect(sheet.getByRole('group')).toHaveCount(2);
+    const second = sheet.getByRole('group').nth(1);
+    await expect(second.getByRole('option', { name: 'Coil on' })).toBeVisible();
+    await keyboard.press('t');
+    await keyboard.press('Control+A');
+    await keyboard.type('Once more');
+    await keyboard.press('Enter');
+    await expect(second).toContainText('Once more');
+    await expect(sheet).toBeFocused();
+    await second.getByRole('option', { name: 'Contact go' }).click();
+    await keyboard.press('Control+D');
+    await expect(second.getByRole('option', { name: 'Contact go' })).toHaveCount(2);
+    await keyboard.press('Control+X');
+    await expect(second.getByRole('option', { name: 'Contact go' })).toHaveCount(1);
+    await keyboard.press('Control+/');
+    await expect(second).toContainText('switched off');
+    await second.getByText('Once more').click();
+    await keyboard.press('Control+X');
+    await expect(sheet.getByRole('group')).toHaveCount(1);
+    await page.evaluate(() => {
+      const data = new DataTransfer();
+      data.setData('text/plain', 'hello world');
+      document.activeElement?.dispatchEvent(new ClipboardEvent('paste', { clipboardData: data, bubbles: true }));
+    });
+    await expect(page.getByText('The clipboard has no rung, network or element that fits here.')).toBeVisible();
+  });
+
   await test.step('it is the text of the file', async () => {
     await page.getByRole('radio', { name: 'Both' }).click();
     await expect(mika.editor('Latch.st').line('| [on]')).toBeVisible();

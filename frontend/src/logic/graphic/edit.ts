@@ -35,6 +35,8 @@ export interface Naming {
   value: string;
   offers: Offers;
   example?: string;
+  /** What of the head is named; an element without it. */
+  head?: "label" | "title" | "comment";
   /** The edit with this text in the element; null where the text does not fit there. */
   taken: (typed: string, around: Around) => Edit | null;
 }

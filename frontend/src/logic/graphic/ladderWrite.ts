@@ -17,7 +17,7 @@ export function writeRung(head: Head, path: Path, indent: string): string {
 }
 
 /** The first line of a network and its comment, with the line break after them. */
-function writeHead(word: string, { label, title, comment }: Head, indent: string): string {
+export function writeHead(word: string, { label, title, comment }: Head, indent: string): string {
   const named = label === "" ? "" : ` ${label}:`;
   const titled = title === "" ? "" : ` "${title.replace(/[$"]/g, "$$$&")}"`;
   const below = comment.map((line) => `${indent}${STEP}//${line === "" ? "" : ` ${line}`}\n`);

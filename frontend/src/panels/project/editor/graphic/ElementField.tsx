@@ -1,8 +1,9 @@
 import { wiresIn } from "../../../../logic/graphic/diagramEdit";
 import type { Around, Box, Edit, Naming } from "../../../../logic/graphic/edit";
 import { inText } from "../../../../logic/graphic/places";
-import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
+import { type DrawnPart, type Spot, stopsOf } from "../../../../logic/graphic/sheet";
 import { loadBoxes, variablesAt } from "../../../../store/graphic/boxes";
+import { t } from "../../../../text";
 import type { Offer } from "../../../../ui/useOffers";
 import { sameElement } from "./cursor";
 import { NameField } from "./NameField";
@@ -23,7 +24,8 @@ interface Props {
 /** The field of the element that is being named, with what it offers. */
 export function ElementField({ path, written, part, named, around, onTake, onLeave }: Props) {
   const { naming, place } = named;
-  const stop = stopsOf(part).find((each) => sameElement(each.place, place));
+  const { head } = naming;
+  const stop = head ? HEAD : stopsOf(part).find((each) => sameElement(each.place, place));
   if (!stop) return null;
   const at = inText(written, written.found.body.at);
 
@@ -52,16 +54,19 @@ export function ElementField({ path, written, part, named, around, onTake, onLea
 
   return (
     <NameField
-      key={`${place.join(".")} ${naming.offers} ${named.text}`}
+      key={`${place.join(".")} ${head ?? naming.offers} ${named.text}`}
       naming={naming}
       spot={stop}
-      label={nameOfStop(stop)}
+      label={head ? t(`graphic.head.${head}`) : nameOfStop(stop as Spot)}
       names={names}
       onTake={take}
       onLeave={onLeave}
     />
   );
 }
+
+/** Above the drawing. */
+const HEAD = { x: 0, y: -8, width: 360 };
 
 const ICONS = { function: "fn", block: "fb", instance: "var" } as const;
 

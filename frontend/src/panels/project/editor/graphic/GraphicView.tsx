@@ -1,5 +1,6 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import {
+  type ClipboardEvent,
   type KeyboardEvent,
   type MouseEvent,
   type PointerEvent,
@@ -59,7 +60,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const sheet = useRef<HTMLDivElement>(null);
   const parts = useRef(new Sheet());
   const [width, setWidth] = useState(640);
-  const [cursor, setCursor] = useState<Cursor>({ rung: 0, place: [0] });
+  const [wanted, setCursor] = useState<Cursor>({ rung: 0, place: [0] });
   const id = useId();
   const view = useViewOf(path, text);
   useDocuments(({ pous }) => pous);
@@ -70,6 +71,11 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   );
   const room = Math.max(320, width - BESIDE);
   const drawn = useMemo(() => parts.current.of(text, room), [text, room]);
+  // Its rung may have been taken back, or deleted by somebody else.
+  const cursor = useMemo(
+    () => (drawn.length > 0 && wanted.rung >= drawn.length ? { rung: drawn.length - 1, place: [] } : wanted),
+    [wanted, drawn.length],
+  );
   const pous = shownText(path).pous;
 
   const twice = useMemo(
@@ -172,6 +178,21 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     event.preventDefault();
   }
 
+  /** What is copied in a field is its text, and no business of the drawing. */
+  function onClipboard(event: ClipboardEvent, copy: (at: Cursor) => string | null): void {
+    if (event.target instanceof HTMLInputElement) return;
+    const text = copy(cursor);
+    if (text === null) return;
+    event.clipboardData.setData("text/plain", text);
+    event.preventDefault();
+  }
+
+  function onPaste(event: ClipboardEvent): void {
+    if (event.target instanceof HTMLInputElement) return;
+    event.preventDefault();
+    editing.put(cursor, event.clipboardData.getData("text/plain"));
+  }
+
   function onDoubleClick({ target: on }: MouseEvent): void {
     if (!(on instanceof Element) || !on.closest(".netbody")) return;
     if (!on.closest("[data-element]") || !editing.press("F2", cursor)) toText();
@@ -260,6 +281,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         aria-label={t("graphic.of", { path })}
         aria-activedescendant={active ? `${id}${cursor.rung}-${active.place.join(".")}` : undefined}
         onKeyDown={onKeyDown}
+        onCopy={(event) => onClipboard(event, editing.copy)}
+        onCut={(event) => onClipboard(event, editing.cut)}
+        onPaste={onPaste}
         onFocus={look}
         onClick={onClick}
         onPointerDown={onPointerDown}

@@ -1,12 +1,14 @@
 import { type KeyboardEvent, useState } from "react";
 import { chartEdit } from "../../../../logic/graphic/chartKeys";
+import { copied, networksOf, pasted } from "../../../../logic/graphic/clip";
 import { diagramEdit } from "../../../../logic/graphic/diagramKeys";
 import type { Around, Edit, Made, Naming } from "../../../../logic/graphic/edit";
+import { headEdit } from "../../../../logic/graphic/head";
 import { rungEdit } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
 import type { TextKey } from "../../../../text";
-import { addPart, removePart, takeBack, writePart } from "./write";
+import { addPart, putParts, removePart, switchPart, takeBack, writePart } from "./write";
 
 export interface Cursor {
   rung: number;
@@ -60,6 +62,9 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     else if (part.kind !== "chart" && lower === "ctrl+i") return added(at, part, false);
     else if (part.kind !== "chart" && lower === "ctrl+shift+i") return added(at, part, true);
     else if (part.kind !== "chart" && (lower === "ctrl+delete" || emptied(part, key))) return removed(at, part);
+    else if (lower === "ctrl+l") go({ rung: at, place: [] });
+    else if (lower === "ctrl+d") return put({ rung: at, place }, copied(part, place) ?? "");
+    else if (part.kind !== "chart" && lower === "ctrl+/") switchPart(path, part.found);
     else return !lower.startsWith("ctrl+") && begin(at, madeOf(part, key, place, around));
     setRefused(null);
     return true;
@@ -77,6 +82,34 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     return true;
   }
 
+  /** Puts a text in after the cursor: networks below this one, elements after this one. Refused where it is neither. */
+  function put({ rung: at, place }: Cursor, text: string): boolean {
+    const part = drawn[at];
+    if (!part || readOnly) return false;
+    const networks = networksOf(text);
+    if (networks === null) return begin(at, pasted(part, place, text, around(part)));
+    if (part.kind === "chart") return begin(at, { refused: "graphic.refused.paste.chart" });
+    setRefused(null);
+    putParts(path, part.found, networks);
+    go({ rung: at + networks.length, place: [] });
+    return true;
+  }
+
+  /** What is copied at the cursor; null where there is nothing. */
+  function copy({ rung: at, place }: Cursor): string | null {
+    const part = drawn[at];
+    return part ? copied(part, place) : null;
+  }
+
+  function cut(cursor: Cursor): string | null {
+    const part = drawn[cursor.rung];
+    const text = copy(cursor);
+    if (!part || text === null || readOnly) return null;
+    if (networksOf(text) !== null || !part.readable) removed(cursor.rung, part);
+    else press("Delete", cursor);
+    return text;
+  }
+
   function onKey(event: KeyboardEvent, cursor: Cursor): boolean {
     const { key, ctrlKey, altKey, shiftKey } = event;
     const shifted = shiftKey && (ctrlKey || /^[a-z]$/i.test(key));
@@ -91,7 +124,7 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     return made;
   }
 
-  return { named, refused, press, onKey, begin, take, leave: () => setNamed(null) };
+  return { named, refused, press, onKey, begin, take, copy, cut, put, leave: () => setNamed(null) };
 }
 
 const emptied = (part: DrawnPart, key: string) =>
@@ -100,6 +133,8 @@ const emptied = (part: DrawnPart, key: string) =>
 function madeOf(part: DrawnPart, key: string, place: Place, around: (part: DrawnPart) => Around): Made {
   const { found } = part;
   const { text, head, indent } = found;
+  const made = part.kind === "chart" ? null : headEdit(found, key, place);
+  if (made) return made;
   if (part.kind === "network") return diagramEdit(text, key, place, around(part));
   if (part.kind === "chart") return chartEdit(found, key, place, around(part));
   const { path, comments } = part;

@@ -52,6 +52,18 @@ export function addPart(path: string, found: Found, above: boolean): void {
   changeText(path, [{ at, end: at, text: above ? `${text}\n${indent}` : `\n${indent}${text}` }]);
 }
 
+/** Networks below this one. */
+export function putParts(path: string, { to, indent }: Found, networks: readonly string[]): void {
+  const lines = networks.flatMap((text) => text.split("\n"));
+  changeText(path, [{ at: to, end: to, text: lines.map((line) => `\n${line === "" ? "" : indent}${line}`).join("") }]);
+}
+
+/** Comments a network out with `{off}`, or in again. */
+export function switchPart(path: string, found: Found): void {
+  const at = beginOf(path, found);
+  changeText(path, [{ at, end: found.from, text: found.head.off ? "" : "{off} " }]);
+}
+
 /** Where a part begins with its pragma. */
 const beginOf = (path: string, { from, head }: Found) =>
   head.off ? modelAt(path).getValue().lastIndexOf("{", from) : from;
