@@ -98,6 +98,24 @@ test('a network is drawn by keys from nothing, is text at once, is built, and it
     await mika.watch.set('stop', 'TRUE');
     await expect(value).toContainText('on FALSE');
   });
+
+  await test.step('a line that is pasted sets a wire of its own, and the network has a title and is copied', async () => {
+    await item('1: box OR to #w1').click();
+    await keyboard.press('Control+C');
+    await keyboard.press('Control+V');
+    await expect(item('2: box OR to #w3')).toHaveAttribute('aria-selected', 'true');
+    await keyboard.press('Control+X');
+    await expect(item('2: box OR to #w3')).toHaveCount(0);
+    await keyboard.press('t');
+    await type('Twice', 'Enter');
+    await expect(sheet.getByText('Twice')).toBeVisible();
+    await expect(sheet).toBeFocused();
+    await keyboard.press('Control+L');
+    await keyboard.press('Control+D');
+    await expect(sheet.getByRole('group')).toHaveCount(2);
+    await keyboard.press('Control+/');
+    await expect(sheet.getByText('switched off')).toHaveCount(1);
+  });
 });
 
 test('a network is drawn with the mouse @nightly', async ({ openAs, server }) => {
@@ -204,6 +222,20 @@ test('a chart is drawn by keys from its first step, is built, and runs @nightly'
     await mika.watch.set('start', 'FALSE');
     await mika.watch.set('stop', 'TRUE');
     await expect(sheet.locator('.step.on')).toHaveCount(1);
+  });
+
+  await test.step('an action and a step are copied', async () => {
+    await option('Action on, N, of step Fill').click();
+    await keyboard.press('Control+C');
+    await option('Initial step Init').click();
+    await keyboard.press('Control+V');
+    await expect(option('Action on, N, of step Init')).toBeVisible();
+    await option('Step Fill').click();
+    await keyboard.press('Control+D');
+    await expect(option('Step Fill1')).toBeVisible();
+    await expect(option('Action on, N, of step Fill1')).toBeVisible();
+    for (let edits = 0; edits < 2; edits += 1) await keyboard.press('Control+Z');
+    await expect(option('Step Fill1')).toHaveCount(0);
   });
 
   await test.step('with the mouse: a step that is chosen, an action by its button, and what is deleted', async () => {
