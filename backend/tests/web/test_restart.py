@@ -59,7 +59,7 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
         before = [server.http.get(path).json() for path in paths]
         until(lambda: kept(tmp_path, instance) == ["generated"])  # history is written in the background
         pids = [each["state"]["pid"] for each in server.http.get("/api/instances").json()]
-        assert len(pids) == 4  # the samples and these
+        assert len(pids) == 5  # the samples and these
         assert all(map(alive, pids))
         os.kill(server.process.pid, kill)
         server.process.wait(PATIENCE_S)
