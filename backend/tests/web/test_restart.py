@@ -67,7 +67,7 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
 
     with Server(tmp_path) as again:
         names = [each["name"] for each in again.http.get("/api/instances").json()]
-        assert names == ["line-1", "line-2", "kept", "paused"]
+        assert names == ["line-1", "line-2", "line-3", "kept", "paused"]
         rows = {row["id"]: row for row in again.http.get(f"/api/instances/{instance}/errors").json()}
         row = rows["basic-io-error"]
         assert (row["status"], row["count"], row["by"]) == ("generated", 1, "Ada Lovelace")  # it is still present
