@@ -132,6 +132,8 @@ class Body:
         """Debugged code: what is known of the run of this body."""
         self.idle = ""
         """Debugged code: whether the loop around has not run a round yet."""
+        self.outside = ""
+        """In a loop whose checks are recorded later: the variable of the stack that says that one was violated."""
         self.divided = inlining.divided(pou) and unit.flavour is RUN
         """Whether lists of statements are emitted in pieces."""
         self._swallowed = 0

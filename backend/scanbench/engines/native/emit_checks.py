@@ -1,5 +1,6 @@
 """Subrange checks: a branch that is hardly ever taken, and a list in the image of what was found there."""
 
+from scanbench.engines.native import emit_deferred
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_operators import intrinsic
@@ -96,6 +97,9 @@ def limit(body: Body, expr: Limit) -> Value:
         return value
     text = body.text
     outside = _outside(body, value, type, (expr.low, expr.high))
+    if body.outside:
+        emit_deferred.note(body, outside)
+        return within_bounds(body, value, type, (expr.low, expr.high))
     before, beyond, on = text.block, text.name("beyond"), text.name("on")
     text.choose(outside, beyond, on, UNLIKELY)
     text.begin(beyond)

@@ -28,6 +28,17 @@ class Value:
         return self.low, self.high
 
 
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A position in a function that is being written."""
+
+    lines: int
+    entry: int
+    block: str
+    fails: int
+    failures: dict[tuple[str, str, str], str]
+
+
 class FunctionText:
     """Builds the text of a function that returns a status: 0, or the number of a trap."""
 
@@ -46,6 +57,8 @@ class FunctionText:
         self.block = "start"
         self._count = 0
         self._failures: dict[tuple[str, str, str], str] = {}
+        self._fails = 0
+        """How often a way out was asked for."""
         self._trapping_to = ""
         self._catching = "", ""
         self._rooms: dict[str, str] = {}
@@ -84,10 +97,27 @@ class FunctionText:
         """Ends the block with a conditional branch."""
         self.lines.append(f"  br i1 {condition}, label %{yes}, label %{no}{weights}")
 
+    # ---- taking back -----------------------------------------------------------------------------------
+
+    def mark(self) -> Mark:
+        """What `undo` goes back to, within one statement and one block."""
+        return Mark(len(self.lines), len(self.entry), self.block, self._fails, dict(self._failures))
+
+    def failed_since(self, mark: Mark) -> bool:
+        """Whether anything since then can trap, or leave the function."""
+        return self._trapping_to != "" or self._fails > mark.fails
+
+    def undo(self, mark: Mark) -> None:
+        """Drops the lines since then."""
+        del self.lines[mark.lines :], self.entry[mark.entry :]
+        self.block, self._failures = mark.block, dict(mark.failures)
+        self._addresses.clear()
+
     # ---- traps ------------------------------------------------------------------------------------------
 
     def fail(self, status: str) -> str:
         """The block that leaves the function with this status: the number of a trap, a value, or less than 0."""
+        self._fails += 1
         if self._trapping_to:
             return self._trapping_to
         where = ("", "") if status.startswith("-") else self._catching

@@ -1,8 +1,10 @@
 """Loops, and the budget that ends those that never would."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TypeAlias
 
+from scanbench.engines.native import emit_deferred
 from scanbench.engines.native.effects import keeps, plain
 from scanbench.engines.native.emit_body import Body, counter_key
 from scanbench.engines.native.emit_checks import within_bounds
@@ -17,6 +19,7 @@ from scanbench.program.program import Base, Const, For, Place, Repeat, While
 from scanbench.program.types import Elementary
 from scanbench.program.untyped import bounds
 
+Round: TypeAlias = "Callable[[Body, For, str, tuple[int, int], tuple[str, str]], None]"
 I64 = (-(1 << 63), (1 << 63) - 1)
 
 
@@ -116,24 +119,41 @@ def _counted(body: Body, loop: For, parts: tuple[Value, Value, int]) -> None:
     first, last = widened(body, start, type), widened(body, end, type)
     if not loop.exits:
         _take_counted(body, (first, last), parts, loop.trap)
-    before, head, inside, latch = text.block, text.name("for"), text.name("do"), text.name("next")
-    done, after, next_value = text.name("done"), text.name("after"), f"%{text.name('n')}"
+    after, inner = text.name("after"), (start.low, end.high) if step > 0 else (end.low, start.high)
+
+    def all_rounds(inside: Round) -> str:
+        return _rounds(
+            body, (first, last, step), lambda counter, latch: inside(body, loop, counter, inner, (after, latch))
+        )
+
+    counter = None
+    if emit_deferred.deferrable(body, loop):
+        counter = emit_deferred.rounds(body, lambda: all_rounds(_round), lambda: all_rounds(_recorded))
+    if counter is None:
+        counter = all_rounds(_round)
+    body.unit.flavour.ends(body, loop)
+    _store_counter(body, loop, counter, type)
+    text.go(after)
+    text.begin(after)
+
+
+def _rounds(body: Body, count: tuple[str, str, int], inside: Callable[[str, str], None]) -> str:
+    """Emits the rounds; `inside` gets the counter and the block of the next round. Gives the counter that failed the test."""
+    text, (first, last, step) = body.text, count
+    before, head, do, latch = text.block, text.name("for"), text.name("do"), text.name("next")
+    done, next_value = text.name("done"), f"%{text.name('n')}"
     text.go(head)
     text.begin(head)
     counter = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
-    text.choose(text.op(f"icmp {'sle' if step > 0 else 'sge'} i64 {counter}, {last}"), inside, done)
-    text.begin(inside)
-    inner = (start.low, end.high) if step > 0 else (end.low, start.high)
-    _round(body, loop, counter, inner, (after, latch))
+    text.choose(text.op(f"icmp {'sle' if step > 0 else 'sge'} i64 {counter}, {last}"), do, done)
+    text.begin(do)
+    inside(counter, latch)
     text.go(latch)
     text.begin(latch)
     text.do(f"{next_value} = add nsw i64 {counter}, {step}")
     text.go(head)
     text.begin(done)
-    body.unit.flavour.ends(body, loop)
-    _store_counter(body, loop, counter, type)
-    text.go(after)
-    text.begin(after)
+    return counter
 
 
 def _take_counted(body: Body, ends: tuple[str, str], parts: tuple[Value, Value, int], trap: int) -> None:
@@ -154,9 +174,7 @@ def _take_counted(body: Body, ends: tuple[str, str], parts: tuple[Value, Value, 
 def _round(body: Body, loop: For, counter: str, inner: tuple[int, int], leave: tuple[str, str]) -> None:
     """Stores the counter and runs the body, which may know the variable's value."""
     type, place = elementary(loop.variable.type), loop.variable
-    low, high = max(inner[0], bounds(type)[0]), min(inner[1], bounds(type)[1])
-    # a loop without rounds has no range; any will do then
-    value = _narrow(body, counter, type, "nsw " if type.signed else "nuw ", (min(low, high), max(low, high)))
+    value = _counter(body, loop, counter, inner)
     if loop.exits:
         take(body, "1", loop.trap)
     _put(body, place, type, value)
@@ -170,6 +188,21 @@ def _round(body: Body, loop: For, counter: str, inner: tuple[int, int], leave: t
     with _inside(body, *leave):
         body.run(loop.body)
     body.counters = outer
+
+
+def _recorded(body: Body, loop: For, counter: str, inner: tuple[int, int], _leave: tuple[str, str]) -> None:
+    """What the checks of a round record: see `emit_deferred`."""
+    outer = body.counters
+    body.counters = {**outer, counter_key(loop.variable): _counter(body, loop, counter, inner)}
+    emit_deferred.record(body, loop)
+    body.counters = outer
+
+
+def _counter(body: Body, loop: For, counter: str, inner: tuple[int, int]) -> Value:
+    type = elementary(loop.variable.type)
+    low, high = max(inner[0], bounds(type)[0]), min(inner[1], bounds(type)[1])
+    # a loop without rounds has no range; any will do then
+    return _narrow(body, counter, type, "nsw " if type.signed else "nuw ", (min(low, high), max(low, high)))
 
 
 def _put(body: Body, place: Place, type: Elementary, value: Value) -> None:
