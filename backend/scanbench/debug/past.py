@@ -11,7 +11,7 @@ from scanbench.engines.engine import Reason
 from scanbench.engines.probe import MakeProbed
 from scanbench.recording.again import statements_of
 from scanbench.recording.gaps import gap_before
-from scanbench.recording.timeline import Timeline
+from scanbench.recording.timeline import NOT_SHOWN, Timeline
 from scanbench.runtime.command import Refusal
 
 _EMPTY = 10_000
@@ -27,6 +27,8 @@ class Past:
         self.raised: Raised = lambda entry: ()
         self._listener: Listener | None = None
         self._goal: Goal | None = None
+        self._from: Position = (0, 0)
+        """Where the step forward began."""
 
     # ---- forward --------------------------------------------------------------------------------------------------
 
@@ -37,14 +39,24 @@ class Past:
 
     def begin(self, goal: Goal) -> None:
         """A step forward from here."""
-        self._goal, self._listener = goal, None
+        self._goal, self._listener, self._from = goal, None, self.position
 
     def stop(self) -> None:
         """The step is given up."""
         self._goal = self._listener = None
 
     def move(self) -> Found | Literal["live"] | None:
-        """Continues: gives where it halted, "live" if it reached the position of the live PLC, None if it was interrupted."""
+        """Continues: gives where it halted, "live" if it reached the position of the live PLC, None if it was interrupted. Where the
+        run cannot be repeated it halts where the step began, and says why."""
+        try:
+            return self._moved()
+        except NOT_SHOWN as error:
+            text = _not_shown(self._timeline.resource.header.scan, error).message
+            begin = self._from
+            self.stop()
+            return "live" if self._timeline.goto(*begin) is not None else Found("step", text, "")
+
+    def _moved(self) -> Found | Literal["live"] | None:
         timeline, resource, goal = self._timeline, self._timeline.resource, self._goal
         assert goal is not None
         listener = self._listener
@@ -117,10 +129,18 @@ class Past:
     def reverse(self, author: str, path: str) -> Found | Refusal:
         """To where a breakpoint would have halted last, or to the last write of a variable."""
         timeline, here = self._timeline, self.position if self._timeline.past else None
-        found = search(timeline, self._breakpoints, self.position, author, path, self.prober, self.raised)
+        found: Found | Refusal
+        try:
+            found = search(timeline, self._breakpoints, self.position, author, path, self.prober, self.raised)
+        except NOT_SHOWN as error:
+            found = _not_shown(timeline.resource.header.scan, error)
         if isinstance(found, Refusal):
             if here is not None:
                 timeline.goto(*here)
             else:
                 timeline.return_live()
         return found
+
+
+def _not_shown(scan: int, error: BaseException) -> Refusal:
+    return Refusal(f"scan {scan} cannot be shown: {error}")

@@ -5,6 +5,7 @@ scan is run as all are, and then once more from that state, by the debug flavour
 """
 
 from collections import deque
+from collections.abc import Callable
 
 from scanbench.debug.flow import FlowHook
 from scanbench.debug.flow_shown import FlowAsked, Flows
@@ -21,13 +22,18 @@ from scanbench.wire import host as protocol
 
 _SHARE = 10
 """While the PLC runs, at most one part in so many of the time goes to who looks."""
+_MOST = 256
+"""Questions that wait, at most: a page asks the next one only when it has an answer."""
 
 
 class FlowsOf:
     """Answers `WantFlow`."""
 
-    def __init__(self, timeline: Timeline, link: Link) -> None:
-        self._timeline, self._link = timeline, link
+    def __init__(
+        self, timeline: Timeline, link: Link, unready: Callable[[debug_protocol.WantFlow], None]
+    ) -> None:  # fmt: skip
+        """`unready` takes a question back while there is no debugged code of the program that runs."""
+        self._timeline, self._link, self._unready = timeline, link, unready
         self._waiting: deque[debug_protocol.WantFlow] = deque()
         self._due = 0
 
@@ -38,18 +44,44 @@ class FlowsOf:
 
     def ask(self, request: debug_protocol.WantFlow) -> None:
         """It is answered after the next scan, or by `answer` where none runs."""
+        if len(self._waiting) >= _MOST:
+            scan = self._timeline.resource.header.scan
+            message = f"{_MOST} questions about what the code sees wait already: ask again later"
+            self._link.post(protocol.Ack(request.ref, False, message, scan))
+            return
         self._waiting.append(request)
+
+    def _given_back(self) -> bool:
+        """Whether a new program runs since it was asked, whose debugged code has to be built first: not here, between two scans."""
+        if self._timeline.live.debug is not None:
+            return False
+        waiting, self._waiting = self._waiting, deque()
+        for request in waiting:
+            self._unready(request)
+        return True
 
     # ---- while it waits ---------------------------------------------------------------------------------------------
 
     def answer(self) -> None:
         """No scan runs: the last one is looked at, and what has run of the next one."""
+        if self._given_back():
+            return
         while self._waiting:
-            request = self._waiting.popleft()
+            same = self._same()
             try:
-                self._post(request, self._still(request.asked))
+                flows = self._still(same[0].asked)
+                for request in same:
+                    self._post(request, flows)
             except UnknownPath as error:
-                self._refuse(request, error)
+                for request in same:
+                    self._refuse(request, error)
+
+    def _same(self) -> list[debug_protocol.WantFlow]:
+        """Who has waited longest, and all who ask the same: they wait no longer."""
+        asked = self._waiting[0].asked
+        same = [each for each in self._waiting if each.asked == asked]
+        self._waiting = deque(each for each in self._waiting if each.asked != asked)
+        return same
 
     def _still(self, asked: FlowAsked) -> Flows:
         resource = self._timeline.resource
@@ -86,7 +118,7 @@ class FlowsOf:
         """Before the PLC runs: the state from which one scan is to be run again; then only that one is to run now."""
         if not self._waiting or monotonic_ns() < self._due or self._timeline.resource.begun:
             return None
-        return kept_moment(self._timeline)
+        return None if self._given_back() else kept_moment(self._timeline)
 
     def ran(self, begin: Moment) -> None:
         """The scan has run. As many questions are answered as there is time for, at least one; the others wait for a later scan."""
@@ -104,11 +136,9 @@ class FlowsOf:
 
     def _answer_same(self, begin: Moment) -> None:
         """Answers who has waited longest, and all who ask the same."""
-        asked = self._waiting[0].asked
-        same = [each for each in self._waiting if each.asked == asked]
-        self._waiting = deque(each for each in self._waiting if each.asked != asked)
+        same = self._same()
         try:
-            hook = self._listened(asked, begin.scan, 0, begin)
+            hook = self._listened(same[0].asked, begin.scan, 0, begin)
             version = begin.loaded.version
             if isinstance(hook, Refusal):
                 flows = Flows("", version, (), hook.message)

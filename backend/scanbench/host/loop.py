@@ -67,7 +67,7 @@ class Loop:
         self._services = Services(timeline, self._pacer, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
         self._answers = Answers(timeline, self._services, link, self._wants_tick)
-        self._flows = FlowsOf(timeline, link)
+        self._flows = FlowsOf(timeline, link, self._debug)
         self._communication = Communication(timeline, self._debugger, self._services, link)
         self._driving = Driving(
             timeline, self._pacer, self._debugger, self._services, self._answers, self.traces, driven

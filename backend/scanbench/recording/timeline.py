@@ -32,7 +32,7 @@ from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.resource import Measured, Resource
 
 PAST = "this is the past: return to live, or branch from here"
-_NOT_SHOWN = (Diverged, *NOT_AS_RECORDED, NoProgram, RunFileError, OSError)
+NOT_SHOWN = (Diverged, *NOT_AS_RECORDED, NoProgram, RunFileError, OSError)
 """What running a scan again comes to where the file, its programs or the code are not as they were recorded."""
 
 
@@ -227,7 +227,7 @@ class Timeline:
         try:
             begin.restore(self.resource)
             look()
-        except _NOT_SHOWN as error:
+        except NOT_SHOWN as error:
             return Refusal(f"scan {scan} cannot be shown: {error}")
         finally:
             live.restore(self.resource)
@@ -322,7 +322,7 @@ class Timeline:
                 look()
                 stays = stay
             return refusal
-        except _NOT_SHOWN as error:
+        except NOT_SHOWN as error:
             return Refusal(f"scan {scan} cannot be shown: {error}")
         finally:
             if not stays:
@@ -331,7 +331,7 @@ class Timeline:
 
     def _move(self, scan: int, count: int, begin: bool, was_past: bool) -> Refusal | None:
         """Puts the resource into the past; `begin`: to where the scan began, should it have trapped. Where it cannot,
-        somebody has to put it back; `_NOT_SHOWN`."""
+        somebody has to put it back; `NOT_SHOWN`."""
         live, journal, resource = self.live_scan, self.live_journal, self.resource
         if scan > live:
             return Refusal(f"scan {scan} has not come yet: the PLC is at scan {live}")

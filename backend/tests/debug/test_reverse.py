@@ -1,13 +1,17 @@
 """Back to where something happened last, however long ago: the same with probes as statement by statement."""
 
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
 from scanbench.debug.breakpoint import Breakpoint
+from scanbench.engines.engine import Stop
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
 from scanbench.recording import checkpoints
+from scanbench.recording.timeline import Timeline
+from scanbench.runtime.inside import Diverged
 from scanbench.runtime.write import Write
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, Counted, Walker
@@ -104,3 +108,34 @@ def test_a_variable_that_an_online_change_added(tmp_path: Path) -> None:
     assert walker.debugger.step("reverse", "Ann", path="Main.nix") is not None
     walker.step("reverse", path="Main.n")
     assert (walker.halt.past, walker.halt.scan) == (True, 59)
+
+
+@pytest.mark.parametrize("action", ["continue", "reverse"])
+def test_a_run_that_cannot_be_repeated_is_said_and_what_is_shown_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, action: Literal["continue", "reverse"]
+) -> None:
+    walker = Walker(tmp_path / "a.run", STATIONS, BUILDS.engine)
+    assert walker.run(30) is None
+    assert walker.timeline.goto(20) is None
+    go_on, failed = Timeline.go_on, list[int]()
+
+    def once(timeline: Timeline, until: int) -> Stop:
+        if failed:
+            return go_on(timeline, until)
+        failed.append(until)
+        raise Diverged("the replay stopped in scan 21")
+
+    monkeypatch.setattr(Timeline, "go_on", once)
+    if action == "reverse":
+        refusal = walker.debugger.step("reverse", "Ann", path="Main.n")
+        assert refusal is not None
+        said = refusal.message
+    else:
+        assert walker.debugger.step("continue", "Ann") is None
+        walker.debugger.move()
+        said = walker.halt.text
+    assert "cannot be shown: the replay stopped in scan 21" in said
+    assert walker.timeline.resource.header.scan == 20
+    assert value(walker.timeline.resource, "Main.n") == 20
+    assert walker.timeline.past
+    assert not walker.debugger.moving

@@ -1,14 +1,18 @@
 """What the code saw, asked of the process of a PLC: while it runs, halted, in the past, on native code."""
 
 import socket
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from scanbench.debug.flow import FlowHook
 from scanbench.debug.flow_shown import FlowAsked, Flows
 from scanbench.host import flows as flows_module
 from scanbench.host.flows import FlowsOf
 from scanbench.host.link import Link
+from scanbench.recording.timeline import Timeline
+from scanbench.runtime.resource import Resource
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from tests.host.child import Child
@@ -114,13 +118,46 @@ class Told(Link):
         super().__init__(sock)
         self.told: list[tuple[int, int]] = []
         """By whom it was asked, and the scan."""
+        self.refused: list[int] = []
 
     def post(self, message: object) -> None:
+        if isinstance(message, protocol.Ack):
+            self.refused.append(message.ref)
+            return
         assert isinstance(message, debug_protocol.FlowIs)
         self.told.append((message.ref, message.flows.flows[0].scan))
 
 
-def test_who_looks_has_a_share_of_the_time_of_a_scan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+class Desk:
+    """Questions of a PLC that is not run by a loop."""
+
+    def __init__(self, timeline: Timeline, sock: socket.socket) -> None:
+        self.link, self.back = Told(sock), list[int]()
+        self.flows = FlowsOf(timeline, self.link, lambda request: self.back.append(request.ref))
+
+    def ask(self, *firsts: int) -> None:
+        for ref, first in enumerate(firsts):
+            self.flows.ask(debug_protocol.WantFlow(ref, FlowAsked("Main", "Main", first=first)))
+
+
+@pytest.fixture
+def timeline(tmp_path: Path) -> Iterator[Timeline]:
+    found = begun(tmp_path / "a.run")
+    found.live.debugged()
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def desk(timeline: Timeline) -> Iterator[Desk]:
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        yield Desk(timeline, ours)
+
+
+def test_who_looks_has_a_share_of_the_time_of_a_scan(
+    timeline: Timeline, desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
     now = 0
 
     def later() -> int:  # 2 ms go by for each question, of 10 ms; the PLC runs each 10 ms
@@ -129,23 +166,52 @@ def test_who_looks_has_a_share_of_the_time_of_a_scan(tmp_path: Path, monkeypatch
         return now
 
     monkeypatch.setattr(flows_module, "monotonic_ns", later)
-    ours, theirs = socket.socketpair()
-    with ours, theirs:
-        timeline, link = begun(tmp_path / "a.run"), Told(ours)
-        flows = FlowsOf(timeline, link)
-        for ref, first in enumerate((1, 2, 1)):
-            flows.ask(debug_protocol.WantFlow(ref, FlowAsked("Main", "Main", first=first)))
-        begin = flows.begin()
-        assert begin is not None
-        advance(timeline, 1)
-        flows.ran(begin)
-        assert link.told == [(0, 0), (2, 0)]
-        assert flows.begin() is None  # it is the PLC's turn
-        now += 1_000_000_000
-        begin = flows.begin()
-        assert begin is not None
-        advance(timeline, 1)
-        flows.ran(begin)
-        assert link.told == [(0, 0), (2, 0), (1, 1)]
-        assert not flows.waiting
-        timeline.close()
+    flows, link = desk.flows, desk.link
+    desk.ask(1, 2, 1)
+    begin = flows.begin()
+    assert begin is not None
+    advance(timeline, 1)
+    flows.ran(begin)
+    assert link.told == [(0, 0), (2, 0)]
+    assert flows.begin() is None  # it is the PLC's turn
+    now += 1_000_000_000
+    begin = flows.begin()
+    assert begin is not None
+    advance(timeline, 1)
+    flows.ran(begin)
+    assert link.told == [(0, 0), (2, 0), (1, 1)]
+    assert not flows.waiting
+
+
+def test_equal_questions_of_a_plc_that_waits_are_answered_by_one_run(
+    timeline: Timeline, desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs, hook = list[int](), FlowHook
+
+    def made(resource: Resource, asked: FlowAsked, upto: int = 0) -> FlowHook:
+        runs.append(asked.first)
+        return hook(resource, asked, upto)
+
+    monkeypatch.setattr(flows_module, "FlowHook", made)
+    advance(timeline, 3)
+    desk.ask(1, 2, 1, 1)
+    desk.flows.answer()
+    assert desk.link.told == [(0, 2), (2, 2), (3, 2), (1, 2)]
+    assert runs == [1, 2]
+
+
+def test_more_questions_than_there_is_room_for_are_refused(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flows_module, "_MOST", 3)
+    desk.ask(1, 2, 3, 4, 5)
+    assert desk.link.refused == [3, 4]
+
+
+def test_questions_wait_for_the_debugged_code_of_a_new_program(timeline: Timeline, desk: Desk) -> None:
+    desk.ask(1, 2)
+    timeline.live.debug = None
+    assert desk.flows.begin() is None
+    assert (desk.back, desk.flows.waiting) == ([0, 1], False)
+    desk.ask(3)
+    desk.flows.answer()
+    assert (desk.back, desk.flows.waiting) == ([0, 1, 0], False)
+    assert timeline.live.debug is None  # nothing was built between two scans
