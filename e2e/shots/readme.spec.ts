@@ -1,5 +1,6 @@
 /** The pictures of the README: `make shots` takes them again. */
 import { resolve } from 'node:path';
+import { filling } from '../fixtures/filling';
 import { expect, test } from '../fixtures/test';
 import type { Ide } from '../pages/ide';
 
@@ -60,6 +61,24 @@ test('the list of instances', async ({ openAs }) => {
   await expect(mika.instances.row('spare')).toContainText('Off');
   await mika.instances.choose('line-1');
   await take(mika, 'instances');
+});
+
+test('ladder with live power: the filling machine, stopped by an I/O unit', async ({ openAs, server }) => {
+  const mika = await openAs('Mika Lind', await filling(server));
+  const { page, simulator, watch } = mika;
+  await mika.top.chooseTheme('dark');
+  await mika.runs();
+  await watch.set('start', 'TRUE');
+  await watch.shows('valve', 'TRUE');
+  await mika.explorer.item('Alarms').dblclick();
+  await page.getByPlaceholder('Filter by name, code, flag').fill('009A');
+  await simulator.box('Basic I/O Unit error, Outputs, Rack number 0, Slot number 1').check();
+  await simulator.generateButton.click();
+  await watch.shows('lampRed', 'TRUE');
+  await expect(simulator.reaction).toContainText('Acted');
+  const sheet = page.getByRole('listbox', { name: 'Drawing of Alarms.st' });
+  await expect(sheet.locator('.el.on').first()).toBeVisible();
+  await take(mika, 'ladder');
 });
 
 test('a small window', async ({ openAs }) => {

@@ -185,8 +185,9 @@ def process_of(server: Server) -> tuple[int, int]:
     pids = [int(pid) for each in children for pid in each.read_text().split()]
     sizes = {}
     for pid in pids:
-        status = Path(f"/proc/{pid}/status").read_text()
-        sizes[pid] = int(status.partition("VmRSS:")[2].split()[0])
+        with suppress(FileNotFoundError, ProcessLookupError):
+            resident = Path(f"/proc/{pid}/status").read_text().partition("VmRSS:")[2].split()
+            sizes[pid] = int(resident[0]) if resident else 0  # one that has ended has no memory
     largest = max(sizes, key=lambda pid: sizes[pid])
     return largest, sizes[largest]
 
