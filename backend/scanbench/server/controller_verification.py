@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from scanbench.comm.controller.contract import Connection, Source, Unreachable
-from scanbench.comm.controller.sampling import Read, Sampler, taken
+from scanbench.comm.controller.sampling import Read, Sampler, Settling, taken
 from scanbench.comm.opcua.reading import open_opcua
 from scanbench.jobs.client import FAULT
 from scanbench.server.verification import TraceSource, Verification
@@ -42,6 +42,7 @@ class ControllerVerification(Verification):
         self._left_out = self._began_ns = 0
         self._wanted: list[int] = []
         """Places of the columns that are read."""
+        self._settling: Settling | None = None
         self._elsewhere = True
         self._over = False
         """No more samples come."""
@@ -80,6 +81,9 @@ class ControllerVerification(Verification):
             ),
             VerifyBegun,
         )  # fmt: skip
+        if mapping.unit == "scan":
+            inputs = tuple(found.columns.index(each.column) for each in mapping.columns if each.role == "input")
+            self._settling = Settling(found.columns.index(mapping.axis), inputs)
         longest_ms = LONGEST // 2 * begun.interval_ns // 1_000_000  # a sample may come late
         if self._interval_ms > longest_ms:
             raise Refused(
@@ -120,7 +124,7 @@ class ControllerVerification(Verification):
     async def _feed(self) -> None:
         """Reads the controller until enough was read, or it cannot be read any more."""
         try:
-            async for read in taken(self._sampler, self._wanted, self._left):
+            async for read in taken(self._sampler, self._wanted, self._settling, self._left):
                 self._left -= 1
                 self._keep(read)
                 self._poke()
