@@ -330,7 +330,7 @@ class Reader:
         while found.gaps and found.gaps[0].first <= found.checkpoints[0].scan < found.gaps[0].until:
             del found.checkpoints[0]  # nothing is known of any scan that follows it
         first, begin = found.checkpoints[0], found.about.dropped_before
-        if first.scan > begin and self._damaged and not (found.gaps and found.gaps[0].first <= begin):
+        if first.scan > begin and not (found.gaps and found.gaps[0].first <= begin):
             found.gaps.insert(0, Gap(begin, first.scan, first.entries, first.version))
         elif first.entries < found.about.roots:
             found.gaps.insert(0, Gap(first.scan, first.scan, first.entries, first.version))

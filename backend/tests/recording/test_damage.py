@@ -180,6 +180,17 @@ def test_of_the_first_state_its_own_scans_are_lost(tmp_path: Path) -> None:
     assert f"Scans 0 to {found.first_scan - 1} are lost" in found.damage
 
 
+def test_a_copy_knows_that_the_beginning_of_its_original_is_lost(tmp_path: Path) -> None:
+    path = spoilt(tmp_path / "run", Kind.KEYFRAME, 0)
+    right = replayed(path)
+    with RunReader(path, of_file, ENTRIES) as reader:
+        reader.follow()
+        reader.copy(tmp_path / "copy", reader.front(120), 120, "Bob")
+    found = replay_file(tmp_path / "copy", of_file, ENTRIES)
+    assert (found.lost, found.first_scan, found.scan) == (True, right.first_scan, 120)
+    assert f"copy is a copy of a damaged file. Scans 0 to {right.first_scan - 1} are lost" in found.damage
+
+
 def test_a_file_of_format_1_ends_where_it_is_damaged(tmp_path: Path) -> None:
     """Nobody can tell whether entries are missing."""
     golden = Path(__file__).parent / "golden" / "format-1.run"
