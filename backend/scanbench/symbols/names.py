@@ -13,6 +13,7 @@ from scanbench.program.layout import Layout
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import BOOL, SLOT_BYTES, ArrayType, Elementary, Kind, Member, Record, Section, Type
 from scanbench.symbols.descent import Descent, Part
+from scanbench.symbols.header_names import system_field
 from scanbench.symbols.instances import owner_of
 from scanbench.symbols.leaves import WHOLE, Leaf, leaves
 from scanbench.symbols.sites import Sites
@@ -71,7 +72,8 @@ class Names:
         if area is None:
             root = self.descent.root(offset)
             found = leaves(self.descent, root, offset, 1, whole=True) if root is not None else []
-            return found[0] if found else Leaf(self.path(offset), RAW_TYPES[8], offset, None)
+            name, begin, size = system_field(self.program.layout, offset) or (self.path(offset), offset, 1)
+            return found[0] if found else Leaf(name, RAW_TYPES[8 * size], begin, None)
         for part in self._best(offset, 1, bits):
             if part.bit is not None and bits == 1 << part.bit:
                 return Leaf(part.name, BOOL, offset, part.bit)
@@ -223,9 +225,10 @@ class Names:
         return pou, next((each.name for each in inner if each.member is not None and not each.member.hidden), "")
 
     def path(self, offset: int) -> str:
-        """What lives at a byte, whatever it is: `Main.fb.count`, `D100`, `header+24`, `image+5000`."""
-        if offset < Layout.HEADER_SIZE:
-            return f"header+{offset}"
+        """What lives at a byte, whatever it is: `Main.fb.count`, `D100`, `mode (system)`, `image+5000`."""
+        field = system_field(self.program.layout, offset)
+        if field is not None:
+            return field[0]
         area = self.program.layout.area_at(offset)
         if area is not None:
             return self.program.layout.model.format(area[0], area[1] - area[1] % 2, None, 16)

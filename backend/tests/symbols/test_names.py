@@ -1,5 +1,6 @@
 """What places of the image are called."""
 
+from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, ELEMENTARY
 from scanbench.symbols.names import Names
@@ -86,6 +87,25 @@ def test_the_symbol_of_a_place_and_its_text() -> None:
     assert names.text(place(of, "D10"), 3, BOOL) == "Main.word.3 (D10.03)"
     assert names.text(offset, None, ELEMENTARY["INT"]) == "Main.belt[1].list[1].y"
     assert [names.path(16), names.path(of.layout.state_size + 4096)] == [
-        "header+16",
+        "number of the scan (system)",
         f"image+{of.layout.state_size + 4096}",
     ]
+
+
+def test_what_the_system_keeps_has_names_for_people() -> None:
+    _, names = made()
+    header = [names.whole(at, 0xFF) for at in range(Layout.CLOCK, Layout.HEADER_SIZE)]
+    assert all(each.offset <= at < each.offset + each.type.size for at, each in enumerate(header, Layout.CLOCK))
+    named = dict.fromkeys(each.name for each in header if not each.name.startswith("header+"))
+    assert {
+        "errors that the program raised (system)",
+        "clock at virtual time 0 (system)",
+        "_SubrangeErrorCount",
+    } <= set(named)
+    assert "error 2 that the program raised: number (system)" in named
+    checked = program("PROGRAM Main VAR n : INT(0..9); END_VAR n := n + 1; END_PROGRAM")
+    begin, names = checked.layout.violations, Names(checked)
+    assert [names.whole(begin + at, 0xFF).name for at in (0, 4, 8 + 4, 8 + 48 + 16)] == [
+        "number of violations in the list (system)", "violations that found no room (system)", "violation 1: times (system)",
+        "violation 2: value (system)",
+    ]  # fmt: skip
