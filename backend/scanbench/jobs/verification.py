@@ -17,6 +17,7 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.verify.contract import BadRange, Begun, Column, Row, ScanVerified
 from scanbench.verify.run_subject import RunSubject
+from scanbench.verify.told_once import ToldOnce
 from scanbench.verify.trace.growing import GrowingTrace, controller_table
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping
 from scanbench.verify.trace.subject import TraceSubject, open_trace
@@ -57,6 +58,7 @@ class VerifyJob:
         self._program_of, self._cache, self._say, self._asked = program_of, cache, say, asked
         self._verifier: Verifier | None = None
         self._growing: GrowingTrace | None = None
+        self._once = ToldOnce()
 
     def answer(self, request: Request) -> VerifyBegun | ScansVerified | UsesAre:
         """The answer; `Refused`."""
@@ -85,6 +87,8 @@ class VerifyJob:
                 verifier = self._begun()
                 verifier.follow(request.until)
                 step = verifier.step(request.scan, request.after, request.count)
+                for row in step.rows:
+                    self._once.stepped(row)
                 return _told(ScansDone, request.ref, [step], whole=False)
             case SetInputs():
                 rows = self._begun().set_inputs(request.edits)
@@ -135,7 +139,8 @@ class VerifyJob:
             after = None if self._growing is None else self._growing.after_break(scan)
             last = scan if after is None else min(after, scans.stop) - 1  # a break is told at once, however long it is
             try:
-                batch.append(replace(verifier.verify(scan), last=last))
+                made = verifier.verify(scan)
+                batch.append(replace(made, rows=tuple(map(self._once.rest, made.rows)), last=last))
             except REFUSALS as why:
                 return replace(_told(ScansDone, ref, batch), failed=_words(why))
             scan = last + 1

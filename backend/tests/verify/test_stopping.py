@@ -148,6 +148,5 @@ def test_what_the_system_noted_is_told_in_words(tmp_path: Path) -> None:
     assert not any("header+" in each or "image+" in each for each in names)
     told = next(each.message for each in row.differences if each.name.startswith("errors that"))
     assert (
-        told
-        == "errors that the program raised (system) is 16#00000001, the reference gives 16#00000000, after scan 5"
+        told == "errors that the program raised (system) is 16#00000001, the reference gives 16#00000000, after scan 5"
     )

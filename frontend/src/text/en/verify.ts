@@ -214,6 +214,8 @@ export const verify = {
   "verify.state.waiting": "Waiting",
   "verify.stop": "Stop",
   "verify.table": "A beside A′",
+  "verify.told": "Told by a step",
+  "verify.told.about": "Steps of this scan have told what differs here. It is counted once, with the step.",
   "verify.trace": "Import controller log…",
   "verify.try.about": "Edits an input of this row in the set data and computes A′ again",
   "verify.try.none": "This row has no inputs",

@@ -210,6 +210,8 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.state.waiting": "待機中",
   "verify.stop": "停止",
   "verify.table": "A と A′",
+  "verify.told": "ステップで報告済みです",
+  "verify.told.about": "ここでの相違は、このスキャンのステップがすでに報告しました。ステップで1回だけ数えます。",
   "verify.trace": "コントローラのログを取り込む…",
   "verify.try.about": "設定データでこの行の入力を編集し、A′ を再計算します",
   "verify.try.none": "この行には入力がありません",

@@ -76,7 +76,7 @@ export function Facts({ shown, row, difference, at, onChoose }: Props) {
       )}
       {row.consequences.map(({ name, message }) => (
         <p key={name} className="muted">
-          <b>{t("verify.consequence")}</b>: {message}
+          <b>{t(row.kind === "step" ? "verify.consequence" : "verify.told")}</b>: {message}
         </p>
       ))}
       {row.note && <p className="st halted">{row.note}</p>}
@@ -104,11 +104,12 @@ const whereOf = (row: VerifyRow, difference: VerifyDifference | null) =>
 function headOf({ compared, kind, consequences }: VerifyRow) {
   if (!compared) return "verify.notcompared";
   if (kind === "none") return "verify.notrun";
-  return consequences.length > 0 ? "verify.consequences" : "verify.same";
+  if (consequences.length === 0) return "verify.same";
+  return kind === "step" ? "verify.consequences" : "verify.told";
 }
 
 function sayOf(row: VerifyRow): string {
-  if (row.consequences.length > 0) return t("verify.consequences.about");
+  if (row.consequences.length > 0) return t(row.kind === "step" ? "verify.consequences.about" : "verify.told.about");
   if (!row.compared) return t("verify.notcompared.about");
   if (row.kind === "none") return t("verify.notrun.about");
   return t(isEdited(row) ? "verify.same.edited" : "verify.same.about");

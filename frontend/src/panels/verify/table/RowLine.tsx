@@ -94,7 +94,7 @@ function cellOf(row: VerifyRow, track: Track, how: How): Cell {
         return {
           look: "gut faint",
           shown: <Icon name="step-in" small />,
-          title: `${t("verify.consequence")}: ${row.consequences[0]?.message}`,
+          title: `${t(row.kind === "step" ? "verify.consequence" : "verify.told")}: ${row.consequences[0]?.message}`,
         };
       return {
         look: "gut",
