@@ -90,9 +90,9 @@ def made() -> Program:
     "seed", [pytest.param(each, marks=[] if each < 20 else nightly) for each in range(amount(1000, 20))]
 )
 def test_each_is_found_where_it_stops_the_plc(seed: int, made: Program, tmp_path: Path) -> None:
-    wanted, *where = stops(seed)
+    wanted, line, instance = stops(seed)
     assert wanted.scan is not None
-    found_where_it_stops(made, tmp_path, wanted, *where, mode_changes(seed, wanted.scan))
+    found_where_it_stops(made, tmp_path, wanted, line, instance, mode_changes(seed, wanted.scan))
 
 
 @slow
