@@ -6,6 +6,7 @@ import { partsIn, readChart } from "./charts";
 import { type DiagramDrawing, layOutDiagram } from "./diagramLayout";
 import { pinsOf } from "./diagramPins";
 import { readDiagram } from "./diagramRead";
+import { type Heading, headingOf } from "./heading";
 import { type Drawing, layOut, type Place } from "./ladderLayout";
 import { readRung } from "./ladderRead";
 import { type Found, networksIn } from "./networks";
@@ -73,12 +74,25 @@ export function stepIn(part: DrawnPart | undefined, name: string): Place | undef
   return found?.place;
 }
 
-const HEAD = 28;
+/** The lines above a part in this width: the action it is written in, its label, title and comment. */
+export function headOf({ found: { head } }: DrawnPart, width: number, action: string | null): Heading {
+  const before = [action ?? "", head.label && `${head.label}:`].filter(Boolean).join("  ");
+  return headingOf(head.title, head.comment, width, before);
+}
+
+const LEAST_SCALE = 0.5;
+
+/** How large a drawing is that is made to fit into a width: its texts have to stay readable, so it may still be wider. */
+export const scaleOf = ({ drawing }: DrawnPart, width: number): number =>
+  drawing ? Math.min(1, Math.max(LEAST_SCALE, Math.floor((width / drawing.width) * 100) / 100)) : 1;
+
 const PLAIN_LINE = 18;
 
 /** How high a part is with its head, in pixels. */
-export function heightOf({ found, readable, drawing }: Pick<DrawnPart, "found" | "readable" | "drawing">): number {
-  return HEAD + (drawing?.height ?? 0) + (readable ? 0 : PLAIN_LINE * found.text.split("\n").length + 12);
+export function heightOf(part: DrawnPart, head: number, scale = 1): number {
+  const { found, readable, drawing } = part;
+  const plain = readable ? 0 : PLAIN_LINE * found.text.split("\n").length + 12;
+  return head + Math.ceil((drawing?.height ?? 0) * scale) + plain;
 }
 
 /** Draws texts of one file, one after the other. */

@@ -45,3 +45,15 @@ export function useViewOf(path: string, text: string): View {
   const chosen = useViews(({ of }) => of[path] ?? "graphic");
   return drawnKind(text) ? chosen : "text";
 }
+
+const FIT = "fit";
+
+/** Whether drawings that are wider than the editor are made smaller. */
+const useFitted = create<{ fitted: boolean }>(() => ({ fitted: recall(FIT, false) }));
+
+export const useFit = () => useFitted(({ fitted }) => fitted);
+
+export function fitDrawings(fitted: boolean): void {
+  useFitted.setState({ fitted });
+  keep(FIT, fitted);
+}

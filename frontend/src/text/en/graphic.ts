@@ -93,6 +93,8 @@ export const graphic = {
   "graphic.network": "Network {number} {title}",
   "graphic.unconnected": "{wire} is not connected: no line sets it",
   "graphic.view.network": "Blocks",
+  "graphic.fit": "Fit",
+  "graphic.fit.hint": "Makes drawings that are wider than the editor smaller, down to half their size",
   "graphic.svg": "SVG",
   "graphic.svg.hint": "Saves the drawing of this file as an SVG, without values and marks",
   "graphic.field.bad.box": "No function, block or instance has this name.",

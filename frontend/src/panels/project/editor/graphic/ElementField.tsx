@@ -15,6 +15,8 @@ interface Props {
   written: DrawnPart;
   /** As it is drawn while the field is open. */
   part: DrawnPart;
+  /** How large it is drawn. */
+  scale: number;
   named: Edit & { naming: Naming };
   around: (part: DrawnPart) => Around;
   onTake: (text: string, onwards: boolean) => boolean;
@@ -22,7 +24,7 @@ interface Props {
 }
 
 /** The field of the element that is being named, with what it offers. */
-export function ElementField({ path, written, part, named, around, onTake, onLeave }: Props) {
+export function ElementField({ path, written, part, scale, named, around, onTake, onLeave }: Props) {
   const { naming, place } = named;
   const { head } = naming;
   const stop = head ? HEAD : stopsOf(part).find((each) => sameElement(each.place, place));
@@ -56,7 +58,7 @@ export function ElementField({ path, written, part, named, around, onTake, onLea
     <NameField
       key={`${place.join(".")} ${head ?? naming.offers} ${named.text}`}
       naming={naming}
-      spot={stop}
+      spot={head ? HEAD : scaled(stop, scale)}
       label={head ? t(`graphic.head.${head}`) : nameOfStop(stop as Spot)}
       names={names}
       onTake={take}
@@ -67,6 +69,13 @@ export function ElementField({ path, written, part, named, around, onTake, onLea
 
 /** Above the drawing. */
 const HEAD = { x: 0, y: -8, width: 360 };
+
+const scaled = ({ x, y, width, up = 0 }: { x: number; y: number; width: number; up?: number }, scale: number) => ({
+  x: x * scale,
+  y: y * scale,
+  width: width * scale,
+  up: up * scale,
+});
 
 const ICONS = { function: "fn", block: "fb", instance: "var" } as const;
 

@@ -18,12 +18,22 @@ import { connected } from "../../../../logic/graphic/diagramKeys";
 import { type Around, instancesIn, namesIn } from "../../../../logic/graphic/edit";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
-import { actionOf, type DrawnPart, drawnWith, heightOf, Sheet, stepIn, stopsOf } from "../../../../logic/graphic/sheet";
+import {
+  actionOf,
+  type DrawnPart,
+  drawnWith,
+  headOf,
+  heightOf,
+  Sheet,
+  scaleOf,
+  stepIn,
+  stopsOf,
+} from "../../../../logic/graphic/sheet";
 import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
 import { boxesNow, loadBoxes } from "../../../../store/graphic/boxes";
-import { showAs, useViewOf } from "../../../../store/graphic/views";
+import { fitDrawings, showAs, useFit, useViewOf } from "../../../../store/graphic/views";
 import { saveFile } from "../../../../store/page/download";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
 import { useDocuments } from "../../../../store/project/documents";
@@ -108,9 +118,15 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     return part ? drawnWith(part, named.text, room) : null;
   }, [named, drawn, room]);
   const shownAt = (index: number) => (named?.rung === index && preview ? preview : drawn[index]);
+  const fit = useFit();
+  const scaleAt = (part: DrawnPart) => (fit ? scaleOf(part, room) : 1);
+  const headAt = (index: number, part: DrawnPart) => {
+    const written = drawn[index];
+    return headOf(part, room, (written && actionOf(drawn, written)?.name) ?? null);
+  };
   const heightAt = (index: number) => {
     const part = shownAt(index);
-    return part ? heightOf(part) : 0;
+    return part ? heightOf(part, headAt(index, part).height, scaleAt(part)) : 0;
   };
   const virtual = useVirtualizer({
     count: drawn.length,
@@ -119,7 +135,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     overscan: 4,
   });
   // biome-ignore lint/correctness/useExhaustiveDependencies: the heights follow from what is drawn
-  useEffect(() => virtual.measure(), [drawn, preview]);
+  useEffect(() => virtual.measure(), [drawn, preview, fit, room]);
 
   const target = useNavigation((navigation) => navigation.place);
   const turn = useRef(target?.turn);
@@ -310,6 +326,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                   path={path}
                   part={part}
                   number={item.index + 1}
+                  head={headAt(item.index, part)}
+                  room={room}
+                  scale={scaleAt(part)}
                   action={action?.name ?? null}
                   pou={pou}
                   id={`${id}${item.index}`}
@@ -320,6 +339,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                         path={path}
                         written={rung}
                         part={part}
+                        scale={scaleAt(part)}
                         named={named}
                         around={around}
                         onTake={take}
@@ -348,6 +368,16 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         <span className="cut grow" role="status">
           {editing.refused ? t(editing.refused) : t(readOnly ? "graphic.readonly" : "graphic.keys")}
         </span>
+        <button
+          type="button"
+          className="btn quiet sm"
+          title={t("graphic.fit.hint")}
+          aria-pressed={fit}
+          onClick={() => fitDrawings(!fit)}
+        >
+          <Icon name="fit" small />
+          {t("graphic.fit")}
+        </button>
         <button type="button" className="btn quiet sm" title={t("graphic.svg.hint")} onClick={toFile}>
           <Icon name="export" small />
           {t("graphic.svg")}

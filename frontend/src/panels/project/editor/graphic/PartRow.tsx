@@ -1,5 +1,6 @@
 import { type ReactNode, useEffect, useRef, useState } from "react";
 import type { PartFlow } from "../../../../logic/graphic/flow";
+import type { Heading } from "../../../../logic/graphic/heading";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import type { Twice } from "../../../../logic/graphic/writers";
@@ -24,6 +25,11 @@ interface Props {
   path: string;
   part: DrawnPart;
   number: number;
+  head: Heading;
+  /** How wide its heading can be. */
+  room: number;
+  /** How large its drawing is, 1 at most. */
+  scale: number;
   /** The action of a chart that it is written in. */
   action: string | null;
   /** The POU whose instance gives the values; undefined where there are none to show. */
@@ -45,6 +51,9 @@ export function PartRow({
   path,
   part,
   number,
+  head,
+  room,
+  scale,
   action,
   pou,
   id,
@@ -56,9 +65,10 @@ export function PartRow({
   scan,
 }: Props) {
   const { found, readable } = part;
-  const { label, title, comment, off } = found.head;
+  const { label, title, off } = found.head;
   const [said, setSaid] = useState("");
   const headline = part.kind === "chart" ? (pou?.name ?? "") : title;
+  const lines = part.kind === "chart" ? [headline] : head.title;
   return (
     <div
       className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${marks.halt ? ` ${marks.halt.look}` : ""}`}
@@ -70,11 +80,15 @@ export function PartRow({
       </span>
       <span className="no">{number}</span>
       <div className="netbody">
-        <div className="hd">
+        <div className="hd" style={{ width: room }}>
           {action !== null && <span className="cm">{action}</span>}
           {label !== "" && <span className="lab">{label}:</span>}
-          <b className="cut">{headline}</b>
-          <span className="cm cut">{comment.join(" ")}</span>
+          <b>
+            {lines.map((line) => (
+              <span key={line}>{line}</span>
+            ))}
+          </b>
+          {head.beside && <span className="cm cut">{head.comment[0]}</span>}
           {off && <span className="st faint">{t("graphic.off")}</span>}
           {twice.length > 0 && <span className="st warn cut">{twice.map(sayTwice).join("; ")}</span>}
           {marks.halt && <span className="st halted">{marks.next === "" ? marks.halt.text : t("graphic.next")}</span>}
@@ -87,9 +101,18 @@ export function PartRow({
           {said !== "" && <span className="st faint">{said}</span>}
           {!readable && <span className="st bad">{t("graphic.unread")}</span>}
         </div>
+        {!head.beside && (
+          <div className="cm below">
+            {head.comment.map((line, index) => (
+              // biome-ignore lint/suspicious/noArrayIndexKey: a line is nothing but its place
+              <span key={index}>{line}</span>
+            ))}
+          </div>
+        )}
         <Picture
           path={path}
           part={part}
+          scale={scale}
           pou={pou}
           id={id}
           cursor={cursor}
@@ -107,6 +130,7 @@ export function PartRow({
 function Picture({
   path,
   part,
+  scale,
   pou,
   id,
   cursor,
@@ -114,7 +138,7 @@ function Picture({
   marks,
   onSaid,
   differences,
-}: Pick<Props, "path" | "part" | "pou" | "id" | "cursor" | "field" | "marks" | "differences"> & {
+}: Pick<Props, "path" | "part" | "scale" | "pou" | "id" | "cursor" | "field" | "marks" | "differences"> & {
   onSaid: (said: string) => void;
 }) {
   const picture = useRef<HTMLDivElement>(null);
@@ -152,12 +176,19 @@ function Picture({
   const marked = { id, cursor: cursor?.join(".") ?? null, next: marks.next, points: marks.points };
   return (
     <div ref={picture} className={`netdraw${part.readable ? "" : " netold"}`}>
-      {rung && <RungDrawing drawing={rung} {...marked} />}
-      {diagram && <DiagramPicture drawing={diagram} {...marked} />}
-      {chart && <ChartPicture drawing={chart} {...marked} />}
+      <div style={{ zoom: scale }}>
+        {rung && <RungDrawing drawing={rung} {...marked} />}
+        {diagram && <DiagramPicture drawing={diagram} {...marked} />}
+        {chart && <ChartPicture drawing={chart} {...marked} />}
+      </div>
       {field}
       {differences.map(({ x, y, control, monitor, message }) => (
-        <span key={`${x} ${y} ${message}`} className="elemdiff" style={{ left: x, top: y }} title={message}>
+        <span
+          key={`${x} ${y} ${message}`}
+          className="elemdiff"
+          style={{ left: x * scale, top: y * scale }}
+          title={message}
+        >
           <Icon name="differs" small />
           {t("graphic.difference", { control, monitor })}
         </span>
