@@ -62,11 +62,11 @@ def qualified_place(body: Body, node: tree.MemberOf) -> Found | None:
     for word in ("THIS", "SUPER"):
         if named_itself(node.owner, word):
             return _own_member(body, node, word)
-    full = _qualified_variable(body, node)
+    full = qualified_variable(body, node)
     return None if full is None else declared(body, full, node.span)
 
 
-def _qualified_variable(body: Body, node: tree.MemberOf) -> str | None:
+def qualified_variable(body: Body, node: tree.MemberOf) -> str | None:
     """`Namespace.x` or `List.x`: the name that the global variable is kept under."""
     path = dotted(node)
     if path is None or body.scope.find(path.split(".")[0]) is not None:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from scanbench.check.body.context import Body
-from scanbench.check.body.objects import dotted, named_itself, own_class
+from scanbench.check.body.objects import dotted, named_itself, own_class, qualified_variable
 from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class, Method
@@ -63,7 +63,7 @@ def _free(body: Body, name: str) -> bool:
 
 
 def is_qualified(body: Body, node: tree.MemberOf) -> bool:
-    """`Namespace.name`, and nothing of an instance."""
+    """`Namespace.name`, and nothing of an instance, as `List.instance.name` is."""
     path = dotted(node)
     first = path.split(".")[0] if path else ""
     return (
@@ -71,7 +71,17 @@ def is_qualified(body: Body, node: tree.MemberOf) -> bool:
         and first.upper() not in ("THIS", "SUPER")
         and body.scope.find(first) is None
         and (not is_own_property(body, first))
+        and not _of_a_global(body, node.owner)
     )
+
+
+def _of_a_global(body: Body, node: tree.Expression) -> bool:
+    """Whether this is `Namespace.x` or `List.x`, or something of such a variable."""
+    while isinstance(node, tree.MemberOf):
+        if qualified_variable(body, node) is not None:
+            return True
+        node = node.owner
+    return False
 
 
 def is_own_property(body: Body, name: str) -> bool:
