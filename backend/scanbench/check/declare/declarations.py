@@ -34,6 +34,27 @@ TypeOf: TypeAlias = "Callable[[Declarations, tree.TypeSpec], Type]"
 MakeType: TypeAlias = "Callable[[Declarations, tree.TypeDeclaration | tree.PouDeclaration], Type]"
 
 
+@dataclass(frozen=True, slots=True)
+class StartReference:
+    """A reference within a variable that a declaration gives a start value."""
+
+    offset: int
+    """In bytes, from the beginning of the variable."""
+    type: Reference
+    node: tree.Expression
+    name: str = ""
+    """Of the member that it is; empty for the variable itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """Such a reference, and the variable of which record it is in."""
+
+    owner: Record
+    member: Member
+    given: StartReference
+
+
 @dataclass(slots=True)
 class Declarations:
     """All types, blocks and located memory of a program; types are made when first asked for."""
@@ -65,8 +86,10 @@ class Declarations:
     """What the programs may do beyond the standard."""
     incomplete: bool = False
     """Whether any variable waits for its address."""
-    start_references: list[tuple[Record, Member, tree.Expression]] = field(default_factory=list)
-    """References that start with REF(variable): owner, variable, what it starts with."""
+    start_references: list[Start] = field(default_factory=list)
+    """References that start with REF(variable)."""
+    given: list[StartReference] = field(default_factory=list)
+    """Those in the initial value that is being read, counted from its beginning."""
     reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
     symbols: Record = field(default_factory=lambda: Record("", Kind.STRUCT))
     """Variables that the model gives to every program."""

@@ -82,7 +82,7 @@ def _temporary_block(declared: Declarations, member: Member, where: str) -> None
     """An instance that lasts for one call, where the dialect has that; not where something in it is to have a reference of its
     own from the start."""
     parts = [*_parts(member.type)]
-    bound = any(owner is part for owner, _, _ in declared.start_references for part in parts)
+    bound = any(start.owner is part for start in declared.start_references for part in parts)
     waits = declared.incomplete and any(each.incomplete for part in parts for each in part.members.values())
     if Allowance.BLOCK_TEMPORARIES not in declared.dialect.allows or bound or waits:
         declared.report.error(

@@ -3,20 +3,52 @@
 import math
 import struct
 from contextlib import suppress
+from dataclasses import replace
 
 from scanbench.check.context import Rejected
-from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.declarations import Declarations, StartReference
+from scanbench.check.declare.start_references import refers
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Const
+from scanbench.program.shown import shown
 from scanbench.program.strings import stored
-from scanbench.program.types import ArrayType, Elementary, Kind, Member, Record, Section, StringType, Type, initial_of
+from scanbench.program.types import (
+    ArrayType,
+    Elementary,
+    Kind,
+    Member,
+    Record,
+    Reference,
+    Section,
+    StringType,
+    Type,
+    initial_of,
+)
 from scanbench.syntax import tree
 
 
+def with_references(declared: Declarations, value: tree.Initial, type: Type) -> tuple[bytes, list[StartReference]]:
+    """The bytes of a variable of this type that starts with the value, and the references in it that are bound later."""
+    around, declared.given = declared.given, []
+    try:
+        return _image(declared, value, type), declared.given
+    finally:
+        declared.given = around
+
+
 def initial_image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
-    """The bytes of a variable of this type that starts with the value."""
+    """The same of what starts with no references."""
+    made, given = with_references(declared, value, type)
+    if given:
+        raise declared.report.reject(
+            "D004", "This starts with NULL; assign the reference in the body.", given[0].node.span
+        )
+    return made
+
+
+def _image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
     match value:
         case tree.ArrayInit():
             return _array(declared, value, type)
@@ -24,6 +56,9 @@ def initial_image(declared: Declarations, value: tree.Initial, type: Type) -> by
             return _parts(declared, value, type)
         case tree.StructInit():
             return _record(declared, value, type)
+    if isinstance(type, Reference) and refers(declared, type, value):
+        declared.given.append(StartReference(0, type, value))
+        return initial_of(type)
     if not isinstance(type, Elementary | StringType):
         example = "[1, 2, 3(0)]" if isinstance(type, ArrayType) else "(member := value)"
         raise declared.report.reject("D004", f"An initial value of {type} is written like {example}.", value.span)
@@ -42,7 +77,12 @@ def _array(declared: Declarations, value: tree.ArrayInit, type: Type) -> bytes:
         count = 1 if count_tree is None else declared.constant_of(count_tree, None).value
         if not isinstance(count, int) or count < 0 or count > type.count:
             raise declared.report.reject("D004", f"{count!r} values do not fit {type}.", value.span)
-        made = initial_image(declared, item, element)
+        first = len(declared.given)
+        made = _image(declared, item, element)
+        inside = declared.given[first:]
+        del declared.given[first:]
+        for number in range(given, min(given + count, total) if inside else given):
+            declared.given += [replace(each, offset=each.offset + number * element.size) for each in inside]
         given += count
         if given <= total:  # what is beyond is counted, but never made
             image += made * count
@@ -56,9 +96,18 @@ def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes
         raise declared.report.reject("D004", f"Values by member initialise a structure, not {type}.", value.span)
     image = bytearray(type.initial())
     for name, item, span in value.members:
-        member = _member(declared, type, name, span, (Section.IN_OUT, Section.OUTPUT))
-        _put(image, member.offset, member.bit, initial_image(declared, item, member.type))
+        member = _member(declared, type, name, span, (Section.IN_OUT,))
+        _put(image, member.offset, member.bit, _inside(declared, item, member.type, member.offset, name))
     return bytes(image)
+
+
+def _inside(declared: Declarations, item: tree.Initial, type: Type, offset: int, name: str) -> bytes:
+    """What is there in something larger, from this offset on."""
+    first = len(declared.given)
+    made = _image(declared, item, type)
+    moved = [replace(each, offset=each.offset + offset, name=each.name or name) for each in declared.given[first:]]
+    declared.given[first:] = moved
+    return made
 
 
 def _member(declared: Declarations, type: Record, name: str, span: Span, without: tuple[Section, ...]) -> Member:
@@ -86,7 +135,7 @@ def _parts(declared: Declarations, value: tree.StructInit, type: Type) -> bytes:
     for target, item in value.parts:
         with suppress(Rejected):  # it is told; so are the others
             offset, bit, part = _part(declared, target, type)
-            _put(image, offset, bit, initial_image(declared, item, part))
+            _put(image, offset, bit, _inside(declared, item, part, offset, shown(target)))
     return bytes(image)
 
 

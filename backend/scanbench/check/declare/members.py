@@ -8,11 +8,10 @@ from scanbench.check.context import Rejected
 from scanbench.check.declare.addresses import is_relative, locate, place_relative
 from scanbench.check.declare.creations import FB_INIT
 from scanbench.check.declare.declarations import Declarations
-from scanbench.check.declare.initial_values import initial_image
-from scanbench.check.declare.start_references import is_this
+from scanbench.check.declare.initial_values import initial_image, with_references
+from scanbench.check.declare.start_references import start_with
 from scanbench.check.declare.vendor_types import BIT, place_bit
 from scanbench.check.dialect import Allowance, said
-from scanbench.program.shown import shown
 from scanbench.program.types import (
     ELEMENTARY,
     SLOT_BYTES,
@@ -133,14 +132,9 @@ def _start(declared: Declarations, owner: Record, member: Member, variable: tree
         member.initial = default_of(declared, variable.type, member.type) if member.copied else b""
         if variable.initial is not None:
             declared.report.error("D004", "An in-out has no initial value; it is bound at each call.", member.span)
-    elif (
-        isinstance(member.type, Reference)
-        and variable.initial is not None
-        and _refers(declared, member.type, variable.initial)
-    ):
-        _start_reference(declared, owner, member, variable.initial)
     elif variable.initial is not None:
-        member.initial = initial_image(declared, variable.initial, member.type)
+        member.initial, given = with_references(declared, variable.initial, member.type)
+        start_with(declared, owner, member, given)
     else:
         member.initial = default_of(declared, variable.type, member.type)
 
@@ -171,29 +165,6 @@ def _incomplete(
     owner.place(member)
     owner.place(Member(own_memory(variable.name), made, Section.VAR, variable.span, initial=starts, hidden=True))
     return member
-
-
-def _refers(declared: Declarations, type: Reference, initial: tree.Initial) -> bool:
-    """Whether a reference starts with a variable: `REF(x)`, or where the dialect has it so, `x` and `THIS`."""
-    if isinstance(initial, tree.Call) or is_this(initial):
-        return True
-    direct = (type.automatic or _is_interface(type)) and Allowance.DIRECT_REFERENCES in declared.dialect.allows
-    return direct and isinstance(initial, tree.Name | tree.MemberOf | tree.IndexOf) and shown(initial).upper() != "NULL"
-
-
-def _is_interface(type: Type) -> bool:
-    return isinstance(type, Reference) and isinstance(type.target, Record) and type.target.kind is Kind.INTERFACE
-
-
-def _start_reference(declared: Declarations, owner: Record, member: Member, node: tree.Initial) -> None:
-    assert not isinstance(node, tree.ArrayInit | tree.StructInit)
-    if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
-        raise declared.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
-    if _is_interface(member.type) and not isinstance(node, tree.Call):
-        used = f"`{member.name}` is an interface that starts with an instance"
-        instead = f"`{member.name} := {shown(node)};` in the body"
-        declared.report.warn("W006", said(declared.dialect, Allowance.DIRECT_REFERENCES, used, instead), node.span)
-    declared.start_references.append((owner, member, node))
 
 
 def _is_bit(declared: Declarations, spec: tree.TypeSpec) -> bool:

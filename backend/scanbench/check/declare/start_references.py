@@ -1,14 +1,25 @@
 """Start values of references: `p : REF_TO INT := REF(x)`. Known when every instance has its place in the image."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from scanbench.check.context import Rejected
-from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.declarations import Declarations, Start, StartReference
 from scanbench.check.dialect import Allowance, said
 from scanbench.problems import Span
 from scanbench.program.program import Base, Expr, Place, RefOf
+from scanbench.program.shown import shown
 from scanbench.program.tasks import ProgramInstance
-from scanbench.program.types import SLOT_BYTES, ArrayType, Kind, Record, Reference, is_derived
+from scanbench.program.types import (
+    SLOT_BYTES,
+    ArrayType,
+    Kind,
+    Member,
+    Record,
+    Reference,
+    Section,
+    Type,
+    is_derived,
+)
 from scanbench.syntax import tree
 
 STARTS_WITH = "A reference starts with NULL or REF(variable) of a variable that is found without running anything."
@@ -26,17 +37,42 @@ def bind_start_references(
     for instance in instances:
         for record, base in _records(instance.pou.instance, instance.offset):
             bases.setdefault(record.name.upper(), []).append(base)
-    for owner, member, node in declarations.start_references:
-        assert isinstance(member.type, Reference)
+    for start in declarations.start_references:
+        owner, node = start.owner, start.given.node
         try:
-            place = _lasting(declarations, declarations.reference_of(owner, node, member.type), node.span)
+            place = _lasting(declarations, declarations.reference_of(owner, node, start.given.type), node.span)
         except Rejected:
             continue
         for base in bases.get(owner.name.upper(), []):
             offset = place.offset + (base if place.base is Base.SELF else 0)
             reference = offset | (place.bit or 0) << 32
-            at = base + member.offset
+            at = base + start.member.offset + start.given.offset
             image[at : at + SLOT_BYTES] = reference.to_bytes(SLOT_BYTES, "little")
+
+
+def refers(declared: Declarations, type: Reference, initial: tree.Initial) -> bool:
+    """Whether a reference starts with a variable: `REF(x)`, or where the dialect has it so, `x` and `THIS`."""
+    if isinstance(initial, tree.Call) or is_this(initial):
+        return True
+    direct = (type.automatic or _is_interface(type)) and Allowance.DIRECT_REFERENCES in declared.dialect.allows
+    return direct and isinstance(initial, tree.Name | tree.MemberOf | tree.IndexOf) and shown(initial).upper() != "NULL"
+
+
+def _is_interface(type: Type) -> bool:
+    return isinstance(type, Reference) and isinstance(type.target, Record) and type.target.kind is Kind.INTERFACE
+
+
+def start_with(declared: Declarations, owner: Record, member: Member, given: Sequence[StartReference]) -> None:
+    """Notes the references that the variable, or what is in it, starts with."""
+    for each in given:
+        node, name = each.node, each.name or member.name
+        if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
+            raise declared.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
+        if _is_interface(each.type) and not isinstance(node, tree.Call):
+            used = f"`{name}` is an interface that starts with an instance"
+            instead = f"`{name} := {shown(node)};` in the body"
+            declared.report.warn("W006", said(declared.dialect, Allowance.DIRECT_REFERENCES, used, instead), node.span)
+        declared.start_references.append(Start(owner, member, each))
 
 
 def is_this(node: tree.Initial) -> bool:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type, has_instance
+from scanbench.program.types import ArrayType, Kind, Member, Record, Reference, Section, Type, has_instance
 from scanbench.syntax import tree
 
 
@@ -15,6 +15,8 @@ class Explicit:
     offset: int
     """From the beginning of what is declared."""
     retain: bool
+    node: tree.Initial | None = None
+    """The value, where the type is a reference."""
 
 
 Count = Callable[[tree.Expression], int]
@@ -42,7 +44,7 @@ def explicit(
         case None, _:
             return
         case _:
-            yield Explicit(type, offset, retain)
+            yield Explicit(type, offset, retain, initial if isinstance(type, Reference) else None)
 
 
 def _elsewhere(member: Member) -> bool:

@@ -5,11 +5,13 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.body.arguments import invoke
 from scanbench.check.body.context import Body
+from scanbench.check.body.direct import as_argument
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
 from scanbench.check.declare.creations import FB_REINIT, MADE, Arguments, Creation, is_called
 from scanbench.check.declare.life_rules import extra_inputs, init_of, is_whole
 from scanbench.check.declare.scopes import decode
+from scanbench.check.declare.start_references import refers
 from scanbench.check.life.code import Code
 from scanbench.check.life.explicit import Explicit, explicit
 from scanbench.check.life.needs import has_made
@@ -18,6 +20,7 @@ from scanbench.program.program import (
     Assign,
     Compare,
     Const,
+    Expr,
     For,
     If,
     Index,
@@ -28,7 +31,18 @@ from scanbench.program.program import (
     Stmt,
 )
 from scanbench.program.sites import TrapKind
-from scanbench.program.types import BOOL, DINT, ULINT, ArrayType, Elementary, Member, Record, Type, initial_of
+from scanbench.program.types import (
+    BOOL,
+    DINT,
+    ULINT,
+    ArrayType,
+    Elementary,
+    Member,
+    Record,
+    Reference,
+    Type,
+    initial_of,
+)
 from scanbench.syntax import tree
 
 RETAINS, COPY = "bInitRetains$", "bInCopyCode$"
@@ -66,8 +80,8 @@ class Writer:
         place = self.place_of(member)
         values = list(explicit(creation.initial, member.type, member.retain, self._count))
         # what is given from outside is not there yet when FB_init runs
-        before = self._values(place, values, initial_of(member.type), creation.span)
-        after = self._values(place, values, member.initial or initial_of(member.type), creation.span)
+        before = self._values(place, values, initial_of(member.type), creation.span, False)
+        after = self._values(place, values, member.initial or initial_of(member.type), creation.span, True)
         if not fresh:
             before, after = [], []
         elements = list(creation.elements)
@@ -90,17 +104,28 @@ class Writer:
         value = self.body.declarations.constant_of(node, None).value
         return value if isinstance(value, int) else 1
 
-    def _values(self, place: Place, values: list[Explicit], data: bytes, span: Span) -> list[Stmt]:
+    def _values(self, place: Place, values: list[Explicit], data: bytes, span: Span, refer: bool) -> list[Stmt]:
         made: list[Stmt] = []
         for each in values:
             target = replace(place, type=each.type, offset=place.offset + each.offset, variable="")
             part = data[each.offset : each.offset + each.type.size]
-            constant = decode(each.type, part) if isinstance(each.type, Elementary) else None
-            one: Stmt = SetBytes(target, part, span) if constant is None else Assign(target, constant, span)
+            value: Expr | None = decode(each.type, part) if isinstance(each.type, Elementary) else None
+            bound = self._bound(each) if refer else None
+            value = bound or value
+            one: Stmt = SetBytes(target, part, span) if value is None else Assign(target, value, span)
             made.append(
                 If(((self.body.expression(self._input(RETAINS, span)), (one,)),), (), span) if each.retain else one
             )
         return made
+
+    def _bound(self, each: Explicit) -> Expr | None:
+        """The reference that starts with a variable; None for other values."""
+        node, type = each.node, each.type
+        if node is None or isinstance(node, tree.ArrayInit | tree.StructInit) or not isinstance(type, Reference):
+            return None
+        if not refers(self.body.declarations, type, node):
+            return None
+        return as_argument(self.body, node, type, "The start value")
 
     def _input(self, name: str, span: Span) -> tree.Expression:
         return tree.Name(name, span) if self.passed_on else tree.Literal("bool", int(name == RETAINS), None, span)
