@@ -1,9 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('names lead to their declarations, are renamed in all files, and calls show what they expect', async ({
-  openAs,
-  server,
-}) => {
+test('names lead to their declarations, are renamed in all files, and calls show what they expect', {
+  tag: '@nightly',
+}, async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const main = mika.editor('Main.st');

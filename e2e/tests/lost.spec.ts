@@ -13,7 +13,10 @@ const saysThatItLives = (socket: Socket) =>
     timeout: LONG,
   });
 
-test('without a server the page says so, keeps the entries, and reconnects by itself', async ({ openAs, server }) => {
+test('without a server the page says so, keeps the entries, and reconnects by itself', { tag: '@nightly' }, async ({
+  openAs,
+  server,
+}) => {
   const mika = await openAs('Mika');
   const main = mika.editor('Main.st');
   await mika.runs();

@@ -1,10 +1,9 @@
 import { expect, test } from '../fixtures/test';
 import { Trace } from '../pages/trace';
 
-test('signals are recorded, a trigger catches an error, and earlier scans are recorded afterwards', async ({
-  openAs,
-  server,
-}) => {
+test('signals are recorded, a trigger catches an error, and earlier scans are recorded afterwards', {
+  tag: '@nightly',
+}, async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   const trace = new Trace(mika.page);
   await mika.runs();

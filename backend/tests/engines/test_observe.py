@@ -629,7 +629,7 @@ def test_engines_agree_on_random_programs() -> None:
 
 
 @nightly
-@pytest.mark.parametrize("topic", some(sorted(path.stem for path in CASES.glob("*.case")), 3, 1))
+@pytest.mark.parametrize("topic", some(sorted(path.stem for path in CASES.glob("*.case")), 9, 1))
 def test_engines_agree_on_all_cases(topic: str) -> None:
     for case in read_cases(CASES / f"{topic}.case"):
         seen: dict[str, list[Seen]] = {}

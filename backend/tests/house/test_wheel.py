@@ -122,6 +122,7 @@ def run(installed: Path, tmp_path: Path) -> Callable[..., subprocess.CompletedPr
     return call
 
 
+@slow
 def test_it_runs_with_its_own_models_page_and_samples(
     run: Callable[..., subprocess.CompletedProcess[str]], installed: Path
 ) -> None:
@@ -145,6 +146,7 @@ def test_it_serves_from_an_empty_folder(run: Callable[..., subprocess.CompletedP
     assert list((tmp_path / "empty").iterdir()) == [], "nothing is left in the working directory"
 
 
+@slow
 def test_it_puts_the_extension_into_vs_code(
     run: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
 ) -> None:

@@ -24,8 +24,8 @@ def commands(name: str) -> list[str]:
     return [each["run"] for each in content["jobs"]["test"]["steps"] if each.get("name") in ("check", "test")]
 
 
-@pytest.mark.nightly
-@pytest.mark.parametrize("name", [pytest.param("gitlab-ci.yml", marks=slow), "github-actions.yml"])
+@slow
+@pytest.mark.parametrize("name", ["gitlab-ci.yml", "github-actions.yml"])
 def test_its_commands_do_what_it_says(name: str, tmp_path: Path) -> None:
     copytree(Path(scanbench.__file__).parent / "samples" / "conveyor", tmp_path / "plc")
     (tmp_path / "tests").mkdir()

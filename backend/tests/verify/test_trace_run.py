@@ -25,6 +25,7 @@ from scanbench.verify.trace.propose import propose
 from scanbench.verify.trace.read import read_trace
 from scanbench.verify.trace.subject import open_trace
 from scanbench.verify.verifier import Verifier
+from tests.amounts import slow
 from tests.caseformat import MODELS
 from tests.verify.trace_parts import conveyor, conveyor_csv, exported, leaves, program_of, with_cell
 
@@ -59,7 +60,11 @@ def test_our_own_export_has_no_difference(range: str) -> None:
         assert {row.inputs["start"].recorded for row in rows} == {b"\0", b"\1"}
 
 
-@pytest.mark.parametrize("sample", list(samples()), ids=lambda each: each.name)
+@pytest.mark.parametrize(
+    "sample",
+    [pytest.param(each, marks=slow if each.name == "Filling" else []) for each in samples()],
+    ids=[each.name for each in samples()],
+)
 def test_no_variable_of_any_sample_differs(sample: Sample) -> None:
     program = check_sources(sample.files, MODELS[sample.model]).program
     assert program is not None

@@ -25,7 +25,7 @@ def divide(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(inlining, "PIECE", 2)
 
 
-@pytest.mark.parametrize("case", some(CASES, 12, 5), ids=[case.name for case in some(CASES, 12, 5)])
+@pytest.mark.parametrize("case", some(CASES, 24, 5), ids=[case.name for case in some(CASES, 24, 5)])
 def test_cases_in_pieces(case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     divide(monkeypatch)
     run_case(case, [NativeEngine])

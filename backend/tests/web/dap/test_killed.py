@@ -3,6 +3,7 @@
 import os
 import signal
 
+from tests.amounts import slow
 from tests.web.dap.client import SocketClient
 from tests.web.server import Server
 
@@ -10,6 +11,7 @@ MODEL = "CJ1M-CPU63"
 COUNT = "PROGRAM Main\nVAR n, k : DINT; END_VAR\nn := n + 1;\nk := k + n;\nEND_PROGRAM\n"
 
 
+@slow
 def test_it_stays_halted_before_the_scan_until_somebody_continues(server: Server) -> None:
     instance = server.instance("killed while halted", MODEL, main=COUNT)
     with server.browser(instance) as browser, SocketClient(server, instance) as tool:
