@@ -13,12 +13,14 @@ from scanbench.comm.door import Plc
 from scanbench.comm.fins.service import FinsServer
 from scanbench.comm.modbus.mapping import Mapped, default
 from scanbench.comm.modbus.service import modbus_server
+from scanbench.comm.modbus.wires import PlantWanted
 from scanbench.comm.opcua.service import PORT as OPC_UA_PORT
 from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
 from scanbench.faults.line_faults import NO_FAULT, SERVER_NAMES, BreakLine, LineFault, MendLine, ServerKind, servers_of
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
 from scanbench.server.communication_network import Member, PlcNetwork
+from scanbench.server.communication_plant import Plant
 from scanbench.server.communication_plc import SessionPlc
 from scanbench.server.communication_shapes import CommunicationSeen, ServerSeen, ServerWanted
 from scanbench.session.session import Session
@@ -90,6 +92,7 @@ class _Unit:
 
     session: Session
     readers: ErrorReaders
+    plant: Plant
     servers: dict[ServerKind, _Running] = field(default_factory=dict)
     turning: asyncio.Lock = field(default_factory=asyncio.Lock)
     ignore: Callable[[], None] = field(default=lambda: None)
@@ -113,9 +116,10 @@ class Communication:
 
     async def begin(self, session: Session) -> None:
         """A PLC is there: opens the servers that were on."""
-        unit = self._units[session.id] = _Unit(session, ErrorReaders(session.model))
+        kept, readers = session.row.communication or {}, ErrorReaders(session.model)
+        plant = Plant(session, readers, kept.get("plant"), lambda: _tell_clients(unit))
+        unit = self._units[session.id] = _Unit(session, readers, plant)
         self._network.begin(session)
-        kept = session.row.communication or {}
         unit.ignore = self._follow_lines(unit)
         for kind in servers_of(session.model):
             unit.servers[kind] = _Running(_read(kept.get(kind), KINDS[kind].first))
@@ -123,6 +127,7 @@ class Communication:
                 self._begin_task(self._turn_later(unit, kind))
             else:
                 await self._turn(unit, kind)
+        plant.begin()
 
     async def end(self, id: int) -> None:
         """A PLC is gone: closes its servers."""
@@ -134,6 +139,7 @@ class Communication:
         async with unit.turning:
             for running in unit.servers.values():
                 await _close(running)
+            await unit.plant.end()
 
     async def close(self) -> None:
         """Closes all servers."""
@@ -148,7 +154,7 @@ class Communication:
         """As it is now."""
         unit = self._units[session.id]
         servers = tuple(_seen(kind, running) for kind, running in unit.servers.items())
-        return CommunicationSeen(servers, unit.readers.all)
+        return CommunicationSeen(servers, unit.readers.all, unit.plant.seen)
 
     async def set(self, session: Session, kind: ServerKind, wanted: ServerWanted, author: str) -> CommunicationSeen:
         """Switches a server on or off, or gives it other settings; they are kept. `Refused`."""
@@ -160,10 +166,25 @@ class Communication:
             await _close(unit.servers[kind])
             unit.servers[kind] = _Running(wanted, fault=unit.servers[kind].fault)
             await self._turn(unit, kind)
-            kept: dict[str, object] = {each: asdict(running.wanted) for each, running in unit.servers.items()}
-            await asyncio.to_thread(self._store.instances.keep_communication, session.id, kept)
+            await self._keep(unit)
         session.log.add(author, _told(kind, unit.servers[kind]), "system")
         return self.seen(session)
+
+    async def set_plant(self, session: Session, wanted: PlantWanted, author: str) -> CommunicationSeen:
+        """Switches the exchange with a plant on or off, or gives it other settings; they are kept. `Refused`."""
+        unit = self._units[session.id]
+        unit.plant.check(wanted)
+        async with unit.turning:
+            await unit.plant.set(wanted)
+            await self._keep(unit)
+        on = f"values are exchanged with the plant at {wanted.host}:{wanted.port}"
+        session.log.add(author, on if wanted.on else "values are exchanged with no plant", "system")
+        return self.seen(session)
+
+    async def _keep(self, unit: _Unit) -> None:
+        kept: dict[str, object] = {each: asdict(running.wanted) for each, running in unit.servers.items()}
+        kept["plant"] = asdict(unit.plant.wanted)
+        await asyncio.to_thread(self._store.instances.keep_communication, unit.session.id, kept)
 
     async def break_line(self, session: Session, kind: ServerKind, fault: LineFault, author: str) -> CommunicationSeen:
         """Lets something be wrong with the line to the clients of a server, or nothing any more. `Refused`."""
@@ -268,9 +289,8 @@ def _told(kind: ServerKind, running: _Running) -> str:
 
 def _tell_clients(unit: _Unit) -> None:
     """Everybody at the PLC sees who is connected."""
-    names = (
-        client.name for running in unit.servers.values() if running.desk is not None for client in running.desk.clients
-    )
+    desks = (*(running.desk for running in unit.servers.values()), unit.plant.desk)
+    names = (client.name for desk in desks if desk is not None for client in desk.clients)
     unit.session.tools = tuple(map(User, names))
     unit.session.tell(UsersChanged(unit.session.users))
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from scanbench.comm.desk import ClientSeen, FrameSeen
+from scanbench.comm.modbus.wires import PlantWanted
 from scanbench.faults.line_faults import LineFault, ServerKind
 from scanbench.public import Public
 
@@ -53,6 +54,26 @@ class ServerSeen(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class PlantSeen(Public):
+    """A plant that is a server of Modbus TCP, as it is."""
+
+    PUBLIC: ClassVar = "CommunicationPlant"
+
+    settings: PlantWanted
+    answers: bool
+    trouble: str
+    """Why it does not answer although it is on, or why its values are not entered."""
+    exchanges: int
+    """Since it was switched on."""
+    took_ms: float
+    """The last exchange."""
+    per_second: float
+    """Requests, lately."""
+    frames: tuple[FrameSeen, ...]
+    """The last ones, the oldest first."""
+
+
+@dataclass(frozen=True, slots=True)
 class ErrorReader(Public):
     """A word of error memory that clients have read since their server was switched on."""
 
@@ -72,3 +93,4 @@ class CommunicationSeen(Public):
     servers: tuple[ServerSeen, ...]
     """Those that the model can have."""
     error_readers: tuple[ErrorReader, ...]
+    plant: PlantSeen

@@ -16,7 +16,7 @@ from scanbench.comm.pieces import Pieces
 _HEAD = Struct(">HHHB")
 _LEAST, _MOST = 2, 254
 """What a length may be: unit and function at least."""
-_FAILED = 0x80
+FAILED = 0x80
 
 
 class Code(IntEnum):
@@ -76,7 +76,7 @@ def answer(request: Request, data: bytes) -> bytes:
 
 def failure(request: Request, code: Code) -> bytes:
     """The frame of an exception."""
-    return _frame(request, bytes((request.function | _FAILED, code)))
+    return _frame(request, bytes((request.function | FAILED, code)))
 
 
 def _frame(request: Request, pdu: bytes) -> bytes:

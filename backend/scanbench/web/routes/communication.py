@@ -4,6 +4,7 @@ from fastapi import APIRouter, Request
 from fastapi.responses import Response
 
 from scanbench.comm.modbus.mapping import Mapped, as_csv
+from scanbench.comm.modbus.wires import PlantWanted
 from scanbench.faults.line_faults import LineFault, ServerKind
 from scanbench.server.communication_shapes import CommunicationSeen, ServerWanted
 from scanbench.web.auth import user_of
@@ -17,6 +18,13 @@ router = APIRouter(prefix="/api/instances/{instance}/communication", tags=["comm
 async def on_communication(bench: Bench, instance: Id) -> CommunicationSeen:
     """Its servers, who is connected, what was asked lately, and who reads the error memory."""
     return bench.communication.seen(bench.session(instance))
+
+
+@router.put("/plant")
+async def on_set_plant(bench: Bench, request: Request, instance: Id, wanted: PlantWanted) -> CommunicationSeen:
+    """Switches the exchange of values with a plant on or off, which is a server of Modbus TCP (Factory I/O and the like), or says what
+    is wired to what. It is kept: it is on again when Scanbench starts again."""
+    return await bench.communication.set_plant(bench.session(instance), wanted, user_of(request).name)
 
 
 @router.put("/{kind}")

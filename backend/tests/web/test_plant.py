@@ -1,0 +1,114 @@
+"""A plant that is a server of Modbus which somebody else wrote: its values are inputs of a virtual PLC, in its run."""
+
+from pathlib import Path
+from typing import Any
+
+from pymodbus.client import ModbusTcpClient
+
+from scanbench.recording.blocks import read_contents
+from scanbench.recording.format import RunFile
+from scanbench.runtime.write_areas import WriteAreas
+from scanbench.wire.codec import ENTRIES
+from tests.cli.calling import scanbench
+from tests.web.foreign_plant import COILS, DISCRETE, HOLDING, INPUT, ForeignPlant
+from tests.web.server import PATIENCE_S, Server
+from tests.web.test_communication import switch_on, until
+
+SOURCE = """
+PROGRAM Main
+VAR
+  at_end AT CIO 0.03 : BOOL; weight AT D100 : INT; alive AT W0.00 : BOOL;
+  motor AT CIO 100.01 : BOOL; speed AT D200 : INT; lost : INT; was : BOOL;
+END_VAR
+  IF was AND NOT alive THEN lost := lost + 1; END_IF;
+  was := alive;
+  motor := alive AND NOT at_end;
+  speed := 2 * weight;
+END_PROGRAM
+"""
+RANGES = [
+    {"group": "discrete input", "first": 0, "count": 16, "address": "CIO0.00"},
+    {"group": "input register", "first": 2, "count": 2, "address": "D100"},
+    {"group": "coil", "first": 0, "count": 5, "address": "CIO100.00", "to": "plant"},
+    {"group": "holding register", "first": 7, "count": 1, "address": "D200", "to": "plant"},
+]
+
+
+def exchange(server: Server, instance: int, port: int, **wanted: Any) -> Any:
+    settings = {"on": True, "port": port, "every_ms": 10, "answers": "W0.00", "ranges": RANGES, **wanted}
+    return server.http.put(f"/api/instances/{instance}/communication/plant", json=settings)
+
+
+def seen(server: Server, instance: int) -> dict[str, Any]:
+    found: dict[str, Any] = server.http.get(f"/api/instances/{instance}/communication").json()["plant"]
+    return found
+
+
+def test_a_plant_drives_inputs_is_lost_and_comes_back_and_the_run_replays_without_it(
+    server: Server, tmp_path: Path
+) -> None:
+    instance = server.instance("plant", "CJ1M-CPU13", main=SOURCE)
+    modbus = switch_on(server, instance, "modbus")
+    with ForeignPlant() as plant, ModbusTcpClient("127.0.0.1", port=modbus, timeout=PATIENCE_S) as plc:
+
+        def words(first: int, count: int = 1) -> list[int]:
+            return list(plc.read_holding_registers(first, count=count).registers)
+
+        def bit(number: int) -> bool:
+            return bool(plc.read_coils(number, count=1).bits[0])
+
+        exchange(server, instance, plant.port, lost="clear").raise_for_status()
+        plant.set(INPUT, 2, 21, 0xFFFD)
+        until(lambda: words(100, 2) == [21, 0xFFFD])
+        until(lambda: plant.get(HOLDING, 7) == [42])
+        until(lambda: plant.get(COILS, 0, 3) == [0, 1, 0])
+        plant.set(DISCRETE, 3, 1)
+        until(lambda: bit(3) and plant.get(COILS, 1) == [0])
+        told = seen(server, instance)
+        assert told["answers"]
+        assert told["trouble"] == ""
+        assert told["exchanges"] > 0
+        assert {each["text"] for each in told["frames"]} <= {
+            "read discrete inputs 0, 16", "read input registers 2, 2", "write coils 0, 5", "write registers 7, 1",
+        }  # fmt: skip
+
+        plant.stop()
+        until(lambda: not seen(server, instance)["answers"])
+        until(lambda: words(100) == [0])
+        assert not bit(3), "what inputs are to do was: 0"
+        until(lambda: words(200) == [0])
+        assert seen(server, instance)["trouble"] != ""
+
+        plant.set(INPUT, 2, 22)
+        plant.start()
+        until(lambda: words(100) == [22] and plant.get(HOLDING, 7) == [44])
+        name = f"Modbus plant 127.0.0.1:{plant.port}"
+        with server.browser(instance) as browser:
+            assert name in [each["name"] for each in browser.hello["users"]]
+            assert browser.ask(type="pause")["ok"]
+        log = server.http.get(f"/api/instances/{instance}/log?count=100").json()["lines"]
+        told_of = [each["text"] for each in log if each["author"] == name and "the plant at" in each["text"]]
+        assert ["does not answer" in each for each in told_of] == [False, True, False]
+        exchange(server, instance, plant.port, on=False).raise_for_status()
+    replays_without(server, instance, name, tmp_path)
+
+
+def replays_without(server: Server, instance: int, name: str, folder: Path) -> None:
+    run = folder / "run.scanrun"
+    run.write_bytes(server.http.get(f"/api/instances/{instance}/export").content)
+    file = RunFile.open(run, read_only=True)
+    entries = [each.command for each in read_contents(file, ENTRIES).found.entries]
+    file.close()
+    authors = [each.author for each in entries if isinstance(each, WriteAreas)]
+    assert set(authors) == {name}
+    assert len(authors) < 12, "what is there already is not kept"
+    replayed = scanbench("replay", str(run))
+    assert replayed.returncode == 0, replayed.stderr
+
+
+def test_settings_that_make_no_sense_are_refused_and_change_nothing(server: Server) -> None:
+    instance = server.instance("no plant", "CJ1M-CPU13", main=SOURCE)
+    refused = exchange(server, instance, 502, ranges=[{**RANGES[0], "to": "plant"}])
+    assert refused.status_code == 422
+    assert refused.json()["message"] == "range 1: a discrete input of a plant can only be read"
+    assert seen(server, instance)["settings"]["ranges"] == []
