@@ -19,6 +19,7 @@ from scanbench.recording.recording import RecordingInfo
 from scanbench.reports.record import RecordCell
 from scanbench.reports.record_text import RecordLine
 from scanbench.runtime.migrate_image import Lost
+from scanbench.server.communication_shapes import PlantSeen, ServerSeen
 from scanbench.verify.contract import Mismatch, Row
 from scanbench.verify.trace.table import TraceProblem
 from scanbench.web import (
@@ -81,6 +82,7 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (Divergence, "text"),
     (Lost, "reason"),
     (Mismatch, "message"),
+    (PlantSeen, "trouble"),
     (PreviewedErrors, "message"),
     (Reaction, "note"),
     (RequiredResult, "note"),
@@ -88,6 +90,7 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (RecordLine, "text"),
     (RecordingInfo, "damage"),
     (Row, "note"),
+    (ServerSeen, "trouble"),
     (RunMark, "text"),
     (TraceProblem, "message"),
     (TraceStatus, "note"),

@@ -103,8 +103,8 @@ def test_ranges_that_make_no_sense_are_refused(wanted: PlantRange, why: str) -> 
 
 def test_other_settings_that_make_no_sense_are_refused() -> None:
     for wanted, why in (
-        (PlantWanted(host=" "), "needs an address"), (PlantWanted(port=0), "port 0 is outside of 1 to 65535"),
-        (PlantWanted(unit=256), "unit 256 is outside"), (PlantWanted(every_ms=1), "interval 1 is outside of 10 to 60000"),
+        (PlantWanted(host=" "), "needs an address"), (PlantWanted(port=0), "port 0 of the plant is outside of 1 to 65535"),
+        (PlantWanted(unit=256), "unit 256 of the plant is outside"), (PlantWanted(every_ms=1), "interval of 1 ms is outside of 10 to 60000"),
     ):  # fmt: skip
         with pytest.raises(Refused, match=why):
             wires(OMRON, wanted)

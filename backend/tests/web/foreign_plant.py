@@ -46,7 +46,7 @@ class ForeignPlant:
     def stop(self) -> None:
         """Every connection ends."""
         if self._server is not None:
-            self._now(self._server.shutdown())
+            self._now(self._server.shutdown())  # type: ignore[no-untyped-call]
             self._server = None
 
     def set(self, group: int, first: int, *values: int) -> None:

@@ -3,8 +3,11 @@
 from pathlib import Path
 from typing import Any
 
+import pytest
 from pymodbus.client import ModbusTcpClient
 
+from scanbench.client import Refused, connect
+from scanbench.client.shapes.communication import CommunicationPlant
 from scanbench.recording.blocks import read_contents
 from scanbench.recording.format import RunFile
 from scanbench.runtime.write_areas import WriteAreas
@@ -35,13 +38,12 @@ RANGES = [
 
 
 def exchange(server: Server, instance: int, port: int, **wanted: Any) -> Any:
-    settings = {"on": True, "port": port, "every_ms": 10, "answers": "W0.00", "ranges": RANGES, **wanted}
-    return server.http.put(f"/api/instances/{instance}/communication/plant", json=settings)
+    settings = {"port": port, "every_ms": 10, "answers": "W0.00", "ranges": RANGES, **wanted}
+    return connect(server.address, user="Ada").plc(instance).exchange_with_plant(**settings)
 
 
-def seen(server: Server, instance: int) -> dict[str, Any]:
-    found: dict[str, Any] = server.http.get(f"/api/instances/{instance}/communication").json()["plant"]
-    return found
+def seen(server: Server, instance: int) -> CommunicationPlant:
+    return connect(server.address).plc(instance).communication["plant"]
 
 
 def test_a_plant_drives_inputs_is_lost_and_comes_back_and_the_run_replays_without_it(
@@ -57,11 +59,11 @@ def test_a_plant_drives_inputs_is_lost_and_comes_back_and_the_run_replays_withou
         def bit(number: int) -> bool:
             return bool(plc.read_coils(number, count=1).bits[0])
 
-        exchange(server, instance, plant.port, lost="clear").raise_for_status()
+        exchange(server, instance, plant.port, lost="clear")
         plant.set(INPUT, 2, 21, 0xFFFD)
         until(lambda: words(100, 2) == [21, 0xFFFD])
-        until(lambda: plant.get(HOLDING, 7) == [42])
-        until(lambda: plant.get(COILS, 0, 3) == [0, 1, 0])
+        until(lambda: words(200) == [42] and plant.get(HOLDING, 7) == [42])
+        until(lambda: bit(1601) and plant.get(COILS, 0, 3) == [0, 1, 0])
         plant.set(DISCRETE, 3, 1)
         until(lambda: bit(3) and plant.get(COILS, 1) == [0])
         told = seen(server, instance)
@@ -85,11 +87,10 @@ def test_a_plant_drives_inputs_is_lost_and_comes_back_and_the_run_replays_withou
         name = f"Modbus plant 127.0.0.1:{plant.port}"
         with server.browser(instance) as browser:
             assert name in [each["name"] for each in browser.hello["users"]]
-            assert browser.ask(type="pause")["ok"]
         log = server.http.get(f"/api/instances/{instance}/log?count=100").json()["lines"]
         told_of = [each["text"] for each in log if each["author"] == name and "the plant at" in each["text"]]
         assert ["does not answer" in each for each in told_of] == [False, True, False]
-        exchange(server, instance, plant.port, on=False).raise_for_status()
+        exchange(server, instance, plant.port, on=False)
     replays_without(server, instance, name, tmp_path)
 
 
@@ -108,7 +109,6 @@ def replays_without(server: Server, instance: int, name: str, folder: Path) -> N
 
 def test_settings_that_make_no_sense_are_refused_and_change_nothing(server: Server) -> None:
     instance = server.instance("no plant", "CJ1M-CPU13", main=SOURCE)
-    refused = exchange(server, instance, 502, ranges=[{**RANGES[0], "to": "plant"}])
-    assert refused.status_code == 422
-    assert refused.json()["message"] == "range 1: a discrete input of a plant can only be read"
+    with pytest.raises(Refused, match="range 1: a discrete input of a plant can only be read"):
+        exchange(server, instance, 502, ranges=[{**RANGES[0], "to": "plant"}])
     assert seen(server, instance)["settings"]["ranges"] == []

@@ -90,7 +90,18 @@ function busy(server: FakeServer): void {
   } as FakeServer["greeting"]);
   server.on("GET", "/instances/*/model", () => inJapanese(CATALOGUE));
   server.on("GET", "/instances/*/rack", () => []);
-  server.on("GET", "/instances/*/communication", () => ({ servers: [], error_readers: [] }));
+  const settings = {
+    on: false,
+    host: "127.0.0.1",
+    port: 502,
+    unit: 1,
+    every_ms: 50,
+    lost: "keep" as const,
+    answers: "",
+    ranges: [],
+  };
+  const plant = { settings, answers: false, trouble: "", exchanges: 0, took_ms: 0, per_second: 0, frames: [] };
+  server.on("GET", "/instances/*/communication", () => ({ servers: [], error_readers: [], plant }));
   server.on("GET", "/instances/*/communication/modbus/map", () => []);
   server.on("GET", "/projects/*/user-errors", () => ({
     errors: [],

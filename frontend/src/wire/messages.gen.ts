@@ -426,6 +426,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/communication/plant": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Switches the exchange of values with a plant on or off, which is a server of Modbus TCP (Factory I/O and the like), or says what is wired to what
+         * @description Switches the exchange of values with a plant on or off, which is a server of Modbus TCP (Factory I/O and the like), or says what
+         *     is wired to what. It is kept: it is on again when Scanbench starts again.
+         */
+        put: operations["save_instance_communication_plant"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/comparisons": {
         parameters: {
             query?: never;
@@ -3962,6 +3983,7 @@ export interface components {
         Communication: {
             /** Error Readers */
             error_readers: components["schemas"]["ErrorMemoryReader"][];
+            plant: components["schemas"]["CommunicationPlant"];
             /**
              * Servers
              * @description Those that the model can have.
@@ -4041,6 +4063,40 @@ export interface components {
              * @description Decoded: `memory area read D100, 3`.
              */
             text: string;
+        };
+        /**
+         * CommunicationPlant
+         * @description A plant that is a server of Modbus TCP, as it is.
+         */
+        CommunicationPlant: {
+            /** Answers */
+            answers: boolean;
+            /**
+             * Exchanges
+             * @description Since it was switched on.
+             */
+            exchanges: number;
+            /**
+             * Frames
+             * @description The last ones, the oldest first.
+             */
+            frames: components["schemas"]["CommunicationFrame"][];
+            /**
+             * Per Second
+             * @description Requests, lately.
+             */
+            per_second: number;
+            settings: components["schemas"]["PlantSettings"];
+            /**
+             * Took Ms
+             * @description The last exchange.
+             */
+            took_ms: number;
+            /**
+             * Trouble
+             * @description Why it does not answer although it is on, or why its values are not entered.
+             */
+            trouble: string;
         };
         /**
          * CommunicationServer
@@ -6865,6 +6921,87 @@ export interface components {
             line: number | null;
             /** Name */
             name: string;
+        };
+        /**
+         * PlantRange
+         * @description Coils or registers of the plant that follow each other, and the memory of the PLC that they are wired to.
+         */
+        PlantRange: {
+            /**
+             * Address
+             * @description Of the first one, in the PLC: a bit for coils and discrete inputs, else a word.
+             */
+            address: string;
+            /** Count */
+            count: number;
+            /**
+             * First
+             * @description Counted from 0.
+             */
+            first: number;
+            /**
+             * Group
+             * @enum {string}
+             */
+            group: "coil" | "discrete input" | "input register" | "holding register";
+            /**
+             * To
+             * @description Who gets the value. Discrete inputs and input registers can only go to the PLC.
+             * @default plc
+             * @enum {string}
+             */
+            to: "plc" | "plant";
+        };
+        /**
+         * PlantSettings
+         * @description A plant that is a server of Modbus TCP, as somebody sets it.
+         */
+        PlantSettings: {
+            /**
+             * Answers
+             * @description A bit of the PLC that is on while the plant answers; empty: none.
+             * @default
+             */
+            answers: string;
+            /**
+             * Every Ms
+             * @description How often values are exchanged.
+             * @default 50
+             */
+            every_ms: number;
+            /**
+             * Host
+             * @description Where the plant is: an address, or the name of a machine.
+             * @default 127.0.0.1
+             */
+            host: string;
+            /**
+             * Lost
+             * @description What inputs do while the plant does not answer: they keep the last value, or are 0.
+             * @default keep
+             * @enum {string}
+             */
+            lost: "keep" | "clear";
+            /**
+             * On
+             * @default false
+             */
+            on: boolean;
+            /**
+             * Port
+             * @default 502
+             */
+            port: number;
+            /**
+             * Ranges
+             * @default []
+             */
+            ranges: components["schemas"]["PlantRange"][];
+            /**
+             * Unit
+             * @default 1
+             */
+            unit: number;
         };
         /**
          * PlcCommand
@@ -11157,6 +11294,41 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    save_instance_communication_plant: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PlantSettings"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Communication"];
+                };
             };
         };
     };

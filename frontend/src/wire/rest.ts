@@ -30,6 +30,7 @@ import type {
   ModelInfo,
   ModelSummary,
   NewSweep,
+  PlantSettings,
   PlcSymbol,
   PreviewedErrors,
   ProgramState,
@@ -338,6 +339,8 @@ export const rest = {
   communication: (instance: number) => json<Communication>("GET", `/instances/${instance}/communication`),
   setCommunication: (instance: number, kind: ServerKind, wanted: CommunicationServerSettings) =>
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}`, wanted),
+  setPlant: (instance: number, wanted: PlantSettings) =>
+    json<Communication>("PUT", `/instances/${instance}/communication/plant`, wanted),
   breakLine: (instance: number, kind: ServerKind, fault: CommunicationFault) =>
     json<Communication>("PUT", `/instances/${instance}/communication/${kind}/fault`, fault),
   modbusMap: (instance: number) => json<ModbusRange[]>("GET", `/instances/${instance}/communication/modbus/map`),

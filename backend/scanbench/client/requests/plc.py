@@ -3,6 +3,7 @@
 from typing import Generic, TypeVar
 from urllib.parse import urlencode
 
+from scanbench.client.requests.communication import Communication
 from scanbench.client.requests.disturbances import Disturbances
 from scanbench.client.requests.errors import Errors
 from scanbench.client.requests.past import Past
@@ -17,7 +18,16 @@ PlcT = TypeVar("PlcT")
 
 
 class PlcRequests(
-    Values, Errors, Running[PlcT], Past, Sweeps, Disturbances[PlcT], Verifications, Traces, Generic[PlcT]
+    Values,
+    Errors,
+    Running[PlcT],
+    Past,
+    Sweeps,
+    Disturbances[PlcT],
+    Verifications,
+    Traces,
+    Communication,
+    Generic[PlcT],
 ):
     """One virtual PLC."""
 

@@ -131,11 +131,12 @@ def wires(model: Model, wanted: PlantWanted) -> tuple[Wires, ...]:
     """What the settings of a plant mean on a model. `Refused`."""
     if not wanted.host.strip():
         raise Refused("the plant needs an address: 127.0.0.1 is this machine")
-    for name, value, good in (
-        ("port", wanted.port, _PORTS), ("unit", wanted.unit, _UNITS), ("interval", wanted.every_ms, _EVERY_MS),
-    ):  # fmt: skip
-        if value not in good:
-            raise Refused(f"{name} {value} is outside of {good[0]} to {good[-1]}")
+    if wanted.port not in _PORTS:
+        raise Refused(f"port {wanted.port} of the plant is outside of {_PORTS[0]} to {_PORTS[-1]}")
+    if wanted.unit not in _UNITS:
+        raise Refused(f"unit {wanted.unit} of the plant is outside of {_UNITS[0]} to {_UNITS[-1]}")
+    if wanted.every_ms not in _EVERY_MS:
+        raise Refused(f"an interval of {wanted.every_ms} ms is outside of {_EVERY_MS[0]} to {_EVERY_MS[-1]} ms")
     if len(wanted.ranges) > MOST_RANGES:
         raise Refused(f"{len(wanted.ranges)} ranges are more than {MOST_RANGES}")
     if sum(each.count for each in wanted.ranges) > MOST_WIRES:

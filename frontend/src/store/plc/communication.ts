@@ -8,6 +8,7 @@ import type {
   CommunicationFault,
   CommunicationServerSettings,
   ModbusRange,
+  PlantSettings,
   ServerKind,
 } from "../../wire/types";
 import { useBench } from "./bench";
@@ -19,7 +20,7 @@ interface State {
   /** Why it could not be asked. */
   trouble: string | null;
   /** The last change, where it was refused. */
-  refused: { kind: ServerKind; message: string } | null;
+  refused: { kind: ServerKind | "plant"; message: string } | null;
   /** Null until somebody asked for it. */
   map: readonly ModbusRange[] | null;
 }
@@ -56,11 +57,18 @@ export const changeServer = (kind: ServerKind, wanted: Partial<CommunicationServ
     return rest.setCommunication(instance, kind, { ...settings, ...wanted });
   });
 
+export const changePlant = (wanted: Partial<PlantSettings>) =>
+  inTurn("plant", (instance) => {
+    const settings = useCommunication.getState().seen?.plant.settings;
+    if (!settings) throw new Error("plant"); // nobody sees a plant that could be changed
+    return rest.setPlant(instance, { ...settings, ...wanted });
+  });
+
 export const breakLine = (kind: ServerKind, fault: CommunicationFault) =>
   inTurn(kind, (instance) => rest.breakLine(instance, kind, fault));
 
 /** One change after the other. A refusal stays until the next change. */
-function inTurn(kind: ServerKind, change: (instance: number) => Promise<Communication>): void {
+function inTurn(kind: ServerKind | "plant", change: (instance: number) => Promise<Communication>): void {
   const { instance } = useBench.getState();
   if (instance === null) return;
   changes = changes.then(async () => {

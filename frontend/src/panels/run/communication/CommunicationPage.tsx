@@ -7,6 +7,7 @@ import { Icon } from "../../../ui/Icon";
 import type { Communication } from "../../../wire/types";
 import "./communication.css";
 import { ModbusMap } from "./ModbusMap";
+import { Plant } from "./Plant";
 import { Server } from "./Server";
 
 const ASKED_EVERY = 1000;
@@ -42,6 +43,7 @@ export function CommunicationPage() {
           {seen.servers.map((server) => (
             <Server key={server.kind} server={server} />
           ))}
+          <Plant plant={seen.plant} />
           <ErrorReaders readers={seen.error_readers} />
           <ModbusMap />
         </div>
