@@ -45,12 +45,10 @@ export function PlantRanges({ ranges, onChange }: Props) {
           </tbody>
         </table>
       )}
-      <p>
-        <button type="button" className="btn sm" onClick={() => onChange([...ranges, NEXT])}>
-          <Icon name="plus" small />
-          {t("communication.plant.add")}
-        </button>
-      </p>
+      <button type="button" className="btn sm" onClick={() => onChange([...ranges, NEXT])}>
+        <Icon name="plus" small />
+        {t("communication.plant.add")}
+      </button>
     </>
   );
 }
