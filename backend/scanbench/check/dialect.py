@@ -60,6 +60,8 @@ class Allowance(Enum):
     INSTRUCTION_TYPES = auto()
     SIGNED_TEXTS = auto()
     BLOCK_MOVES = auto()
+    VARIANTS = auto()
+    INTEGER_SHIFTS = auto()
     GENERIC_CONSTANTS = auto()
     SHORTER_STRINGS = auto()
 
@@ -188,9 +190,19 @@ RULES: dict[Allowance, Rule] = {
         "`CONCAT('+', INT_TO_STRING(i))`",
     ),
     Allowance.BLOCK_MOVES: Rule(
-        "MOVE_BLK, UMOVE_BLK, FILL_BLK and UFILL_BLK of up to 256 elements",
-        "elements of arrays are assigned one by one",
+        "MOVE_BLK, FILL_BLK, SCATTER, GATHER, DEMUX, S_MOVE, S_CONV, STRG_VAL, VAL_STRG and PRESET_TIMER, which assign to what is at OUT",
+        "only an assignment, or an output of a call, changes a variable",
         "`FOR i := 0 TO 3 DO b[i] := a[i]; END_FOR`",
+    ),
+    Allowance.VARIANTS: Rule(
+        "`Variant`: an input that takes a variable of any type, with TypeOf, VariantGet, VariantPut, CountOfElements and the like",
+        "a variable has the type of the input that it is passed to",
+        "an input of the type that is passed, ARRAY[*] in VAR_IN_OUT",
+    ),
+    Allowance.INTEGER_SHIFTS: Rule(
+        "SHL, SHR, ROL and ROR of integers; SHR of a signed one fills with its sign",
+        "these operations are for bit strings",
+        "`WORD_TO_INT(SHL(INT_TO_WORD(i), 2))`",
     ),
     Allowance.RETURN_CONDITION: Rule(
         "a condition after RETURN, `RETURN(done)`",
@@ -328,7 +340,13 @@ _SIEMENS = frozenset(
     {
         *(Allowance.ROUNDING, Allowance.WRAPPED_REALS, Allowance.TIME_NUMBERS, Allowance.CHAR_NUMBERS),
         *(Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_CALLS),
-        *(Allowance.INSTRUCTION_TYPES, Allowance.SIGNED_TEXTS, Allowance.BLOCK_MOVES),
+        *(
+            Allowance.INSTRUCTION_TYPES,
+            Allowance.SIGNED_TEXTS,
+            Allowance.BLOCK_MOVES,
+            Allowance.VARIANTS,
+            Allowance.INTEGER_SHIFTS,
+        ),
     }
 )
 _TWINCAT = frozenset({Allowance.SHORTER_STRINGS})

@@ -77,6 +77,10 @@ class _Writer:
         """Between VAR and END_VAR."""
         self._combining = False
         """In the value of `x += value`."""
+        self._section = ""
+        """The word that the declarations begin with, VAR_IN_OUT for one."""
+        self._variant = False
+        """In the declaration of a Variant in VAR_IN_OUT, which is an input here: it leads to the variable."""
         self._restart = False
         """In the organization block of a start."""
         self.restarts: set[str] = set()
@@ -119,6 +123,9 @@ class _Writer:
         elif word == ";":
             self._close()
             self._copy()
+            if self._variant:
+                self._turn("VAR_IN_OUT")
+                self._variant = False
         else:
             self._copy()
 
@@ -261,6 +268,9 @@ class _Writer:
     # ---- one token ----------------------------------------------------------------------------------------------
 
     def _copy(self) -> None:
+        if self._section == "VAR_IN_OUT" and self._word(1) == ":" and self._word(2) == "VARIANT":
+            self._turn("VAR_INPUT")
+            self._variant = True
         kind, text, at = self._in.kinds[self._at], self._in.texts[self._at], self._in.starts[self._at]
         self._at += 1
         if text == "#":
@@ -271,6 +281,7 @@ class _Writer:
             return
         if kind is Lex.KEYWORD and text.startswith(("VAR", "END_VAR")):
             self._declares = text != "END_VAR"
+            self._section = text
         elif self._declares and self._word() == ":":
             self._locals.add(name_of(text.strip('"')).upper())
         if kind is Lex.STRING and text.startswith('"'):
@@ -283,6 +294,11 @@ class _Writer:
             self._put(kind, _PREFIXES.get(prefix.upper(), prefix) + hash + value, at)
         else:
             self._put(kind, text, at)
+
+    def _turn(self, section: str) -> None:
+        """Goes on with the declarations in another section."""
+        self._put(Lex.KEYWORD, "END_VAR", self._in.starts[self._at])
+        self._put(Lex.KEYWORD, section, self._in.starts[self._at])
 
     def _tell_both(self) -> None:
         """Refuses what is the name of something global and of something in the block: the quotes and `#` tell them apart in SCL only."""

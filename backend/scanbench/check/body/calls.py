@@ -14,7 +14,7 @@ from scanbench.syntax import tree
 
 def call(body: Body, node: tree.Call, wanted: Type | None = None) -> Expr:
     """A call for its value."""
-    node = instructed(body, node)
+    node = instructed(body, node, wanted)
     apart = enabling(node)
     if apart.en is not None or apart.eno is not None:
         statements, value = enabled(body, apart, wanted)

@@ -6,6 +6,7 @@ from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
+from scanbench.check.body.variants import is_variant, variant_of
 from scanbench.check.dialect import Allowance
 from scanbench.program.program import Expr, Load
 from scanbench.program.shown import shown
@@ -15,6 +16,8 @@ from scanbench.syntax import tree
 
 def as_argument(body: Body, node: tree.Expression, type: Type, what: str) -> Expr:
     """What is passed to an input of this type, or what it starts with; `what` it is, for people."""
+    if isinstance(type, Record) and is_variant(body, type):
+        return variant_of(body, node, type, what)
     if isinstance(type, Record) and is_any(type):
         return any_of(body, node, type, what)
     if isinstance(type, Reference) and type.automatic and isinstance(node, VARIABLES):

@@ -10,6 +10,7 @@ from scanbench.check.body.elements import byte_of, character_index, character_of
 from scanbench.check.body.enumerations import enumeration_value, is_value_name, typed, value_of_type
 from scanbench.check.body.forms import form
 from scanbench.check.body.harmless import harmless
+from scanbench.check.body.instructions import calculated, with_moments
 from scanbench.check.body.lenient import BITS, inverted, negative
 from scanbench.check.body.literals import literal
 from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate
@@ -18,6 +19,7 @@ from scanbench.check.body.places import automatic
 from scanbench.check.body.references import reference_type
 from scanbench.check.body.subrange_checks import as_written, plain, read
 from scanbench.check.body.variables import INSTANCE
+from scanbench.check.body.variants import asked, with_types
 from scanbench.check.context import Rejected
 from scanbench.check.declare.scopes import decode
 from scanbench.check.dialect import Allowance
@@ -59,7 +61,10 @@ def expression(body: Body, node: tree.Expression, wanted: Type | None = None) ->
         case tree.BinaryOp():
             return _binary(body, node, wanted)
         case tree.Call():
-            return form(body, node) or body.call(node, wanted)
+            value = calculated(body, node, wanted)
+            if value is not node:
+                return body.expression(value, wanted)
+            return form(body, node) or asked(body, node) or body.call(node, wanted)
         case tree.TypedName(type_name, name, span):
             typed(body, type_name, span)
             return value_of_type(body, type_name, name, span)
@@ -210,6 +215,7 @@ def _unary(body: Body, node: tree.UnaryOp, wanted: Type | None) -> Expr:
 
 def _binary(body: Body, node: tree.BinaryOp, wanted: Type | None) -> Expr:
     if node.op in COMPARISONS:
+        node = with_moments(body, with_types(body, node))
         left, right = _compared(body, node)
     else:
         left, right = body.expression(node.left, wanted), body.expression(node.right, wanted)

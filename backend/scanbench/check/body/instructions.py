@@ -7,38 +7,46 @@ types of its arguments, as the help on the instruction says how its type is foun
 from dataclasses import replace
 
 from scanbench.check.body.allowed import may, used
+from scanbench.check.body.coercion import SHORT
 from scanbench.check.body.context import Body
 from scanbench.check.body.generic import tried
+from scanbench.check.body.places import VARIABLES
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
+from scanbench.problems import Span
 from scanbench.program.shown import shown
-from scanbench.program.types import LREAL, REAL, Elementary, Record, Type, base_of
-from scanbench.program.untyped import ANY_INT, ANY_REAL, common
+from scanbench.program.types import DINT, INT, LREAL, REAL, UINT, Elementary, Kind, Record, StringType, Type, base_of
+from scanbench.program.untyped import ANY_INT, ANY_REAL, common, settle
 from scanbench.syntax import tree
 
 OF_INSTANCES = frozenset(("TON", "TOF", "TP", "TONR", "CTU", "CTD", "CTUD"))
 BY_ARGUMENTS = {"NORM_X": ("MIN", "VALUE", "MAX"), "SCALE_X": ("MIN", "MAX"), "SWAP": ("IN",)}
+TIMES = {"T_ADD": "add", "T_SUB": "sub", "T_DIFF": "sub"}
+"""Instructions that are `+` or `-` but for DTL, of which the library has functions."""
+BY_OUTPUT = frozenset(("RD_SYS_T", "RD_LOC_T"))
+"""Instructions that the library has for LDT and DT as well, by the type of OUT."""
+AS_INPUTS = frozenset(("MOVE_BLK_VARIANT", "BLKMOV", "UBLKMOV", "FILL"))
+"""Functions of the library whose outputs are a Variant, which is passed as an input."""
+OF_STRINGS = frozenset(("CONCAT", "LEN", "LEFT", "RIGHT", "MID", "INSERT", "DELETE", "REPLACE", "FIND"))
+"""Functions of texts, whose names may end with `_STRING` or `_WSTRING`."""
 """Instructions whose type is that of these arguments; the library has them for each type."""
 
 RESET = frozenset(("TON", "TON_TIME", "TON_LTIME", "IEC_TIMER"))
 _MEMORY = "memory has no numbers here. Declare a variable, and use its name and its parts, `x.%B0`"
-_VARIANT = "there is no Variant. Declare the parameter with the type that is passed, an array as ARRAY[*]"
+_BYTES = "data has other bytes here than in a controller of Siemens. Assign the members one by one"
 REFUSED = {
     **dict.fromkeys(("PEEK", "POKE"), _MEMORY),
-    **dict.fromkeys(
-        ("VARIANTGET", "VARIANTPUT", "TYPEOF", "IS_ARRAY", "COUNTOFELEMENTS", "MOVE_BLK_VARIANT", "DB_ANY_TO_VARIANT"),
-        _VARIANT,
-    ),
-    **dict.fromkeys(("SERIALIZE", "DESERIALIZE"), _VARIANT),
+    "DB_ANY_TO_VARIANT": "data blocks have no numbers here. Pass the data block itself",
+    **dict.fromkeys(("SERIALIZE", "DESERIALIZE"), _BYTES),
 }
 """Beginnings of names of instructions that are known, and what to do instead."""
 
 
-def instructed(body: Body, node: tree.Call) -> tree.Call:
+def instructed(body: Body, node: tree.Call, wanted: Type | None = None) -> tree.Call:
     """The call as the standard would have it, if it is one of an instruction; else as it is."""
     match node.callee:
         case tree.Name(name=name) if may(body, Allowance.INSTRUCTION_TYPES):
-            return _typed(body, node, name.upper())
+            return _typed(body, node, name.upper(), wanted)
         case tree.MemberOf(owner=owner, name=name) if may(body, Allowance.INSTRUCTION_CALLS):
             return _of_instance(body, node, owner, name.upper())
     return node
@@ -56,7 +64,14 @@ def _of_instance(body: Body, node: tree.Call, owner: tree.Expression, name: str)
     return replace(node, callee=owner)
 
 
-def _typed(body: Body, node: tree.Call, name: str) -> tree.Call:
+def _typed(body: Body, node: tree.Call, name: str, wanted: Type | None) -> tree.Call:
+    if name in AS_INPUTS:
+        return replace(node, arguments=tuple(replace(each, output=False) for each in node.arguments))
+    plain, _, ending = name.rpartition("_")
+    if plain in OF_STRINGS and ending in ("STRING", "WSTRING"):
+        return replace(node, callee=tree.Name(plain, node.callee.span))
+    if name in BY_OUTPUT:
+        return _by_output(body, node, name)
     declared = body.declarations.names.find(name, node.callee.span, body.pous.functions, body.pous.generic)
     if declared is not None:
         return node
@@ -70,9 +85,77 @@ def _typed(body: Body, node: tree.Call, name: str) -> tree.Call:
         raise body.report.reject("X001", f"`{shown(node.callee)}` is not supported: {mend}.", node.callee.span)
     if name not in BY_ARGUMENTS:
         return node
-    found = f"{name}_{_type_of(body, node, name)}"
+    found = f"{name}_{_type_of(body, node, name, wanted)}"
     used(body, Allowance.INSTRUCTION_TYPES, node.callee.span, f"`{name}` is `{found}` here", f"`{found}(...)`")
     return replace(node, callee=tree.Name(found, node.callee.span))
+
+
+def _by_output(body: Body, node: tree.Call, name: str) -> tree.Call:
+    """RD_SYS_T and RD_LOC_T of LDT or DT."""
+    value = node.arguments[0].value if node.arguments else None
+    type = None if value is None else tried(body, value).type
+    if not isinstance(type, Elementary) or type.kind is not Kind.DATE:
+        return node
+    return replace(node, callee=tree.Name(f"{name}_{type}", node.callee.span))
+
+
+def calculated(body: Body, node: tree.Call, wanted: Type | None) -> tree.Expression:
+    """T_ADD, T_SUB and T_DIFF of other types than DTL as the operator that they are, MUX with INELSE; other calls as they are."""
+    if not isinstance(node.callee, tree.Name) or not may(body, Allowance.INSTRUCTION_TYPES):
+        return node
+    name = node.callee.name.upper()
+    values = [each.value for each in node.arguments if each.value is not None]
+    if name == "MUX" and any((each.name or "").upper() == "INELSE" for each in node.arguments):
+        return _mux(body, node)
+    if name == "T_CONV" and len(values) == 1:
+        return _converted(body, node, values[0], wanted)
+    if name == "MAX_LEN" and len(values) == 1 and isinstance(text := tried(body, values[0]).type, StringType):
+        return tree.Literal("int", text.capacity, None, node.span)
+    if name not in TIMES or len(values) != 2 or not isinstance(tried(body, values[0]).type, Elementary):
+        return node
+    used(body, Allowance.INSTRUCTION_TYPES, node.callee.span, f"`{name}` calculates with times", "`+` or `-`")
+    return tree.BinaryOp(TIMES[name], values[0], values[1], node.span)
+
+
+def _converted(body: Body, node: tree.Call, value: tree.Expression, wanted: Type | None) -> tree.Expression:
+    """T_CONV: the conversion from the type of the value to the one that is wanted."""
+    source = settle(tried(body, value)).type
+    if wanted is None or source is None:
+        raise body.report.reject("T004", "`T_CONV` is assigned to a variable, whose type it converts to.", node.span)
+    names = [SHORT.get(each.name, each.name) for each in (source, wanted)]
+    used(body, Allowance.INSTRUCTION_TYPES, node.callee.span, f"`T_CONV` is {names[0]}_TO_{names[1]} here")
+    return value if source == wanted else _called(f"{names[0]}_TO_{names[1]}", (value,), node.span)
+
+
+def with_moments(body: Body, node: tree.BinaryOp) -> tree.BinaryOp:
+    """A comparison of two DTL as one of the moments that they are."""
+    if not may(body, Allowance.INSTRUCTION_TYPES):
+        return node
+    types = [tried(body, each).type for each in (node.left, node.right) if isinstance(each, VARIABLES)]
+    if len(types) != 2 or any(not isinstance(each, Record) or each.name.upper() != "DTL" for each in types):
+        return node
+    used(body, Allowance.INSTRUCTION_TYPES, node.span, "Moments are compared", "`DTL_TO_LDT(...)`")
+    left, right = (_called("DTL_TO_LDT", (each,), node.span) for each in (node.left, node.right))
+    return replace(node, left=left, right=right)
+
+
+def _mux(body: Body, node: tree.Call) -> tree.Expression:
+    """MUX whose last value is taken where K is the number of none."""
+    given = {(each.name or "").upper(): each.value for each in node.arguments}
+    selector, last = given.get("K"), given.pop("INELSE")
+    values = [value for key, value in given.items() if key.startswith("IN")]
+    if selector is None or last is None or None in values or len(values) != len(given) - 1:
+        raise body.report.reject("T004", "`MUX` takes K, IN0, IN1 and so on, INELSE.", node.span)
+    count = tree.Literal("int", len(values), None, node.span)
+    zero = tree.Literal("int", 0, None, node.span)
+    outside = tree.BinaryOp("lt", selector, zero, node.span)
+    number = _called("SEL", (outside, selector, count), node.span)
+    used(body, Allowance.INSTRUCTION_TYPES, node.callee.span, "`MUX` has INELSE")
+    return _called("MUX", (number, *(each for each in values if each is not None), last), node.span)
+
+
+def _called(name: str, values: tuple[tree.Expression, ...], span: Span) -> tree.Call:
+    return tree.Call(tree.Name(name, span), tuple(tree.Argument(None, False, each, span) for each in values), span)
 
 
 def _reset(body: Body, node: tree.Call) -> tree.Call:
@@ -92,7 +175,7 @@ def _reset(body: Body, node: tree.Call) -> tree.Call:
     return replace(node, callee=timer, arguments=(tree.Argument("IN", False, false, node.span),))
 
 
-def _type_of(body: Body, node: tree.Call, name: str) -> Type:
+def _type_of(body: Body, node: tree.Call, name: str, wanted: Type | None) -> Type:
     formals = BY_ARGUMENTS[name]
     given = {
         (argument.name or "").upper() or formals[min(at, len(formals) - 1)]: argument.value
@@ -109,6 +192,8 @@ def _type_of(body: Body, node: tree.Call, name: str) -> Type:
         joined = made if isinstance(made, Elementary) else None
     if not known and ANY_REAL in types:
         joined = REAL
+    if not known and isinstance(wanted, Elementary) and wanted in (INT, DINT, UINT, REAL, LREAL):
+        joined = wanted  # whatever TIA chooses, the nearest integer is stored
     if joined is None:
         raise body.report.reject(
             "T004", f"Which type `{name}` has with these arguments is not documented. Write it after the name, e.g. `{name}_REAL` or `{name}_INT`.",

@@ -6,12 +6,14 @@ Where the value depends on something that no documentation of the vendor tells, 
 from scanbench.check.body import fold, wide
 from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.context import Body
+from scanbench.check.body.standard_fold import intrinsic
 from scanbench.check.body.wide import WHOLE
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
-from scanbench.program.program import Const, Expr
+from scanbench.program.program import Assign, Const, Expr, Load, Sequence
 from scanbench.program.shown import OPERATORS
 from scanbench.program.types import (
+    BOOL,
     DINT,
     ELEMENTARY,
     LINT,
@@ -230,6 +232,25 @@ def shifted(body: Body, name: str, expr: Expr, span: Span) -> tuple[Expr, Elemen
     instead = f"`{bits}_TO_{type}({name}({type}_TO_{bits}(...), ...))`"
     used(body, Allowance.INTEGER_BITS, span, f"`{name}` works on the bits of {type}", instead)
     return fold.convert(bits, expr), bits, type
+
+
+def shifted_with_sign(body: Body, name: str, expr: Expr, count: Expr, span: Span) -> Expr | None:
+    """A shift of an integer, where the dialect has that: SHR of a negative number fills with ones."""
+    type = expr.type
+    if not isinstance(type, Elementary) or type.kind not in WHOLE or is_untyped(expr):
+        return None
+    if not may(body, Allowance.INTEGER_SHIFTS):
+        return None
+    bits = bits_of(type)
+    used(body, Allowance.INTEGER_SHIFTS, span, f"`{name}` works on the bits of {type}")
+    if name != "SHR" or type.kind is not Kind.INT:
+        return fold.convert(type, intrinsic(name, bits, (fold.convert(bits, expr), count)))
+    kept = body.temporary(type, span)
+    plain = fold.convert(bits, Load(kept))
+    ones = fold.unary("not", bits, intrinsic(name, bits, (fold.unary("not", bits, plain), count)))
+    negative = fold.compare("lt", BOOL, Load(kept), Const(type, 0))
+    chosen = intrinsic("SEL", bits, (negative, intrinsic(name, bits, (plain, count)), ones))
+    return Sequence((Assign(kept, expr, span),), fold.convert(type, chosen))
 
 
 def index(body: Body, expr: Expr, span: Span, what: str) -> Expr | None:

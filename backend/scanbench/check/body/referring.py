@@ -12,15 +12,15 @@ from scanbench.program.types import OpenArray
 from scanbench.syntax import tree
 
 
-def refer(body: Body, node: tree.Expression, pointer: bool = False) -> RefOf:
-    """A reference to the variable; not to one that is gone after the call."""
+def refer(body: Body, node: tree.Expression, pointer: bool = False, passing: bool = False) -> RefOf:
+    """A reference to the variable; not to one that is gone after the call, unless it is only passed to what is called."""
     if not isinstance(node, VARIABLES):
         raise body.report.reject("T013", "Only a variable can be referred to.", node.span)
     place, member = body.place(node)
     if member is not None and member.constant:
         raise body.report.reject("T013", f"`{member.name}` is a CONSTANT and cannot be referred to.", node.span)
     if place.base is Base.FRAME and place.slot is None and place.reference is None:
-        if not allowed(body, Allowance.LOCAL_ADDRESSES, node.span, f"`{shown(node)}` is temporary"):
+        if not passing and not allowed(body, Allowance.LOCAL_ADDRESSES, node.span, f"`{shown(node)}` is temporary"):
             raise body.report.reject(
                 "T013",
                 f"`{shown(node)}` is temporary, gone when this call ends; declare it in VAR of a block.",

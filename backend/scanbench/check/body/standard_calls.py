@@ -7,7 +7,7 @@ from scanbench.check.body import conversions, fold, standard_fold, wide
 from scanbench.check.body.allowed import may, used
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.context import Body
-from scanbench.check.body.lenient import bits_of, inverted, shifted
+from scanbench.check.body.lenient import bits_of, inverted, shifted, shifted_with_sign
 from scanbench.check.body.operators import operate
 from scanbench.check.body.standard_arguments import checked, integer, ordered
 from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel
@@ -119,6 +119,11 @@ def _shift(body: Body, node: tree.Call, name: str, row: Shift, wanted: Type | No
         bits = coerce(body, bits, typed, bits_tree.span, "`IN`")
     elif isinstance(bits, Const) and isinstance(wanted, Elementary) and wanted.kind is Kind.BITS:
         bits = coerce(body, bits, wanted, bits_tree.span, "`IN`")
+    if may(body, Allowance.INTEGER_SHIFTS):
+        moved = integer(body, body.expression(count_tree), count_tree.span, name)
+        signed = shifted_with_sign(body, row.intrinsic, bits, moved, bits_tree.span)
+        if signed is not None:
+            return signed
     whole = shifted(body, row.intrinsic, bits, bits_tree.span)
     if whole is not None:
         count = integer(body, body.expression(count_tree), count_tree.span, name)

@@ -5,17 +5,19 @@ from dataclasses import replace
 
 from scanbench.check.body import targets
 from scanbench.check.body.allowed import allowed
+from scanbench.check.body.arguments import together
 from scanbench.check.body.assignments import assign, condition
 from scanbench.check.body.bare import bare_call
-from scanbench.check.body.block_moves import block_move
 from scanbench.check.body.calls import call_statement
 from scanbench.check.body.catching import leaves, try_statement
 from scanbench.check.body.coercion import as_type, value_of
 from scanbench.check.body.context import Body
 from scanbench.check.body.jumps import jump
 from scanbench.check.body.lenient import unsigned
+from scanbench.check.body.spelled_out import spelled_out
 from scanbench.check.body.subrange_checks import into
 from scanbench.check.body.unreached import never_chosen, unreached
+from scanbench.check.body.variants import variant_copy, with_type_labels
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
 from scanbench.program.bodies import bodies
@@ -132,10 +134,14 @@ def _expression(body: Body, node: tree.ExpressionStatement) -> Stmt | None:
         finally:
             body.report.warn("W001", "This computes a value and drops it; is an assignment missing?", node.span)
         return None
-    return block_move(body, call) or call_statement(body, call)
+    spelled = spelled_out(body, call)
+    if spelled is not None:
+        return together(list(block(body, spelled)), node.span)
+    return variant_copy(body, call) or call_statement(body, call)
 
 
 def _case(body: Body, node: tree.CaseStatement) -> Stmt:
+    node = with_type_labels(body, node)
     selector = value_of(body, node.selector)
     type = selector.type
     if not isinstance(type, Elementary) or type.kind not in (*COUNTED, Kind.BITS):

@@ -30,7 +30,6 @@ VENDOR_TYPES: dict[str, Elementary] = {
 }
 
 NOT_HERE = {
-    "VARIANT": "Declare it with the type that is passed, an array as ARRAY[*] in VAR_IN_OUT.",
     "S5TIME": "Declare it as TIME, and use a TON, TOF or TP.",
     "TIMER": "Declare an IEC_TIMER, and call it as TON, TOF or TP.",
     "COUNTER": "Declare an IEC_COUNTER, and call it as CTU, CTD or CTUD.",

@@ -48,7 +48,7 @@ UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
 NEEDED_BY = {
     "__HEAP": frozenset({"__NEW", "__DELETE"}),
     "AxUnit": frozenset({"AXUNIT.ASSERT"}),
-    "Siemens": frozenset({"NORM_X", "SCALE_X", "SWAP"}),
+    "Siemens": frozenset({"NORM_X", "SCALE_X", "SWAP", "STRG_VAL", "VAL_STRG", "S_CONV"}),
     "System": frozenset({"SYSTEM.TIMER"}),
 }
 """Operators, instructions and namespaces that use a library without a name that it declares."""
