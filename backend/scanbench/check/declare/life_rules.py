@@ -4,6 +4,7 @@ from scanbench.check.context import Report
 from scanbench.check.declare.classes import Class, Method
 from scanbench.check.declare.creations import FB_EXIT, FB_INIT, inputs_of, is_called
 from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.syntax import tree
 
 RETAINS, COPY = "BINITRETAINS", "BINCOPYCODE"
@@ -26,7 +27,8 @@ def check_life_method(method: Method, report: Report, dialect: Dialect) -> None:
     if not is_called(declaration):
         return
     used = f"{what} is called when an instance is initialised"
-    report.warn("W006", said(dialect, Allowance.LIFE, used), declaration.span)
+    if library_of_file(declaration.span.file) is None:
+        report.warn("W006", said(dialect, Allowance.LIFE, used), declaration.span)
     names = {each.name.upper() for _, each in inputs_of(declaration)}
     if name == FB_INIT:
         _check_inputs(method, names, report)

@@ -39,6 +39,7 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "Tc3_EventLogger": ("twincat",),
     "Tc3_JsonXml": ("twincat",),
     "Tc3_Module": ("twincat",),
+    "TcUnit": ("twincat",),
     "TwinCAT_SystemInfoVarList": ("twincat",),
     "Util": ("codesys", "twincat"),
 }
@@ -52,6 +53,8 @@ NEEDED_BY = {
     "System": frozenset({"SYSTEM.TIMER"}),
 }
 """Operators, instructions and namespaces that use a library without a name that it declares."""
+NAMED_BY = {"TcUnit": frozenset({"FB_TESTSUITE"})}
+"""Libraries whose other names are words that programs have for themselves, RUN and TEST: these names say that one is used."""
 _WORD = re.compile(r"\b[A-Z_]\w*")
 _IN_NAMESPACE = re.compile(r"\b(?=([A-Z_]\w*\.[A-Z_]\w*))")
 NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)
@@ -78,8 +81,9 @@ class Library:
     def named_by(self) -> frozenset[str]:
         """What a program writes that uses it: its names, or its own name before another, also before one of the standard."""
         before = f"{self.name.upper()}."
-        inside = any(name.startswith(before) for name in self.names)
-        return self.names if inside else self.names | {before}
+        names = NAMED_BY.get(self.name, self.names)
+        inside = any(name.startswith(before) for name in names)
+        return names if inside else names | {before}
 
     @property
     def path(self) -> str:
