@@ -29,7 +29,7 @@ from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.generic_blocks import specialised
 from scanbench.check.declare.kept import declare_static, kept_of
-from scanbench.check.declare.names import Space, qualified
+from scanbench.check.declare.names import Space, full_name
 from scanbench.check.declare.programs import placed_programs
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.declare.start_references import is_this, own_instance
@@ -192,6 +192,7 @@ class Checker:
         parsed = specialised(self.parsed, self.report, self.dialect)
         self.generic_blocks, self.parsed = parsed is not self.parsed, parsed
         self.names.collect(self.parsed)
+        self.pous.overloads = self.names.overloads
         self.pous.classes = collect(self.declarations)
         declare_globals(self.parsed, self.globals, self.declarations, self.pous)
         declare_static(self.declarations, self.globals, self.names.user)
@@ -203,6 +204,11 @@ class Checker:
             self.life = Life(self.report, self.declarations, self.pous, self.globals, self._scope)
             self.pous.life = self.life.declare()
         self.declared = self.report.mark()
+
+    @property
+    def is_generic(self) -> bool:
+        """Whether POUs are made, or chosen, for those who use them."""
+        return bool(self.pous.generic or self.pous.overloads or self.generic_blocks)
 
     def reuse(self, pou: Pou, part: Report, uses: dict[Pou, int]) -> None:
         """Takes what was found in the body before, instead of checking it; it has no body then, and cannot run."""
@@ -300,7 +306,7 @@ class Checker:
                     externals_of(self.declarations, self.globals, declaration, (owner.record, owner.record), space)
 
     def _declare_pou(self, key: str, declaration: tree.PouDeclaration) -> None:
-        name = qualified(declaration.namespace, declaration.name)
+        name = full_name(declaration)
         inline = in_library(declaration.span)
         if is_generic(declaration) and (inline or "ANY" not in self.declarations.type_trees):
             self.pous.generic[key] = declaration
@@ -325,7 +331,7 @@ class Checker:
 
     def check_body(self, declaration: tree.PouDeclaration) -> None:
         """Checks the body of a program, block or function."""
-        key = qualified(declaration.namespace, declaration.name).upper()
+        key = full_name(declaration).upper()
         pou = self._pou(declaration)
         if pou is None:
             return
@@ -335,7 +341,7 @@ class Checker:
             pou.body = (Assign(eno, Const(BOOL, 1), pou.span), *pou.body)
 
     def _pou(self, declaration: tree.PouDeclaration) -> Pou | None:
-        key = qualified(declaration.namespace, declaration.name).upper()
+        key = full_name(declaration).upper()
         return (self.pous.functions if declaration.kind == "function" else self.pous.blocks).get(key)
 
     def body_at(
@@ -344,7 +350,7 @@ class Checker:
         """A body of a program, block, function or one of its methods in which more can be checked; None where its
         declarations are wrong. What is reported there, the check of the program does not see."""
         space = Space(declaration.namespace, declaration.using)
-        owner = self.pous.classes.by_key.get(qualified(declaration.namespace, declaration.name).upper())
+        owner = self.pous.classes.by_key.get(full_name(declaration).upper())
         if method is None:
             pou, instance, this = self._pou(declaration), None, None
         else:

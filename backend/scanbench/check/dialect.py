@@ -64,6 +64,7 @@ class Allowance(Enum):
     INTEGER_SHIFTS = auto()
     GENERIC_CONSTANTS = auto()
     SHORTER_STRINGS = auto()
+    OVERLOADS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -319,6 +320,11 @@ RULES: dict[Allowance, Rule] = {
         "a variable has the type of the in-out that it is passed to",
         "`VAR_IN_OUT CONSTANT`",
     ),
+    Allowance.OVERLOADS: Rule(
+        "several FUNCTIONs of one name, with inputs of different types: a call is of the one that its arguments fit best",
+        "a name is declared once",
+        "a name for each FUNCTION",
+    ),
 }
 
 
@@ -346,6 +352,7 @@ _SIEMENS = frozenset(
             Allowance.BLOCK_MOVES,
             Allowance.VARIANTS,
             Allowance.INTEGER_SHIFTS,
+            Allowance.OVERLOADS,
         ),
     }
 )

@@ -164,7 +164,7 @@ class Project:
         files = [file.file for file in self.files.values()]
         if not all(_is_plain(edit.before) and _is_plain(edit.chunk.pou) for edit in edits):
             return False
-        if self.checker.pous.generic or self.checker.generic_blocks:
+        if self.checker.is_generic:
             return False
         if any(each.block_tasks for file in files for conf in file.configurations for each in _programs(conf)):
             return False  # the last pass looks into bodies then
@@ -227,7 +227,7 @@ class Project:
     def _changed_body(self, edit: _Edit) -> tuple[Pou, tree.PouDeclaration] | None:
         """The POU to be checked again, if nothing but its body changed."""
         old, new, names = edit.before, edit.chunk.pou, self.checker.names
-        if old is None or new is None or self.checker.pous.generic or self.checker.generic_blocks:
+        if old is None or new is None or self.checker.is_generic:
             return None  # what is generic is made for those who use it
         if edit.file in self.checker.enabling:
             old, new = names.with_enable("", old), names.with_enable("", new)

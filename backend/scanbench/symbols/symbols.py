@@ -100,10 +100,12 @@ def resolve(program: Program, path: str) -> Symbol:
     """The variable or address of this path; case does not matter."""
     text = path.strip()
     first = PART.match(text)
-    root = _root(program, first.group(1)) if first and first.group(1) else None
-    if root is None and first and (second := PART.match(text, first.end())) and second.group(1):
-        # a program instance after the name of its resource
-        root, first = _root(program, f"{first.group(1)}.{second.group(1)}"), second
+    name = first.group(1) if first else ""
+    root = _root(program, name) if name else None
+    while root is None and name and first and (further := PART.match(text, first.end())) and further.group(1):
+        # a program instance after the name of its resource, a global variable after its namespaces
+        name, first = f"{name}.{further.group(1)}", further
+        root = _root(program, name)
     if root is None or first is None:
         return _raw(program, text)
     symbol, at = root, first.end()

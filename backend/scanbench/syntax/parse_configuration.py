@@ -31,7 +31,7 @@ def configuration(c: Cursor) -> tree.Configuration:
     parse_declaration.end(c, "END_CONFIGURATION", f"CONFIGURATION {c.texts[name]}")
     return tree.Configuration(
         c.texts[name], tuple(parts.globals), tuple(parts.tasks), tuple(parts.programs), span,
-        tuple(parts.resources), tuple(parts.settings), tuple(parts.accesses),
+        tuple(parts.resources), tuple(parts.settings), tuple(parts.accesses), c.visible,
     )  # fmt: skip
 
 

@@ -33,7 +33,8 @@ def section(c: Cursor, list_name: str = "", namespace: str = "") -> tree.Variabl
     if keyword in ("VAR_STAT", "VAR_INST"):
         # what a block keeps between calls has no word of its own in the standard
         keyword, kept = "VAR", keyword
-    return tree.VariableSection(keyword, tuple(qualifiers), variables, span, access, namespace, list_name, kept)
+    using = c.visible if keyword == "VAR_GLOBAL" else ()
+    return tree.VariableSection(keyword, tuple(qualifiers), variables, span, access, namespace, list_name, kept, using)
 
 
 def end(c: Cursor, keyword: str, of: str) -> None:

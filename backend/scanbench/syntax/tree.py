@@ -273,6 +273,8 @@ class VariableSection:
     """Name of the global variable list (`GVL.x`) that a VAR_GLOBAL came from; its variables are visible without it too."""
     kept: str = ""
     """VAR_STAT or VAR_INST, where that was written for VAR."""
+    using: tuple[str, ...] = ()
+    """Of a VAR_GLOBAL: the namespaces whose names its declarations see without qualification."""
 
 
 @node
@@ -345,6 +347,8 @@ class PouDeclaration:
     """How it takes its in-outs, where a pragma says so: `reference` or `value`."""
     stub: bool = False
     """Whether a pragma says that its body takes the place of one that needs a device: the user sets what it gives."""
+    overload: str = ""
+    """Of the second FUNCTION of one name `(2)`, and so on."""
 
 
 @node
@@ -405,6 +409,8 @@ class Configuration:
     settings: tuple[Variable, ...] = ()
     """VAR_CONFIG: `name` is the path `resource.program.instance.variable`."""
     accesses: tuple[AccessDeclaration, ...] = ()
+    using: tuple[str, ...] = ()
+    """Namespaces whose names are visible without qualification."""
 
 
 @dataclass(slots=True)

@@ -13,7 +13,7 @@ FRONTEND = Path(__file__).parents[3] / "frontend" / "src"
 LINES, FUNCTION, METHODS = 450, 50, 30
 
 FILES = {
-    "syntax/tree.py": (561, "the nodes of the tree: a list of small dataclasses, one subject"),
+    "syntax/tree.py": (567, "the nodes of the tree: a list of small dataclasses, one subject"),
     "program/program.py": (467, "the nodes of the checked program: a list of small dataclasses, one subject"),
 }
 CLASSES: dict[str, tuple[int, str]] = {}

@@ -7,6 +7,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.generic import instantiated
 from scanbench.check.body.methods import send
 from scanbench.check.body.objects import dotted, own_class
+from scanbench.check.body.overloads import overload
 from scanbench.check.body.receivers import Receiver, is_qualified, method_called
 from scanbench.check.body.standard_calls import standard_call
 from scanbench.check.body.variables import is_broken
@@ -42,11 +43,13 @@ def callee_of(
         return None
     names: Names = body.declarations.names
     key = names.find(name, callee.span, body.pous.functions, body.pous.generic)
+    if key in body.pous.overloads and node is not None:
+        key = overload(body, key, node)
     found = body.pous.functions.get(key) if key is not None else None
     if in_library(callee.span) and (found is None or not found.inline):
         return None  # the library means its own, which is no POU
     if key is not None:
-        body.report.use(callee.span, name, Symbol("pou", "", key))
+        body.report.use(callee.span, name, Symbol("pou", "", key.partition("(")[0]))
     if key in body.pous.generic:
         return instantiated(body, body.pous.generic[key], node or tree.Call(callee, (), callee.span))
     return found

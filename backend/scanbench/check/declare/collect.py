@@ -7,8 +7,9 @@ from typing import TypedDict
 from scanbench.check.context import Report
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import declare
-from scanbench.check.declare.names import LIBRARY, Space, qualified
+from scanbench.check.declare.names import LIBRARY, Space, full_name, qualified
 from scanbench.check.declare.scopes import Pous
+from scanbench.check.dialect import Allowance, said
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.check.standard.library import library
 from scanbench.problems import Span
@@ -40,6 +41,8 @@ class Collector:
     """POUs of the standard library, those that the user hides in the namespace `LIBRARY`."""
     tells: set[str] = field(default_factory=set)
     """Keys of blocks whose body names ENO without declaring it: it is TRUE whenever they start."""
+    overloads: dict[str, list[str]] = field(default_factory=dict)
+    """Of a FUNCTION whose name others have as well, the keys of those."""
     _seen: dict[str, Span] = field(default_factory=dict)
 
     def collect(self, parsed: list[tree.File]) -> None:
@@ -57,7 +60,7 @@ class Collector:
                     if declaration.access == "INTERNAL" and declaration.namespace:
                         internal[key] = declaration.namespace.upper()
             for pou in file.pous:
-                key = self._first(pou.namespace, pou.name, pou.span)
+                pou, key = self._keyed(pou)
                 if key is None:
                     continue
                 if pou.access == "INTERNAL" and pou.namespace:
@@ -78,6 +81,22 @@ class Collector:
     def _register(self, key: str, pou: tree.PouDeclaration) -> None:
         table = self.functions if pou.kind == "function" else self.declarations.block_trees
         table[key] = pou
+
+    def _keyed(self, pou: tree.PouDeclaration) -> tuple[tree.PouDeclaration, str | None]:
+        """The POU and its key, when its name is free, or other FUNCTIONs of that name have other inputs."""
+        key = full_name(pou).upper()
+        first = self.functions.get(key)
+        if first is None or pou.kind != "function" or Allowance.OVERLOADS not in self.declarations.dialect.allows:
+            return pou, self._first(pou.namespace, pou.name, pou.span)
+        others = self.overloads.get(key, [])
+        if any(inputs_of(pou) == inputs_of(self.functions[each]) for each in (key, *others)):
+            return pou, self._first(pou.namespace, pou.name, pou.span)
+        if library_of_file(pou.span.file) is None:
+            used = f"`{pou.name}` is declared in {first.span} as well"
+            self.report.warn("W006", said(self.declarations.dialect, Allowance.OVERLOADS, used), pou.span)
+        made = replace(pou, overload=f"({len(others) + 2})")
+        self.overloads[key] = [*others, full_name(made).upper()]
+        return made, full_name(made).upper()
 
     def _first(self, namespace: str, name: str, span: Span) -> str | None:
         """The key, when the name is free."""
@@ -110,6 +129,16 @@ class Collector:
                 if name == "ENO" and key:
                     self.tells.add(key)
         return pou
+
+
+def inputs_of(pou: tree.PouDeclaration) -> list[object]:
+    """What tells FUNCTIONs of one name apart: the types of their inputs and in-outs."""
+    return [
+        each.type.name.upper() if isinstance(each.type, tree.NamedType) else type(each.type)
+        for section in pou.sections
+        if section.keyword in ("VAR_INPUT", "VAR_IN_OUT")
+        for each in section.variables
+    ]
 
 
 def _declared(files: list[tree.File]) -> set[str]:
@@ -165,7 +194,7 @@ def declare_globals(parsed: list[tree.File], variables: Record, declarations: De
         for section in sections:
             if ("CONSTANT" in section.qualifiers) != constant:
                 continue
-            using = (LIBRARY,) if library_of_file(section.span.file) else ()
+            using = (*section.using, *((LIBRARY,) if library_of_file(section.span.file) else ()))
             with declarations.names.within(Space(section.namespace, using)):
                 for variable in section.variables:
                     kept.declare(variables, section, variable, constant)

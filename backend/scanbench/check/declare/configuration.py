@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.names import Space
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.uses import Symbol
 from scanbench.problems import Span
@@ -121,11 +122,12 @@ class Planner:
     def configured(self, configuration: tree.Configuration) -> list[PlannedTask]:
         """All tasks, the highest priority first; those of one priority in order of declaration."""
         resources = configuration.resources
-        for resource in resources:
-            several = len(resources) > 1 and self._is_free(resource.name, resource.span)
-            made = Resource(resource.name, f"{resource.name}." if several else "")
-            self._resource(made, resource.tasks, resource.programs)
-        self._resource(Resource("", ""), configuration.tasks, configuration.programs)
+        with self._declarations.names.within(Space("", configuration.using)):
+            for resource in resources:
+                several = len(resources) > 1 and self._is_free(resource.name, resource.span)
+                made = Resource(resource.name, f"{resource.name}." if several else "")
+                self._resource(made, resource.tasks, resource.programs)
+            self._resource(Resource("", ""), configuration.tasks, configuration.programs)
         planned = [task for resource in self.resources for task in resource.tasks.values()]
         background = [each for resource in self.resources for each in resource.background]
         planned.sort(key=lambda each: each.priority)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from scanbench.check.context import Report
 from scanbench.problems import Span
+from scanbench.syntax import tree
 
 LIBRARY = "__STANDARD"
 """The namespace of what the standard library declares where the user declares the same name."""
@@ -104,6 +105,11 @@ class Names:
                 if full not in used and known(full):
                     used.append(full)
         return used or ([key] if known(key) else [])
+
+
+def full_name(declaration: tree.PouDeclaration) -> str:
+    """Of a POU, with its namespace, and its number among FUNCTIONs of one name."""
+    return f"{qualified(declaration.namespace, declaration.name)}{declaration.overload}"
 
 
 def qualified(namespace: str, name: str) -> str:

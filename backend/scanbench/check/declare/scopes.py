@@ -120,6 +120,8 @@ class Pous:
     classes: Classes = field(default_factory=Classes)
     generic: dict[str, tree.PouDeclaration] = field(default_factory=dict)
     """FUNCTIONs with parameters of ANY_NUM and its like."""
+    overloads: dict[str, list[str]] = field(default_factory=dict)
+    """Of a FUNCTION whose name others have as well, the keys of those."""
     instances: dict[str, Instance] = field(default_factory=dict)
     """Those that are called, for each combination of types."""
     dispatchers: dict[str, Pou] = field(default_factory=dict)

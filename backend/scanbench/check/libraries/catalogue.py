@@ -48,7 +48,7 @@ UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
 """Global variables of libraries that the vendor's controller sets, and nothing here: whoever uses one is told."""
 NEEDED_BY = {
     "__HEAP": frozenset({"__NEW", "__DELETE"}),
-    "AxUnit": frozenset({"AXUNIT.ASSERT"}),
+    "AxUnit": frozenset({"AXUNIT.ASSERT", "AXUNIT.RESULTFUNCTIONS"}),
     "Siemens": frozenset({"NORM_X", "SCALE_X", "SWAP", "STRG_VAL", "VAL_STRG", "S_CONV"}),
     "System": frozenset({"SYSTEM.TIMER"}),
 }
