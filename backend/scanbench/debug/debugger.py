@@ -15,12 +15,13 @@ from scanbench.debug.placed import Placing
 from scanbench.debug.probing import Probes
 from scanbench.debug.raised import RaisedErrors
 from scanbench.debug.trapping import Trapping
-from scanbench.engines.debug import Frame
+from scanbench.engines.debug import Frame, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.probe import MakeProbed, Probe, ProbedEngine
 from scanbench.problems import Span
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Plan, Refusal
+from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 
@@ -85,6 +86,11 @@ class Debugger:
     def is_halted(self) -> bool:
         """Whether the PLC itself is halted, also while its past is shown."""
         return self._live_halt is not None
+
+    @property
+    def count(self) -> int:
+        """Of the statement before which the PLC itself is halted; 0: before a scan, or it is not halted."""
+        return 0 if self._live_halt is None else self._live_halt.count
 
     @property
     def stepping(self) -> bool:
@@ -163,6 +169,17 @@ class Debugger:
     def halt_at_start(self, why: str) -> None:
         """Halts in the present seam, before the PLC runs for the first time."""
         self._halted(Found("pause", why, ""))
+
+    def halt_again(self, count: int, why: str) -> None:
+        """From a halt in the seam to the statement of this count, where the PLC was halted when its process ended; or to the seam after
+        the scan, where it does not get so far any more. What else may halt it does not count on the way."""
+        with self.resource.listening.instead(HaltAt(count), Listen(count=count)):
+            while self._timeline.run(1).reason is Reason.INTERRUPTED:
+                pass
+        if self.resource.begun or self.resource.runnable:
+            self._halted(Found("pause", why, ""))
+        else:
+            self._live_halt = None
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """As `Timeline.run`. HALTED: `halt` says where, and it is not to be run until somebody steps."""

@@ -25,6 +25,11 @@ class Debuggable:
 
 
 @dataclass(frozen=True, slots=True)
+class StandAgain:
+    """Asks for what needs debugged code: to be halted before a statement, or to show one of the past, as when the last process ended."""
+
+
+@dataclass(frozen=True, slots=True)
 class Probed:
     """Code with probes, for the program that is loaded."""
 

@@ -15,7 +15,7 @@ from scanbench.debug.scopes import scopes, variables
 from scanbench.debug.set_value import set_value
 from scanbench.engines.interpreter.evaluate import NoValue
 from scanbench.host.covering import Covering
-from scanbench.host.debugcode import Debuggable
+from scanbench.host.debugcode import Debuggable, StandAgain
 from scanbench.host.link import Link
 from scanbench.host.log_throttle import LogThrottle
 from scanbench.program.program import Program
@@ -91,7 +91,7 @@ class Debugging:
                 return bool(message.breakpoints or self.debugger.breakpoints.placed or self._waiting)
             case debug_protocol.SetCoverage():
                 return message.on or bool(self._waiting)
-            case debug_protocol.Step() | debug_protocol.WantPlaces() | debug_protocol.WantFlow():
+            case debug_protocol.Step() | debug_protocol.WantPlaces() | debug_protocol.WantFlow() | StandAgain():
                 return True
         return False
 

@@ -19,6 +19,8 @@ from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import BadMessage, pack_body, unpack_kept
 
+HALTED_BEFORE = "it was halted in this scan when its process ended"
+
 
 class Driving:
     """Serves who drives the PLC, and keeps in its run file how it is driven."""
@@ -31,7 +33,11 @@ class Driving:
         self._timeline, self._pacer, self._debugger = timeline, pacer, debugger
         self._services, self._answers, self._traces = services, answers, traces
         self._kept = driven
+        self.stood = driven.count > 0 or driven.shown_count > 0
+        """Whether it is not yet where it was before, as that takes debugged code."""
         self._go_on(driven)
+        if driven.shown is not None:
+            self._show(driven.shown, 0, driven.shown_by)
 
     @property
     def _resource(self) -> Resource:
@@ -63,12 +69,47 @@ class Driving:
         halted = self._debugger.halt is not None or bool(self._timeline.recording.trouble)
         return self._timeline.past or halted or not self._resource.runnable or self._pacer.paused
 
+    def stand_again(self) -> None:
+        """Halts before the statement, and shows the one of the past, as before; unless somebody has driven it meanwhile."""
+        if not self.stood:
+            return
+        self.stood, kept = False, self._kept
+        if kept.count and self._debugger.is_halted:
+            self._timeline.return_live()
+            self._debugger.halt_again(kept.count, HALTED_BEFORE)
+        if kept.shown is not None:
+            self._show(kept.shown, kept.shown_count, kept.shown_by)
+
+    def _show(self, scan: int, count: int, by: str) -> Refusal | None:
+        """A scan of the past, or a statement of it."""
+        program = self._resource.program
+        refusal = self._timeline.goto(scan, count)
+        self._services.past_by = by if self._timeline.past else ""
+        self._travelled(program)
+        return refusal
+
+    def _travelled(self, program: Program) -> None:
+        """From a scan in which this program ran."""
+        self._debugger.travelled()
+        if self._resource.program is not program:
+            self._services.moved()
+            self._traces.moved()
+
     def _driven(self) -> protocol.Driven:
         """How the PLC is driven now. A step that is under way ends in a halt."""
+        if self.stood:
+            return self._kept
         pacer, condition = self._pacer, self._pacer.condition
         halted = self._debugger.is_halted or self._debugger.stepping
         text = condition.text if condition is not None else None
-        return protocol.Driven(pacer.speed, pacer.paused, pacer.end, text, halted)
+        driven = protocol.Driven(pacer.speed, pacer.paused, pacer.end, text, halted, self._debugger.count)
+        if not self._timeline.past:
+            return driven
+        inside = self._resource.listening.inside
+        return replace(
+            driven, shown=self._resource.header.scan, shown_count=0 if inside is None else inside.count,
+            shown_by=self._services.past_by,
+        )  # fmt: skip
 
     def _keep(self, driven: protocol.Driven) -> Refusal | None:
         """Keeps how the PLC is to be driven, before it is."""
@@ -94,6 +135,8 @@ class Driving:
 
     def drive(self, drive: protocol.Drive) -> None:
         """Speed, pause, one scan, or on: it is kept before it is done."""
+        if drive.action in ("scan", "continue"):
+            self.stood = False
         said = self._drive_action(drive, self._pacer.speed if drive.speed is None else drive.speed)
         if isinstance(said, Refusal):
             self._answers.answer(drive.ref, said, "")
@@ -109,7 +152,11 @@ class Driving:
         if drive.action == "speed":
             return self._keep(replace(self._driven(), speed=speed)) or ""
         if drive.action == "pause":
-            refusal = self._keep(protocol.Driven(speed, paused=True, halted=self._debugger.is_halted))
+            refusal = self._keep(
+                replace(
+                    self._driven(), speed=speed, paused=True, end=None, condition=None, halted=self._debugger.is_halted
+                )
+            )
             if refusal is not None:
                 return refusal
             self._pacer.pause()
@@ -181,11 +228,12 @@ class Driving:
 
     def step(self, step: debug_protocol.Step) -> None:
         """A step of a PLC that runs halts it first, at its next statement."""
+        self.stood = False
         debugger, pacer = self._debugger, self._pacer
         runs = not self.waits
         action = step.action
         if action not in ("back", "reverse") and not self._timeline.past:
-            wanted = replace(self._driven(), paused=False, halted=action != "continue")
+            wanted = replace(self._driven(), paused=False, halted=action != "continue", count=0)
             refusal = self._no_room() or self._keep(wanted)
             if refusal is not None:
                 self._answers.answer(step.ref, refusal, "")
@@ -216,19 +264,17 @@ class Driving:
 
     def travel(self, travel: protocol.Travel) -> None:
         """Shows a scan of the past, or the live PLC."""
-        program = self._resource.program
+        self.stood = False
+        refusal = None
         if travel.scan is None:
+            program = self._resource.program
             self._timeline.return_live()
             self._services.past_by = ""
             self._pacer.set_pace(self._resource.program.interval_ns)
-            refusal = None
+            self._travelled(program)
         else:
-            refusal = self._timeline.goto(travel.scan, travel.count)
-            self._services.past_by = travel.author if self._timeline.past else ""
-        self._debugger.travelled()
-        if self._resource.program is not program:
-            self._services.moved()
-            self._traces.moved()
+            refusal = self._show(travel.scan, travel.count, travel.author)
+        self.note()
         self._answers.answer(
             travel.ref, refusal, f"scan {self._resource.header.scan}" if travel.scan is not None else "live"
         )
@@ -242,7 +288,9 @@ def driven_of(timeline: Timeline) -> protocol.Driven:
     except BadMessage:
         driven = None
     match driven:
-        case protocol.Driven(int() | float(), bool(), int() | None, str() | None, bool()):
+        case protocol.Driven(
+            int() | float(), bool(), int() | None, str() | None, bool(), int(), int() | None, int(), str()
+        ):
             return driven
         case _:
             return protocol.Driven()

@@ -17,9 +17,9 @@ from scanbench.faults.present import Active
 from scanbench.host.answers import Answers
 from scanbench.host.communication import Communication
 from scanbench.host.covering import Covering
-from scanbench.host.debugcode import Debuggable, Probed
+from scanbench.host.debugcode import Debuggable, Probed, StandAgain
 from scanbench.host.debugging import Debugging
-from scanbench.host.driving import Driving, driven_of
+from scanbench.host.driving import HALTED_BEFORE, Driving, driven_of
 from scanbench.host.flows import FlowsOf
 from scanbench.host.link import Link
 from scanbench.host.lookup import words_found
@@ -63,7 +63,7 @@ class Loop:
         self.debugging = Debugging(timeline, link, Covering(timeline, programs.sources))
         self._debugger = self.debugging.debugger
         if driven.halted:
-            self._debugger.halt_at_start("it was halted in this scan when its process ended")
+            self._debugger.halt_at_start(HALTED_BEFORE)
         self._services = Services(timeline, self._pacer, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
         self._answers = Answers(timeline, self._services, link, self._wants_tick)
@@ -129,6 +129,8 @@ class Loop:
 
     def run(self) -> None:
         """Runs scans until `Quit`."""
+        if self._driving.stood:
+            self._serve(StandAgain())
         while self._served():
             if self._tick:
                 self._tick = False
@@ -189,7 +191,7 @@ class Loop:
                 self._answers.entered(message.ref, self._debugger.submit(message.command))
             case protocol.Drive():
                 self._driving.drive(message)
-            case _ if isinstance(message, DebugRequest | Debuggable | Probed):
+            case _ if isinstance(message, DebugRequest | Debuggable | Probed | StandAgain):
                 self._debug(message)
             case FindWords():
                 self._link.post(words_found(self.resource, message))
@@ -221,7 +223,7 @@ class Loop:
 
     # ---- the debugger ---------------------------------------------------------------------------------------------
 
-    def _debug(self, message: DebugRequest | Debuggable | Probed) -> None:
+    def _debug(self, message: DebugRequest | Debuggable | Probed | StandAgain) -> None:
         self._tick = True
         if isinstance(message, Probed):
             self._debugger.take_probed(message.loaded, message.engine)
@@ -229,7 +231,9 @@ class Loop:
             for waiting in self.debugging.on_ready(message):
                 self._serve(waiting)
         elif self.debugging.ready(message):
-            if isinstance(message, debug_protocol.Step):
+            if isinstance(message, StandAgain):
+                self._driving.stand_again()
+            elif isinstance(message, debug_protocol.Step):
                 self._driving.step(message)
             elif isinstance(message, debug_protocol.WantFlow):
                 self._flows.ask(message)

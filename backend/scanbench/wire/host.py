@@ -55,7 +55,14 @@ class Driven:
     condition: str | None = None
     """The run was asked to end when this holds."""
     halted: bool = False
-    """A debugger had halted it: it waits before that scan until somebody lets it go on."""
+    """A debugger had halted it: it waits there until somebody lets it go on."""
+    count: int = 0
+    """Of the statement before which it is halted (`engines.debug`); 0: before the scan."""
+    shown: int | None = None
+    """This scan of the past is shown; None: the PLC itself."""
+    shown_count: int = 0
+    """The statement of it that is next; 0: before the scan."""
+    shown_by: str = ""
 
 
 @dataclass(frozen=True, slots=True)

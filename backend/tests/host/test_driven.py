@@ -10,6 +10,7 @@ import pytest
 
 from scanbench.runtime.forces import Force
 from scanbench.wire import host as protocol
+from scanbench.wire.debugging import Places, WantPlaces
 from scanbench.wire.host import Driven, PlcState
 from tests.host.child import Child
 
@@ -136,3 +137,84 @@ def test_what_was_acknowledged_is_told_before_it_is_said_to_run(tmp_path: Path, 
         told = [each for each in child.messages if isinstance(each, protocol.ForcesAre)]
         assert [[force.path for force in each.forces] for each in told[:1]] == [["D1"]]
         assert kinds.index(protocol.ForcesAre) < kinds.index(PlcState) < kinds.index(protocol.InEffect)
+
+
+CALLING = """\
+FUNCTION_BLOCK Inner
+VAR n : DINT; END_VAR
+  n := n + 1;
+  n := n + 2;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n : DINT; inner : Inner; END_VAR
+  n := n + 1;
+  inner();
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("end", [killed, ended])
+def test_a_plc_halted_inside_of_a_scan_is_halted_before_the_same_statement(
+    tmp_path: Path, cache: Path, end: Ended
+) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, CALLING, cache) as child:
+        assert child.step("pause").ok
+        last = child.halted()
+        for _ in range(3):
+            assert child.step("in").ok
+            last = child.halted(last.number)
+        assert last.count
+        value = child.value("Main.inner.n")
+        end(child)
+    for _ in range(2):  # as often as it ends
+        with Child(run, CALLING, cache) as child:
+            state = child.until(lambda state: state.halt is not None and state.halt.count > 0)
+            assert state.halt is not None
+            assert (state.state, state.halt.scan, state.halt.count) == ("halted", last.scan, last.count)
+            assert (state.halt.span, state.halt.instance, child.value("Main.inner.n")) == (
+                last.span,
+                last.instance,
+                value,
+            )
+            end(child)
+    with Child(run, CALLING, cache) as child:
+        number = child.until(lambda state: state.halt is not None and state.halt.count > 0).halt
+        assert number is not None
+        assert child.step("scan").ok
+        assert child.halted(number.number).scan == last.scan + 1
+
+
+@pytest.mark.parametrize("count", [0, 2])
+@pytest.mark.parametrize("end", [killed, ended])
+def test_what_is_shown_of_the_past_is_shown_again(tmp_path: Path, cache: Path, end: Ended, count: int) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, CALLING, cache) as child:
+        drive(child, "pause", 0)
+        live = max(drive(child, "scan") for _ in range(5))
+        drive(child, "speed", 2)
+        assert child.ask(lambda ref: protocol.Travel(ref, live - 3, "Ann", count), protocol.Ack).ok
+        value = child.value("Main.n")
+        end(child)
+    for _ in range(2):
+        with Child(run, CALLING, cache) as child:
+            state = child.until(lambda state: state.state == "past")
+            assert (state.scan, state.live_scan, state.past_by, state.speed, state.paused) == (
+                live - 3,
+                live,
+                "Ann",
+                2,
+                True,
+            )
+            child.ask(
+                lambda ref: WantPlaces(ref, "main.st", 1, 9), Places
+            )  # it takes debugged code too, and comes after it
+            assert child.value("Main.n") == value
+            end(child)
+    with Child(run, CALLING, cache) as child:
+        child.until(lambda state: state.state == "past")
+        assert child.ask(lambda ref: protocol.Travel(ref, None, "Ann"), protocol.Ack).ok
+        assert child.until(lambda state: state.state == "paused").scan == live
+        end(child)
+    with Child(run, CALLING, cache) as child:
+        assert child.wait(PlcState).state == "paused"
