@@ -15,13 +15,12 @@ from scanbench.debug.placed import Placing
 from scanbench.debug.probing import Probes
 from scanbench.debug.raised import RaisedErrors
 from scanbench.debug.trapping import Trapping
-from scanbench.engines.debug import Frame, Listen
+from scanbench.engines.debug import Frame
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.probe import MakeProbed, Probe, ProbedEngine
 from scanbench.problems import Span
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Plan, Refusal
-from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 
@@ -51,7 +50,8 @@ class Debugger:
         """Somebody wants to know what is reached: the debug flavour runs."""
         self.changed = False
         """Whether hits were counted since somebody last looked."""
-        self._live_halt: Halt | None = None
+        self.live_halt: Halt | None = None
+        """Where the PLC itself is halted, also while its past is shown."""
         self._past_halt: Halt | None = None
         self._number = 0
         self._goal: Goal | None = None
@@ -80,17 +80,7 @@ class Debugger:
     @property
     def halt(self) -> Halt | None:
         """Where it is halted: the PLC, or what is shown of its past."""
-        return self._past_halt if self._timeline.past else self._live_halt
-
-    @property
-    def is_halted(self) -> bool:
-        """Whether the PLC itself is halted, also while its past is shown."""
-        return self._live_halt is not None
-
-    @property
-    def count(self) -> int:
-        """Of the statement before which the PLC itself is halted; 0: before a scan, or it is not halted."""
-        return 0 if self._live_halt is None else self._live_halt.count
+        return self._past_halt if self._timeline.past else self.live_halt
 
     @property
     def stepping(self) -> bool:
@@ -170,20 +160,9 @@ class Debugger:
         """Halts in the present seam, before the PLC runs for the first time."""
         self._halted(Found("pause", why, ""))
 
-    def halt_again(self, count: int, why: str) -> None:
-        """From a halt in the seam to the statement of this count, where the PLC was halted when its process ended; or to the seam after
-        the scan, where it does not get so far any more. What else may halt it does not count on the way."""
-        with self.resource.listening.instead(HaltAt(count), Listen(count=count)):
-            while self._timeline.run(1).reason is Reason.INTERRUPTED:
-                pass
-        if self.resource.begun or self.resource.runnable:
-            self._halted(Found("pause", why, ""))
-        else:
-            self._live_halt = None
-
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """As `Timeline.run`. HALTED: `halt` says where, and it is not to be run until somebody steps."""
-        if self._live_halt is not None:
+        if self.live_halt is not None:
             raise RuntimeError("the PLC is halted: it must not be run")
         resource = self.resource
         scans = min(scans, self.breakpoints.scans_left(resource.header.scan))
@@ -216,7 +195,7 @@ class Debugger:
         """As `Timeline.submit`; what needs the seam lets a halted scan run to its end."""
         if self._timeline.past:
             return self._timeline.submit(command)
-        halt, resource, scan = self._live_halt, self.resource, self.resource.header.scan
+        halt, resource, scan = self.live_halt, self.resource, self.resource.header.scan
         if halt is not None and resource.begun:
             listener = self._arm()
             if listener is not None:
@@ -233,7 +212,7 @@ class Debugger:
         if self._listener is not None:
             self._listener.pending = None
         if self.resource.header.scan == scan:  # it trapped
-            self._live_halt = None
+            self.live_halt = None
         else:
             self._halted(Found(halt.reason, f"{halt.text}; the scan ran to its end", halt.by, halt.breakpoints))
 
@@ -256,9 +235,9 @@ class Debugger:
             return None
         if not self.resource.runnable and not self.resource.begun:
             return Refusal("the program is stopped: let it run first")
-        if action == "pause" and self._live_halt is not None:
+        if action == "pause" and self.live_halt is not None:
             return None
-        self._goal, self._live_halt = None if action == "continue" else goal, None
+        self._goal, self.live_halt = None if action == "continue" else goal, None
         return None
 
     def forget_step(self) -> None:
@@ -286,7 +265,7 @@ class Debugger:
     def _halted(self, found: Found) -> None:
         self._number += 1
         self._goal = self._pending = None
-        self._live_halt = halt_of(self.resource, self.placing, found, self._number, False)
+        self.live_halt = halt_of(self.resource, self.placing, found, self._number, False)
 
     def _arm(self) -> Listener | None:
         """Who listens from now on; nobody where there is nothing to listen for."""
@@ -333,7 +312,7 @@ class Debugger:
     # ---- the past -------------------------------------------------------------------------------------------------
 
     def _back(self, action: str, author: str, path: str) -> Refusal | None:
-        if self.resource.runnable and self._live_halt is None and not self._timeline.past and self._goal is not None:
+        if self.resource.runnable and self.live_halt is None and not self._timeline.past and self._goal is not None:
             return Refusal("a step is under way: wait until it is over, or pause")
         found = self._past.back(author) if action == "back" else self._past.reverse(author, path)
         if isinstance(found, Refusal):
@@ -346,7 +325,7 @@ class Debugger:
         """Shows the live PLC again."""
         self._timeline.return_live()
         self._past_halt = None
-        if self._live_halt is None:
+        if self.live_halt is None:
             self._halted(Found("step", "this is where the PLC is", ""))
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.debug.debugger import Debugger
+from scanbench.debug.standing import halt_again
 from scanbench.engines.engine import Reason
 from scanbench.host.answers import Answers
 from scanbench.host.pacer import MAX_SPEED, Pacer
@@ -74,9 +75,9 @@ class Driving:
         if not self.stood:
             return
         self.stood, kept = False, self._kept
-        if kept.count and self._debugger.is_halted:
+        if kept.count and self._debugger.live_halt is not None:
             self._timeline.return_live()
-            self._debugger.halt_again(kept.count, HALTED_BEFORE)
+            halt_again(self._debugger, self._timeline, kept.count, HALTED_BEFORE)
         if kept.shown is not None:
             self._show(kept.shown, kept.shown_count, kept.shown_by)
 
@@ -100,9 +101,10 @@ class Driving:
         if self.stood:
             return self._kept
         pacer, condition = self._pacer, self._pacer.condition
-        halted = self._debugger.is_halted or self._debugger.stepping
+        halt = self._debugger.live_halt
+        halted = halt is not None or self._debugger.stepping
         text = condition.text if condition is not None else None
-        driven = protocol.Driven(pacer.speed, pacer.paused, pacer.end, text, halted, self._debugger.count)
+        driven = protocol.Driven(pacer.speed, pacer.paused, pacer.end, text, halted, 0 if halt is None else halt.count)
         if not self._timeline.past:
             return driven
         inside = self._resource.listening.inside
@@ -154,7 +156,12 @@ class Driving:
         if drive.action == "pause":
             refusal = self._keep(
                 replace(
-                    self._driven(), speed=speed, paused=True, end=None, condition=None, halted=self._debugger.is_halted
+                    self._driven(),
+                    speed=speed,
+                    paused=True,
+                    end=None,
+                    condition=None,
+                    halted=self._debugger.live_halt is not None,
                 )
             )
             if refusal is not None:
@@ -169,7 +176,7 @@ class Driving:
         if not self._resource.runnable:
             return Refusal(f"the program is stopped: {self._services.state.message}")
         if drive.action == "scan":
-            halted = self._debugger.is_halted
+            halted = self._debugger.live_halt is not None
             wanted = replace(self._driven(), speed=speed) if halted else protocol.Driven(speed, paused=True)
             return self._no_room() or self._keep(wanted) or self._single(drive.author)
         condition: Condition | None = None
