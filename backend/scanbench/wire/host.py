@@ -45,23 +45,19 @@ class Sources:
 
 @dataclass(frozen=True, slots=True)
 class Driven:
-    """How a PLC is driven: kept in its run file, so that the next process drives it like that."""
+    """How a PLC is driven: kept in its run file, so that the next process drives it like that. Speed 0: as fast as possible."""
 
     speed: float = 1.0
-    """0 is as fast as possible."""
     paused: bool = False
     end: int | None = None
-    """The run was asked to end before this scan."""
     condition: str | None = None
-    """The run was asked to end when this holds."""
+    """The run was asked to end before scan `end`, or when this holds."""
     halted: bool = False
-    """A debugger had halted it: it waits there until somebody lets it go on."""
+    """A debugger had halted it: it waits before its statement `count` (0: before the scan) until somebody lets it go on."""
     count: int = 0
-    """Of the statement before which it is halted (`engines.debug`); 0: before the scan."""
     shown: int | None = None
-    """This scan of the past is shown; None: the PLC itself."""
     shown_count: int = 0
-    """The statement of it that is next; 0: before the scan."""
+    """The scan of the past that is shown (None: the PLC itself), before this statement of it (0: before the scan)."""
     shown_by: str = ""
 
 
