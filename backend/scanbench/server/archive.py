@@ -18,8 +18,7 @@ from uuid import NAMESPACE_URL, uuid5
 
 from scanbench.server.foreign_archive import is_foreign, notes, read_foreign
 from scanbench.server.from_disk import PROJECT_FILE, project_file
-from scanbench.server.operator_panels import is_panel_file
-from scanbench.server.project_files import OWN_FILES
+from scanbench.server.project_files import OWN_FILES, is_beside
 from scanbench.server.twincat_project import ENDING, TwinCatProject, is_twincat_project, read_twincat_project
 from scanbench.syntax.imported import Project
 from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect, language_of
@@ -153,7 +152,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
                 left_out.append(path)
                 continue
             files[path] = decode(data)
-        elif is_panel_file(path):
+        elif is_beside(path):
             panels[path] = decode(_read(archive, each))
         elif path != PROJECT_FILE and not is_twincat_project(path):
             left_out.append(path)

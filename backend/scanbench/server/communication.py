@@ -11,7 +11,8 @@ from typing import Protocol
 from scanbench.comm.desk import Desk
 from scanbench.comm.door import Plc
 from scanbench.comm.fins.service import FinsServer
-from scanbench.comm.modbus.mapping import Mapped, default
+from scanbench.comm.modbus.map_file import MAP_FILE
+from scanbench.comm.modbus.mapping import Mapped
 from scanbench.comm.modbus.service import modbus_server
 from scanbench.comm.modbus.wires import PlantWanted
 from scanbench.comm.opcua.service import PORT as OPC_UA_PORT
@@ -19,6 +20,7 @@ from scanbench.comm.opcua.service import OpcUaServer, Place
 from scanbench.comm.slmp.service import slmp_server
 from scanbench.faults.line_faults import NO_FAULT, SERVER_NAMES, BreakLine, LineFault, MendLine, ServerKind, servers_of
 from scanbench.server.communication_door import ErrorReaders, SessionDoor
+from scanbench.server.communication_map import MapFile, ModbusMap
 from scanbench.server.communication_network import Member, PlcNetwork
 from scanbench.server.communication_plant import Plant
 from scanbench.server.communication_plc import SessionPlc
@@ -26,7 +28,7 @@ from scanbench.server.communication_shapes import CommunicationSeen, ServerSeen,
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.typed import BadValue, make_kept
-from scanbench.wire.events import Event, LinesChanged, User, UsersChanged
+from scanbench.wire.events import Event, FileDeleted, FileSaved, LinesChanged, User, UsersChanged
 from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
@@ -53,7 +55,7 @@ class Server(Protocol):
 class Kind:
     """A protocol: how its server is made, and how it is set at first."""
 
-    make: Callable[[Desk, ServerWanted, Plc, Place], Server]
+    make: Callable[[Desk, ServerWanted, Plc, Place, ModbusMap], Server]
     first: ServerWanted = _FIRST
     slow: bool = False
     """It takes seconds to open: at the start of Scanbench nobody waits for it."""
@@ -61,12 +63,12 @@ class Kind:
 
 KINDS: Mapping[ServerKind, Kind] = {
     "fins": Kind(
-        lambda desk, wanted, _plc, _place: FinsServer(desk, wanted.node, wanted.error_bits),
+        lambda desk, wanted, *_: FinsServer(desk, wanted.node, wanted.error_bits),
     ),
     "slmp": Kind(lambda desk, *_: slmp_server(desk)),
-    "modbus": Kind(lambda desk, *_: modbus_server(desk)),
+    "modbus": Kind(lambda desk, *rest: modbus_server(desk, rest[-1].table)),
     "opcua": Kind(
-        lambda desk, wanted, plc, place: OpcUaServer(desk, plc, place, wanted.anonymous_writes),
+        lambda desk, wanted, plc, place, _map: OpcUaServer(desk, plc, place, wanted.anonymous_writes),
         ServerWanted(port=OPC_UA_PORT),
         slow=True,
     ),
@@ -93,6 +95,7 @@ class _Unit:
     session: Session
     readers: ErrorReaders
     plant: Plant
+    map: ModbusMap
     servers: dict[ServerKind, _Running] = field(default_factory=dict)
     turning: asyncio.Lock = field(default_factory=asyncio.Lock)
     ignore: Callable[[], None] = field(default=lambda: None)
@@ -102,9 +105,9 @@ class _Unit:
 class Communication:
     """Of all PLCs of this server."""
 
-    def __init__(self, store: Store, data: Path) -> None:
-        """`data` is the directory of the server."""
-        self._store = store
+    def __init__(self, store: Store, data: Path, map_file: MapFile) -> None:
+        """`data` is the directory of the server; `map_file` gives the text of a project's map of Modbus."""
+        self._store, self._map_file = store, map_file
         self._place = Place(data / "cache", data / "opcua", "")
         self._units: dict[int, _Unit] = {}
         self._tasks: set[asyncio.Task[None]] = set()
@@ -118,9 +121,10 @@ class Communication:
         """A PLC is there: opens the servers that were on."""
         kept, readers = session.row.communication or {}, ErrorReaders(session.model)
         plant = Plant(session, readers, kept.get("plant"), lambda: _tell_clients(unit))
-        unit = self._units[session.id] = _Unit(session, readers, plant)
+        unit = self._units[session.id] = _Unit(session, readers, plant, ModbusMap(session, self._map_file))
+        await unit.map.read()
         self._network.begin(session)
-        unit.ignore = self._follow_lines(unit)
+        unit.ignore = self._follow(unit)
         for kind in servers_of(session.model):
             unit.servers[kind] = _Running(_read(kept.get(kind), KINDS[kind].first))
             if KINDS[kind].slow and unit.servers[kind].wanted.on:
@@ -154,7 +158,7 @@ class Communication:
         """As it is now."""
         unit = self._units[session.id]
         servers = tuple(_seen(kind, running) for kind, running in unit.servers.items())
-        return CommunicationSeen(servers, unit.readers.all, unit.plant.seen)
+        return CommunicationSeen(servers, unit.readers.all, unit.plant.seen, unit.map.own, unit.map.trouble)
 
     async def set(self, session: Session, kind: ServerKind, wanted: ServerWanted, author: str) -> CommunicationSeen:
         """Switches a server on or off, or gives it other settings; they are kept. `Refused`."""
@@ -202,7 +206,7 @@ class Communication:
 
     def modbus_table(self, session: Session) -> tuple[Mapped, ...]:
         """Which memory each coil and register means."""
-        return default(session.model)
+        return self._units[session.id].map.table()
 
     def _members(self) -> list[Member]:
         """The PLCs that speak FINS."""
@@ -219,13 +223,15 @@ class Communication:
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    def _follow_lines(self, unit: _Unit) -> Callable[[], None]:
-        """Does to clients what the journal says of the lines: also after a start, and where the PLC goes on from its past. What is given
-        back ends that."""
+    def _follow(self, unit: _Unit) -> Callable[[], None]:
+        """Does to clients what the journal says of the lines, also after a start, and where the PLC goes on from its past; and reads the
+        map of Modbus when it was changed. What is given back ends that."""
 
         def hear(event: Event) -> None:
             if isinstance(event, LinesChanged) and not unit.session.state.past_by:
                 self._begin_task(self._bring_up_to_date(unit))
+            elif isinstance(event, FileSaved | FileDeleted) and event.path == MAP_FILE:
+                self._begin_task(unit.map.read())
 
         unit.session.listen(hear)
         return lambda: unit.session.ignore(hear)
@@ -267,7 +273,7 @@ class Communication:
             wanted.access == "read",
         )
         desk.fault = running.fault
-        server = KINDS[kind].make(desk, wanted, SessionPlc(unit.session), self._place)
+        server = KINDS[kind].make(desk, wanted, SessionPlc(unit.session), self._place, unit.map)
         try:
             await server.open(wanted.host, running.port or wanted.port)
         except OSError as error:

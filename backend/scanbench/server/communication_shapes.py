@@ -94,3 +94,7 @@ class CommunicationSeen(Public):
     """Those that the model can have."""
     error_readers: tuple[ErrorReader, ...]
     plant: PlantSeen
+    own_map: bool
+    """The project has a map of Modbus of its own: `modbus.csv`."""
+    map_trouble: str
+    """Why that cannot be used; no register means anything then."""

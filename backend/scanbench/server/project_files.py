@@ -1,5 +1,6 @@
 """Which files a project has: its programs, its panels, and what is said of them beside."""
 
+from scanbench.comm.modbus.map_file import MAP_FILE
 from scanbench.plcmodel.user_errors import CATALOGUE_FILES
 from scanbench.server.operator_panels import is_panel_file
 from scanbench.syntax.language_file import LANGUAGE_FILE
@@ -12,4 +13,9 @@ OWN_FILES = (*CATALOGUE_FILES, LANGUAGE_FILE, REQUIREMENTS)
 
 def is_project_file(path: str) -> bool:
     """Whether a file of this path can be one of a project."""
-    return is_program_file(path) or path in OWN_FILES or is_panel_file(path)
+    return is_program_file(path) or path in OWN_FILES or is_beside(path)
+
+
+def is_beside(path: str) -> bool:
+    """Whether it is a file of a project that no program has: a build leaves it out. An operator panel, or the map of Modbus."""
+    return is_panel_file(path) or path == MAP_FILE

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
 
+from scanbench.comm.modbus.map_file import MAP_FILE, read_map
 from scanbench.jobs.checker import INTERVAL_NS, Checker
 from scanbench.plcmodel.hardware import HARDWARE_FILE
 from scanbench.plcmodel.model import Model
@@ -11,10 +12,10 @@ from scanbench.server.archive import Archive, pack
 from scanbench.server.completed import completed
 from scanbench.server.drafts import Drafts
 from scanbench.server.operator_panels import PANEL_ENDING, is_panel_file, refuse_broken
-from scanbench.server.project_files import is_project_file
+from scanbench.server.project_files import is_beside, is_project_file
 from scanbench.server.samples import templates
 from scanbench.session.session import Session
-from scanbench.store.records import BuildInfo, FileInfo, FileRow, ProjectRow
+from scanbench.store.records import BuildInfo, FileInfo, FileRow, NotFound, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.language_file import LANGUAGE_FILE, STRICT, language_text
 from scanbench.syntax.parse_file import ENDINGS
@@ -95,12 +96,19 @@ class Projects:
         A text that is not of the `draft` of the file was made elsewhere: its change is made in the draft as well.
         """
         _check_path(path)
-        if is_panel_file(path):
-            refuse_broken(path, text)
+        if is_beside(path):
+            self._refuse_broken((await self.get(id)).model, path, text)
         file = await self.drafts.save(id, path, text, version, author, draft)
         for session in self._sessions_of(id):
             session.tell(FileSaved(author, file.path, file.version, file.saved))
         return file
+
+    def _refuse_broken(self, model: str, path: str, text: str) -> None:
+        """Of what no program has, and nobody would see otherwise."""
+        if is_panel_file(path):
+            refuse_broken(path, text)
+        elif model in self._models:
+            read_map(self._models[model], text)
 
     async def delete_file(self, id: int, path: str, author: str) -> None:
         """Deletes a file."""
@@ -109,10 +117,17 @@ class Projects:
         for session in self._sessions_of(id):
             session.tell(FileDeleted(author, path))
 
+    async def modbus_map(self, id: int) -> str | None:
+        """The project's own map of Modbus; None where it has none."""
+        try:
+            return (await self.file(id, MAP_FILE)).text
+        except NotFound:
+            return None
+
     async def sources(self, id: int) -> dict[str, str]:
         """Path -> text of all program files, and of the project's own errors."""
         files = await asyncio.to_thread(self._store.files.sources, id)
-        return {path: text for path, text in files.items() if not is_panel_file(path)}
+        return {path: text for path, text in files.items() if not is_beside(path)}
 
     # ---- check and build ------------------------------------------------------------------------------------------
 
@@ -182,7 +197,7 @@ class Projects:
         for path in texts:
             _check_path(path)
         for path, text in archive.panels.items():
-            refuse_broken(path, text)
+            self._refuse_broken(model, path, text)
         project = await self.create(name, model, archive.watch)
         for path, text in texts.items():
             await asyncio.to_thread(self._store.files.save, project.id, path, text, 0, author)
@@ -263,5 +278,5 @@ def _check_path(path: str) -> None:
         raise Refused(
             f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
             f"the project's own errors are in {USER_ERRORS}, what must happen then in {REQUIREMENTS}, its hardware in "
-            f"{HARDWARE_FILE}, its dialect in {LANGUAGE_FILE}, operator panels in files like belt{PANEL_ENDING}"
+            f"{HARDWARE_FILE}, its dialect in {LANGUAGE_FILE}, what registers of Modbus mean in {MAP_FILE}, operator panels in files like belt{PANEL_ENDING}"
         )

@@ -71,7 +71,7 @@ class Workbench:
         self.repositories = Repositories(store, data / "projects")
         self._reactions = SharedJob(self._cache)
         self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
-        self.communication = Communication(store, data)
+        self.communication = Communication(store, data, self.projects.modbus_map)
         self.watch_lists = WatchLists(store, self._sessions_of)
         self.states = States(store, data / "states")
         self.trace_records = TraceRecords(store, data / "traces", self._cache)

@@ -19,7 +19,7 @@ from scanbench.recording.recording import RecordingInfo
 from scanbench.reports.record import RecordCell
 from scanbench.reports.record_text import RecordLine
 from scanbench.runtime.migrate_image import Lost
-from scanbench.server.communication_shapes import PlantSeen, ServerSeen
+from scanbench.server.communication_shapes import CommunicationSeen, PlantSeen, ServerSeen
 from scanbench.verify.contract import Mismatch, Row
 from scanbench.verify.trace.table import TraceProblem
 from scanbench.web import (
@@ -103,6 +103,7 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (Try, "refused"),
     (Try, "trapped"),
     (CampaignState, "message"),
+    (CommunicationSeen, "map_trouble"),
     (Comparison, "message"),
     (events.LogEntry, "text"),
     (Rerun, "message"),

@@ -11,6 +11,7 @@ import pytest
 
 from scanbench.comm.desk import FRAMES_KEPT, Desk
 from scanbench.comm.fins.service import FinsServer
+from scanbench.comm.modbus.mapping import default
 from scanbench.comm.modbus.service import modbus_server
 from scanbench.comm.slmp.service import slmp_server
 from scanbench.server.communication import Server
@@ -42,7 +43,13 @@ FINS = [
 ]
 KINDS: dict[str, tuple[str, Callable[[Desk], Server], list[str], str, bytes]] = {
     "slmp": ("Q03UD", slmp_server, SLMP, SLMP[0], bytes.fromhex("d00000")),
-    "modbus": ("CJ1M-CPU13", modbus_server, MODBUS, MODBUS[0], bytes.fromhex("00010000")),
+    "modbus": (
+        "CJ1M-CPU13",
+        lambda desk: modbus_server(desk, lambda: default(machine().program.layout.model)),
+        MODBUS,
+        MODBUS[0],
+        bytes.fromhex("00010000"),
+    ),
     "fins": ("CJ1M-CPU13", lambda desk: FinsServer(desk, 1, True), FINS, "", b""),
 }
 

@@ -101,7 +101,13 @@ function busy(server: FakeServer): void {
     ranges: [],
   };
   const plant = { settings, answers: false, trouble: "", exchanges: 0, took_ms: 0, per_second: 0, frames: [] };
-  server.on("GET", "/instances/*/communication", () => ({ servers: [], error_readers: [], plant }));
+  server.on("GET", "/instances/*/communication", () => ({
+    servers: [],
+    error_readers: [],
+    plant,
+    own_map: false,
+    map_trouble: "",
+  }));
   server.on("GET", "/instances/*/communication/modbus/map", () => []);
   server.on("GET", "/projects/*/user-errors", () => ({
     errors: [],

@@ -3983,6 +3983,16 @@ export interface components {
         Communication: {
             /** Error Readers */
             error_readers: components["schemas"]["ErrorMemoryReader"][];
+            /**
+             * Map Trouble
+             * @description Why that cannot be used; no register means anything then.
+             */
+            map_trouble: string;
+            /**
+             * Own Map
+             * @description The project has a map of Modbus of its own: `modbus.csv`.
+             */
+            own_map: boolean;
             plant: components["schemas"]["CommunicationPlant"];
             /**
              * Servers

@@ -138,3 +138,7 @@ class Communication(TypedDict):
     """Those that the model can have."""
     error_readers: list[ErrorMemoryReader]
     plant: CommunicationPlant
+    own_map: bool
+    """The project has a map of Modbus of its own: `modbus.csv`."""
+    map_trouble: str
+    """Why that cannot be used; no register means anything then."""

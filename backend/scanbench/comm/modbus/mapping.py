@@ -6,13 +6,14 @@ Errors are in input registers and discrete inputs, which no function of Modbus c
 import csv
 import io
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 from scanbench.plcmodel.model import Model
 from scanbench.public import Public
 
 Group = Literal["coil", "discrete input", "input register", "holding register"]
+GROUPS: tuple[Group, ...] = ("coil", "discrete input", "input register", "holding register")
 _ADDRESSES = 1 << 16
 
 
@@ -82,14 +83,21 @@ def _mapped(model: Model, wanted: Wanted) -> Mapped:
     bits = wanted.group in ("coil", "discrete input")
     words = area.words - wanted.word
     count = min(16 * words if bits else words, wanted.most, _ADDRESSES - wanted.first)
-    size = (count + 15) // 16 if bits else count
-    last = 2 * (wanted.word + size) - 1
+    made = Mapped(wanted.group, wanted.first, count, area.name, wanted.word, wanted.width)
+    begins, ends = begins_and_ends(model, made)
+    return replace(made, begins=begins, ends=ends)
+
+
+def begins_and_ends(model: Model, range: Mapped) -> tuple[str, str]:
+    """The vendor's addresses of the first one and the last one."""
+    area = model.area(range.area)
+    assert area is not None
+    bits = range.group in ("coil", "discrete input")
     if bits or area.unit == "bit":
-        begins = model.format(area, 2 * wanted.word, 0, 1)
-        ends = model.format(area, last, 7, 1)
-    else:
-        begins, ends = (model.format(area, at, None, 16) for at in (2 * wanted.word, last - 1))
-    return Mapped(wanted.group, wanted.first, count, area.name, wanted.word, wanted.width, begins, ends)
+        last = 16 * range.word + (range.count if bits else 16 * range.count) - 1
+        return model.format(area, 2 * range.word, 0, 1), model.format(area, last // 8, last % 8, 1)
+    first = 2 * range.word
+    return model.format(area, first, None, 16), model.format(area, first + 2 * range.count - 2, None, 16)
 
 
 def as_csv(table: Sequence[Mapped]) -> str:

@@ -1,20 +1,20 @@
 """The server of Modbus TCP. Requests of a connection are answered one after the other, each with its own transaction."""
 
-from collections.abc import Awaitable, Iterator
+from collections.abc import Awaitable, Callable, Iterator
 
 from scanbench.comm.desk import Desk
 from scanbench.comm.door import Door
 from scanbench.comm.modbus.frame import Broken, Code, Request, Stream, failure
 from scanbench.comm.modbus.functions import Target, described, outcome, respond
-from scanbench.comm.modbus.mapping import default
+from scanbench.comm.modbus.mapping import Mapped
 from scanbench.comm.tcp import Answers, Listener, tcp_server
 
 
-def modbus_server(desk: Desk) -> Listener:
-    """A server that is still closed."""
+def modbus_server(desk: Desk, table: Callable[[], tuple[Mapped, ...]]) -> Listener:
+    """A server that is still closed. `table` says what registers mean, which may change."""
 
     def begin(name: str, door: Door) -> Answers:
-        stream, target = Stream(), Target(door, default(door.model))
+        stream = Stream()
 
         async def answer(request: Request, frame: bytes) -> bytes:
             desk.before_request()
@@ -22,7 +22,7 @@ def modbus_server(desk: Desk) -> Listener:
             if desk.elsewhere:
                 answered, code = failure(request, Code.NO_TARGET), Code.NO_TARGET
             else:
-                answered, code = await respond(request, target, desk.read_only)
+                answered, code = await respond(request, Target(door, table()), desk.read_only)
             desk.note(name, described(request), outcome(code), frame, answered)
             return answered
 

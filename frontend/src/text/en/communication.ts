@@ -47,6 +47,9 @@ export const communication = {
   "communication.kind.slmp": "SLMP (MC protocol, 3E)",
   "communication.map": "What the registers mean",
   "communication.map.csv": "Download as CSV",
+  "communication.map.default":
+    "As the model has it. A file modbus.csv in the project, written like the download, takes its place.",
+  "communication.map.own": "As the file modbus.csv of the project says.",
   "communication.map.first": "First",
   "communication.map.from": "From",
   "communication.map.group": "Group",

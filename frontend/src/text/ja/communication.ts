@@ -48,6 +48,9 @@ export const communication: Record<keyof typeof english, string> = {
   "communication.kind.slmp": "SLMP（MC プロトコル 3E）",
   "communication.map": "レジスタの割り付け",
   "communication.map.csv": "CSV で保存",
+  "communication.map.default":
+    "機種の標準の割り付けです。保存した CSV と同じ形式のファイル modbus.csv をプロジェクトに置くと、それに替わります。",
+  "communication.map.own": "プロジェクトのファイル modbus.csv の割り付けです。",
   "communication.map.first": "先頭",
   "communication.map.from": "メモリの先頭",
   "communication.map.group": "種類",

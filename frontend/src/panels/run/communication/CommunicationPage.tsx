@@ -45,7 +45,7 @@ export function CommunicationPage() {
           ))}
           <Plant plant={seen.plant} />
           <ErrorReaders readers={seen.error_readers} />
-          <ModbusMap />
+          <ModbusMap own={seen.own_map} trouble={seen.map_trouble} />
         </div>
       )}
     </section>

@@ -5,11 +5,11 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 
 /** Which memory each coil and register of Modbus means. */
-export function ModbusMap() {
+export function ModbusMap({ own, trouble }: { own: boolean; trouble: string }) {
   const map = useCommunication(({ map }) => map);
   const instance = useBench((bench) => bench.instance?.id);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: that of a different PLC
-  useEffect(() => void loadMap(), [instance]);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: that of a different PLC, or of the project's own file
+  useEffect(() => void loadMap(), [instance, own, trouble]);
   const title = t("communication.map");
   return (
     <section aria-label={title}>
@@ -21,6 +21,13 @@ export function ModbusMap() {
           {t("communication.map.csv")}
         </a>
       </div>
+      <p className="faint comabout">{own ? t("communication.map.own") : t("communication.map.default")}</p>
+      {trouble !== "" && (
+        <p className="trouble st warning" role="alert">
+          <Icon name="warning" small />
+          <span>{trouble}</span>
+        </p>
+      )}
       <table className="comtable" aria-label={title}>
         <thead>
           <tr>
