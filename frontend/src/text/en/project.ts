@@ -85,7 +85,7 @@ export const project = {
   "dialect.about":
     "What the programs are written in. A dialect allows what its vendor's tool allows, with a warning; it is saved in language.json.",
   "dialect.codesys": "CODESYS",
-  "dialect.iec": "IEC 61131-3 (strict)",
+  "dialect.iec": "IEC (strict)",
   "dialect.omron": "Omron Sysmac",
   "dialect.rockwell": "Rockwell Logix",
   "dialect.siemens": "Siemens SCL",

@@ -87,7 +87,7 @@ export const project: Record<keyof typeof english, string> = {
   "dialect.about":
     "プログラムを書いた言語です。方言では、そのメーカーのツールで許されることが警告付きで使えます。language.json に保存されます。",
   "dialect.codesys": "CODESYS",
-  "dialect.iec": "IEC 61131-3 (標準どおり)",
+  "dialect.iec": "IEC (標準どおり)",
   "dialect.omron": "Omron Sysmac",
   "dialect.rockwell": "Rockwell Logix",
   "dialect.siemens": "Siemens SCL",
