@@ -4,6 +4,7 @@ The scan is run again by the debug flavour with a hook that notes them: of the P
 while nobody looks has nothing of this in it. Drawings of ladders, diagrams and charts show what is noted.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from scanbench.debug.flow_shown import Flow, FlowAsked, FlowElement, FlowValue
@@ -81,8 +82,11 @@ class FlowHook:
         self._in_sight = {
             each for each in self._by_site if asked.first <= statements[each].span.line <= asked.last
         }  # fmt: skip
-        self._idle = Listen(sites=frozenset().union(*(each.entries for each in self._bodies)), count=upto)
-        self._deeper = Listen(every=True, count=upto)
+        entries = frozenset().union(*(each.entries for each in self._bodies))
+        self._idle = Listen(sites=entries, count=upto)
+        self._all_along = bool(upto) or any(each.pou.recursive for each in self._bodies)
+        """Whether statements out of sight count: the last one before a halt; and one whose frame its caller shares."""
+        self._unseen = Listen(every=True, count=upto)
         self._busy = Listen(every=True, accesses=READ | WRITE, count=upto)
         self._listen = self._idle
         self._open: list[_Open] = []
@@ -165,9 +169,23 @@ class FlowHook:
             if self._wants:
                 inside = self._names.inside(frame.pou, frame.instance, self._memory)
                 noted = self._noted[own.pou.name] = _Noted(self._names.within(inside))
+        if noted is not None and not self._all_along:
+            self._unseen = Listen(self._idle.sites.union(self._in_sight, self._after(depth)))
         made = _Open(depth, own, frame.instance, noted)
         self._open.append(made)
         return made
+
+    def _after(self, depth: int) -> Iterable[int]:
+        """The statements of which one begins when the call that is under way is over: those of the caller, or of other programs."""
+        frames, bodies = self._engine.frames(), self._engine.sites.bodies
+        if depth > 1:
+            return bodies[frames[1].pou]
+        return [
+            site
+            for pou, sites in bodies.items()
+            if pou.kind == "program" and pou is not frames[0].pou
+            for site in sites
+        ]
 
     @property
     def _wants(self) -> bool:
@@ -239,10 +257,11 @@ class FlowHook:
 
     def _tell(self) -> None:
         """What is listened for from here on."""
-        top, listen = self._open[-1] if self._open else None, self._idle
-        if top is not None and top.instance == self._instance:
+        listen = self._idle
+        if any(each.instance == self._instance for each in self._open):
+            top = self._open[-1]
             here = top.noted is not None and top.depth == self._depth and top.site in self._in_sight
-            listen = self._busy if here else self._deeper
+            listen = self._busy if here else self._unseen
         if listen is not self._listen:
             self._listen = listen
             self._resource.listening.listen(listen)
@@ -252,7 +271,12 @@ class FlowHook:
     @property
     def flow(self) -> Flow:
         """What was noted, once the scan is over, or halted."""
-        found = [self._element(noted, site) for noted in self._noted.values() for site in noted.runs]
+        found = [
+            self._element(noted, site)
+            for noted in self._noted.values()
+            for site in noted.runs
+            if site in self._in_sight
+        ]
         wires = {name: text for noted in self._noted.values() for name, text in noted.wires.items()}
         call = self._asked.call or self._calls
         return Flow(

@@ -17,7 +17,7 @@ class FlowAsked:
     """Which of several calls in the scan, from 1; 0 for the last one."""
     first: int = 1
     last: int = 1 << 30
-    """The lines of the text that are in sight: of others it is only noted that they ran."""
+    """The lines of the text that are in sight: of others nothing is noted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class Flow(Public):
     whole: bool
     """The scan ran to its end. False: it is halted, and what comes later is not in here."""
     elements: tuple[FlowElement, ...]
-    """Those that ran, in the order of the text. Whatever is not here was jumped over, or left out as EN or a condition said so."""
+    """Those in sight that ran, in the order of the text. Whatever is not here was jumped over, or left out as EN or a condition said so."""
     wires: tuple[FlowValue, ...] = ()
     """The wires of the function block diagrams that ran."""
 
@@ -73,3 +73,6 @@ class Flows(Public):
     """The newest first. Where a scan is halted that scan, as far as it has come, and then the one before it, which was whole."""
     refused: str = ""
     """Why there are none, or not both."""
+    first: int = 1
+    last: int = 1 << 30
+    """The lines that were in sight: of elements elsewhere nothing is known."""

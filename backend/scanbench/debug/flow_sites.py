@@ -53,14 +53,26 @@ class FlowSites:
     wires: tuple[Wire, ...] = ()
 
 
+_MADE: list[tuple[Sites, str, list[FlowSites]]] = []
+_KEPT_LAST = 8
+
+
 def flow_sites(program: Program, sites: Sites, name: str) -> list[FlowSites]:
-    """The bodies that are drawn as the text of this POU: its own, and those of its actions. Empty where there is none of this name."""
+    """The bodies that are drawn as the text of this POU: its own, and those of its actions. Empty where there is none of this name.
+
+    The same, again and again, as long as few other ones are asked about: a drawing asks twenty times a second.
+    """
     wanted = name.upper()
+    for known, which, made in _MADE:
+        if known is sites and which == wanted:
+            return made
     found = []
     for pou, own in sites.bodies.items():
         action = pou.name.upper().startswith(f"{wanted}.") and pou.span.file == _file_of(program, wanted)
         if pou.name.upper() == wanted or action:
             found.append(_of_body(pou, sites, own))
+    _MADE.append((sites, wanted, found))
+    del _MADE[:-_KEPT_LAST]
     return found
 
 

@@ -98,7 +98,7 @@ class FlowsOf:
             elif hook.version == version:
                 found.append(hook.flow)
                 file = hook.file
-        return Flows(file, version, tuple(found), refused)
+        return Flows(file, version, tuple(found), refused, asked.first, asked.last)
 
     def _listened(
         self, asked: FlowAsked, scan: int, upto: int, begin: Moment | None = None
@@ -138,12 +138,13 @@ class FlowsOf:
         """Answers who has waited longest, and all who ask the same."""
         same = self._same()
         try:
-            hook = self._listened(same[0].asked, begin.scan, 0, begin)
+            asked = same[0].asked
+            hook = self._listened(asked, begin.scan, 0, begin)
             version = begin.loaded.version
             if isinstance(hook, Refusal):
                 flows = Flows("", version, (), hook.message)
             else:
-                flows = Flows(hook.file, version, (hook.flow,))
+                flows = Flows(hook.file, version, (hook.flow,), "", asked.first, asked.last)
             for request in same:
                 self._post(request, flows)
         except UnknownPath as error:

@@ -38,7 +38,14 @@ export function usualRoutes(on: On, instance: () => Instance): void {
   on("GET", "", () => someApp(instance()));
   on("GET", "/instances", () => [instance()]);
   on("GET", "/instances/*/model", () => MODEL);
-  on("GET", "/instances/*/flow", () => ({ file: "", program_version: 1, flows: [], refused: "" }));
+  on("GET", "/instances/*/flow", () => ({
+    file: "",
+    program_version: 1,
+    flows: [],
+    refused: "",
+    first: 1,
+    last: 1 << 30,
+  }));
   for (const what of [
     "symbols",
     "complete",

@@ -854,7 +854,7 @@ export interface paths {
          * Power and values at each element of a POU (a PROGRAM, a block, a FUNCTION, a method) as the code of the instance `path` saw them: in the scan that runs next while the PLC runs, in the last one and in the halted one while it waits, in that of the past that is shown
          * @description Power and values at each element of a POU (a PROGRAM, a block, a FUNCTION, a method) as the code of the instance `path` saw them: in the scan that
          *     runs next while the PLC runs, in the last one and in the halted one while it waits, in that of the past that is shown. `call`: which of several
-         *     calls in the scan, 0 for the last one; `first` and `last`: the lines whose values are wanted.
+         *     calls in the scan, 0 for the last one; `first` and `last`: the lines whose elements are wanted.
          */
         get: operations["get_instance_flow"];
         put?: never;
@@ -5390,7 +5390,7 @@ export interface components {
             calls: number;
             /**
              * Elements
-             * @description Those that ran, in the order of the text. Whatever is not here was jumped over, or left out as EN or a condition said so.
+             * @description Those in sight that ran, in the order of the text. Whatever is not here was jumped over, or left out as EN or a condition said so.
              */
             elements: components["schemas"]["FlowElement"][];
             /** Scan */
@@ -5442,11 +5442,18 @@ export interface components {
         Flows: {
             /** File */
             file: string;
+            /** First */
+            first: number;
             /**
              * Flows
              * @description The newest first. Where a scan is halted that scan, as far as it has come, and then the one before it, which was whole.
              */
             flows: components["schemas"]["Flow"][];
+            /**
+             * Last
+             * @description The lines that were in sight: of elements elsewhere nothing is known.
+             */
+            last: number;
             /**
              * Program Version
              * @description The program that ran: the lines are those of its text.

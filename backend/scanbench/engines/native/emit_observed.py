@@ -185,9 +185,11 @@ class Observing(Flavour):
     def unheard(self, body: Body) -> bool:
         """What is read or written here is not the user's program's: what looks whether a task is due, the start of a
         body, what was made from the model. In-outs by value are copied by the statement that calls."""
-        started = self.has_sites(body.pou) and not makes_copies(body.pou.instance)
-        nobody = body.site is None and (started or not body.unit.has(body.pou))
-        return nobody or is_system(body.pou.span)
+        if is_system(body.pou.span):
+            return True
+        if body.site is not None:
+            return False
+        return not body.unit.has(body.pou) or (self.has_sites(body.pou) and not makes_copies(body.pou.instance))
 
     def read(self, body: Body, place: Place, where: Address) -> None:
         # noted if any of it is watched

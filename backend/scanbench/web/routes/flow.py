@@ -23,5 +23,5 @@ async def on_flow(
 ) -> Flows:
     """Power and values at each element of a POU (a PROGRAM, a block, a FUNCTION, a method) as the code of the instance `path` saw them: in the scan that
     runs next while the PLC runs, in the last one and in the halted one while it waits, in that of the past that is shown. `call`: which of several
-    calls in the scan, 0 for the last one; `first` and `last`: the lines whose values are wanted."""
+    calls in the scan, 0 for the last one; `first` and `last`: the lines whose elements are wanted."""
     return await bench.session(instance).debugging.flow(FlowAsked(pou, path, call, first, last))

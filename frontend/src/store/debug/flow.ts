@@ -10,7 +10,7 @@ import { onInstanceChange } from "../plc/reset";
 import { seenAsNow, useSeenAs } from "./seenAs";
 
 /** Between two requests while the PLC runs, in ms. */
-const AGAIN = 150;
+const AGAIN = 50;
 
 interface FlowStore {
   /** By the name of a POU; null where nothing is known. */

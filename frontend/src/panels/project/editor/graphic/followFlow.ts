@@ -15,7 +15,15 @@ export function flowOfPart(part: DrawnPart, path: string, flows: Flows | null): 
   const current = showsRan(path) || flows.program_version === useBench.getState().project?.version;
   const { built, text } = shownText(path);
   if (!current || !built.includes(part.found.text)) return null;
+  const { first, last } = linesOf(part, path);
+  if (first < flows.first || last > flows.last) return null; // It has just come into sight.
   return partFlow(part, flows.flows, built === text ? (line) => line : (line) => shownLine(path, line));
+}
+
+/** Where the part is in the text that was built. */
+function linesOf({ found }: DrawnPart, path: string): { first: number; last: number } {
+  const first = builtLine(path, found.line);
+  return { first, last: first + found.text.split("\n").length };
 }
 
 /** Calls `paint` now and with each answer, until the returned function is called. */
@@ -25,8 +33,7 @@ export function followFlow(
   pou: Pou,
   paint: (flow: PartFlow | null) => void,
 ): () => void {
-  const first = builtLine(path, part.found.line);
-  const stopLooking = lookAtFlow(pou.name, { first, last: first + part.found.text.split("\n").length });
+  const stopLooking = lookAtFlow(pou.name, linesOf(part, path));
   let known: Flows | null = null;
   const look = () => {
     const flows = useFlow.getState().of.get(pou.name) ?? null;
