@@ -25,7 +25,7 @@ TIMES = {"T_ADD": "add", "T_SUB": "sub", "T_DIFF": "sub"}
 """Instructions that are `+` or `-` but for DTL, of which the library has functions."""
 BY_OUTPUT = frozenset(("RD_SYS_T", "RD_LOC_T"))
 """Instructions that the library has for LDT and DT as well, by the type of OUT."""
-AS_INPUTS = frozenset(("MOVE_BLK_VARIANT", "BLKMOV", "UBLKMOV", "FILL"))
+AS_INPUTS = frozenset(("MOVE_BLK_VARIANT", "BLKMOV", "UBLKMOV", "FILL", "DPRD_DAT"))
 """Functions of the library whose outputs are a Variant, which is passed as an input."""
 OF_STRINGS = frozenset(("CONCAT", "LEN", "LEFT", "RIGHT", "MID", "INSERT", "DELETE", "REPLACE", "FIND"))
 """Functions of texts, whose names may end with `_STRING` or `_WSTRING`."""

@@ -28,6 +28,7 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "IBaseLibrary": ("twincat",),
     "Logix": ("rockwell",),
     "Siemens": ("siemens",),
+    "SiemensDevices": ("siemens",),
     "Standard64": ("codesys", "twincat"),
     "System": ("siemens",),
     "Tc2_EtherCAT": ("twincat",),
