@@ -386,6 +386,7 @@ class Checker:
         scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
         scope.system, scope.who = self._rights(declaration.span)
         around = self.pous.classes.of(instance)
+        scope.policy = declaration.policy or ("" if around is None else around.declaration.policy)
         scope.kept = kept_of(declaration, None if around is None else around.declaration, instance, self.globals)
         return scope
 

@@ -91,6 +91,8 @@ class Subrange(Elementary):
     low: int = 0
     high: int = 0
     base_name: str = "INT"
+    policy: str = field(default="", compare=False)
+    """What becomes of a value outside: one of `syntax.pragmas.POLICIES`; empty: as where it is used."""
 
 
 @dataclass(frozen=True, slots=True)

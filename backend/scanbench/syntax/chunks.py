@@ -11,7 +11,7 @@ from scanbench.syntax.foreign_files import parse_foreign
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import whole
-from scanbench.syntax.pragmas import in_out_pragmas
+from scanbench.syntax.pragmas import in_out_pragmas, subrange_policies
 from scanbench.syntax.scl import is_scl
 from scanbench.syntax.source import Source
 
@@ -196,11 +196,12 @@ def _stretches(tokens: Tokens, length: int) -> list[tuple[int, int, bool]] | Non
 
 
 def _start(tokens: Tokens, first: int) -> int:
-    """Where a POU begins: with its first token, or with what a pragma before it says of its in-outs."""
+    """Where a POU begins: with its first token, or with what a pragma before it says of its in-outs or subranges."""
     if not tokens.pragmas:
         return tokens.starts[first]
     before = tokens.starts[first - 1] if first else -1
-    own = (each.start for each in in_out_pragmas(tokens.pragmas) if before < each.start < tokens.starts[first])
+    tied = [*in_out_pragmas(tokens.pragmas), *subrange_policies(tokens.pragmas)]
+    own = (each.start for each in tied if before < each.start < tokens.starts[first])
     return min(own, default=tokens.starts[first])
 
 

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from scanbench.problems import Problem, Span
 from scanbench.syntax.conditions import chosen
 from scanbench.syntax.lexer import AHEAD, DRAWN, Lex, Tokens, tokenize
-from scanbench.syntax.pragmas import in_out_pragmas
+from scanbench.syntax.pragmas import in_out_pragmas, subrange_policies
 from scanbench.syntax.source import Source, Stretch
 
 MAX_DEPTH = 200
@@ -45,6 +45,8 @@ class Cursor:
         self.kinds, self.texts, self.starts, self.pragmas = tokens.kinds, tokens.texts, tokens.starts, tokens.pragmas
         self.in_out_pragmas = in_out_pragmas(self.pragmas)
         """Those that no FUNCTION_BLOCK has taken yet."""
+        self.subrange_policies = subrange_policies(self.pragmas)
+        """Those that no declaration has taken yet."""
         self.at = 0
         self.depth = 0
         self.wires: set[str] | None = None

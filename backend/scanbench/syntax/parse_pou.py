@@ -27,6 +27,7 @@ Body = tuple[tree.Statement, ...] | tree.IlBody | NetworkBody | Chart
 def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.PouDeclaration:
     """From PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS or INTERFACE to its end."""
     first = c.take()
+    policy = parse_type.subrange_policy(c, first)
     kind = c.texts[first].upper()
     access, modifiers = _modifiers(c)
     name = c.name(f"the name of the {kind}")
@@ -66,7 +67,7 @@ def pou(c: Cursor, namespace: str = "", using: tuple[str, ...] = ()) -> tree.Pou
     result, extends, implements, more = header
     return tree.PouDeclaration(
         kind.lower(), c.texts[name], result, tuple(sections), body, c.span_of(name), tuple(methods),
-        extends, implements, modifiers, access, namespace, using + more, in_out, stub,
+        extends, implements, modifiers, access, namespace, using + more, in_out, stub, policy=policy,
     )  # fmt: skip
 
 
@@ -84,10 +85,15 @@ def _in_out(c: Cursor, first: int) -> str:
 
 
 def check_pragmas(c: Cursor) -> None:
-    """Reports pragmas `in_out` at places where they have no meaning."""
+    """Reports pragmas `in_out` and `subrange` at places where they have no meaning."""
     for each in c.in_out_pragmas:
         message = "A pragma `in_out` belongs before a FUNCTION_BLOCK or after its name; move it there."
         c.report("S003", message, _span_of(c, each))
+    for other in c.subrange_policies:
+        message = (
+            "A pragma `subrange` belongs right before the declaration of a variable, a type or a POU; move it there."
+        )
+        c.report("S003", message, Stretch(c.source, other.start, other.end))
 
 
 def _span_of(c: Cursor, pragma: InOutPragma) -> Span:

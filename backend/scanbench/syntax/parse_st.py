@@ -160,6 +160,7 @@ def _skip_type(c: Cursor) -> None:
 
 
 def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
+    policy = parse_type.subrange_policy(c)
     name = c.name("the name of a type")
     qualified_only = qualified_only or _qualified_only(c, name)
     extends = None
@@ -172,7 +173,7 @@ def _type(c: Cursor, qualified_only: bool, access: str) -> tree.TypeDeclaration:
     if not isinstance(spec, tree.StructSpec) or c.is_(";"):
         c.close(";", f"after the declaration of `{c.texts[name]}`")
     return tree.TypeDeclaration(
-        c.texts[name], spec, initial, c.span_of(name), c.namespace, c.visible, access, qualified_only
+        c.texts[name], spec, initial, c.span_of(name), c.namespace, c.visible, access, qualified_only, policy
     )
 
 

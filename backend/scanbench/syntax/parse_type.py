@@ -4,6 +4,8 @@ from scanbench.problems import Span
 from scanbench.syntax import parse_expression, parse_initial, tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
+from scanbench.syntax.pragmas import POLICIES
+from scanbench.syntax.source import Stretch
 
 INTEGERS = frozenset("SINT INT DINT LINT USINT UINT UDINT ULINT BYTE WORD DWORD LWORD".split())
 SECTIONS = frozenset(
@@ -174,10 +176,24 @@ def skip_declaration(c: Cursor) -> None:
             return
 
 
+def subrange_policy(c: Cursor, first: int | None = None) -> str:
+    """What a pragma right before the token `first` (else the next one) says of values outside of a subrange."""
+    first = c.at if first is None else first
+    begin = c.end_of(first - 1) if first else 0
+    mine = [each for each in c.subrange_policies if begin <= each.start < c.starts[first]]
+    for each in mine:
+        c.subrange_policies.remove(each)
+        if not each.policy:
+            said = "', '".join(POLICIES)
+            c.report("S003", f"One of '{said}' expected, found `{each.said}`.", Stretch(c.source, each.start, each.end))
+    return mine[-1].policy if mine else ""
+
+
 def _variables(c: Cursor) -> list[tree.Variable]:
     """`a, b : type := value;` or `a AT address : type := value;`"""
     if c.is_("AT"):
         return _nameless(c)
+    policy = subrange_policy(c)
     names = [c.name("the name of a variable")]
     address, address_span = located(c)
     while c.accept(","):
@@ -205,7 +221,9 @@ def _variables(c: Cursor) -> list[tree.Variable]:
         )
     c.close(";", f"after the declaration of `{c.texts[names[0]]}`")
     return [
-        tree.Variable(c.texts[name], spec, initial, address, c.span_of(name), address_span, arguments, edge, elements)
+        tree.Variable(
+            c.texts[name], spec, initial, address, c.span_of(name), address_span, arguments, edge, elements, policy
+        )
         for name in names
     ]
 

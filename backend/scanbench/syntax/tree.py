@@ -256,6 +256,8 @@ class Variable:
     edge: str = ""  # R or F for an input that is declared with R_EDGE or F_EDGE
     elements: tuple[tuple["Argument", ...], ...] = ()
     """`inst : ARRAY[1..2] OF FB[(a := 1), (a := 2)]` of vendors: the arguments of each element, in the order of memory."""
+    policy: str = ""
+    """What becomes of a value outside of its subrange, where a pragma says so (`pragmas.POLICIES`)."""
 
 
 @node
@@ -289,6 +291,8 @@ class TypeDeclaration:
     """Or INTERNAL, of a namespace."""
     qualified_only: bool = False
     """An enumeration whose values are only known with its name in front (a vendor's attribute)."""
+    policy: str = ""
+    """As of a variable."""
 
 
 @node
@@ -349,6 +353,8 @@ class PouDeclaration:
     """Whether a pragma says that its body takes the place of one that needs a device: the user sets what it gives."""
     overload: str = ""
     """Of the second FUNCTION of one name `(2)`, and so on."""
+    policy: str = ""
+    """What becomes of values outside of a subrange in its statements, where a pragma says so and the variable says nothing."""
 
 
 @node

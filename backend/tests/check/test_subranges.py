@@ -80,3 +80,22 @@ def test_constants_and_start_values_out_of_range_are_errors_at_their_place() -> 
     problems = check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems
     assert [(each.code, each.span.line) for each in problems] == [("S004", 4), ("S004", 6)]
     assert "10 is outside of" in problems[0].message
+
+
+POLICY_PROBLEMS = [
+    ("PROGRAM Main\nVAR\n  {subrange 'stop'} x : INT (0..5);\nEND_VAR\nx := 1;\nEND_PROGRAM\n", 3, "One of 'limit', 'hold', 'trap', 'report', 'off' expected, found `'stop'`."),
+    ("PROGRAM Main\nVAR x : INT (0..5); END_VAR\n{subrange 'trap'}\nx := 1;\nEND_PROGRAM\n", 3, "A pragma `subrange` belongs right before the declaration of a variable, a type or a POU; move it there."),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "line", "message"), POLICY_PROBLEMS, ids=("word", "place"))
+def test_a_pragma_that_says_nothing_is_an_error(text: str, line: int, message: str) -> None:
+    found = check_sources({"a.st": text}, MODELS["GENERIC-IEC"])
+    assert [(each.span.line, each.message) for each in found.problems if each.code == "S003"] == [(line, message)]
+
+
+def test_a_check_that_is_off_is_not_listed_and_one_that_reports_proves_nothing() -> None:
+    text = "PROGRAM Main\nVAR {subrange 'off'} o : INT (0..5); {subrange 'report'} r : INT (0..5); y : INT; END_VAR\no := y;\nr := y;\ny := o + r;\nEND_PROGRAM\n"  # fmt: skip
+    found = check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).program
+    assert found is not None
+    assert [(each.variable, each.span.line, each.needless) for each in found.checks] == [("r", 4, ""), ("r", 5, "")]

@@ -12,7 +12,7 @@ from scanbench.check.body.interfaces import attempt
 from scanbench.check.body.methods import assign_property
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
-from scanbench.check.body.subrange_checks import keeping, noting
+from scanbench.check.body.subrange_checks import holding, keeping, noting
 from scanbench.check.body.targets import declared_target, note_written
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
@@ -72,7 +72,7 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
     if isinstance(target.type, ArrayType | Record):
         copied = Assign(target, _whole(body, node.value, target.type, what), node.span)
         return copied if note is None else together([copied, Assign(note, Load(target), node.span)], node.span)
-    value = as_type(body, node.value, target.type, what)
+    value = holding(body, as_type(body, node.value, target.type, what), target, node.span)
     return Assign(target, keeping(value, note, node.span), node.span)
 
 

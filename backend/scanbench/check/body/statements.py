@@ -248,7 +248,7 @@ def _for_end(body: Body, node: tree.ForStatement, type: Subrange, end: Expr, ste
             "S004", f"{end.value!r} is outside of {type.low}..{type.high}, so `{shown(node.variable)}` would leave it.",
             node.end.span,
         )  # fmt: skip
-    reach = replace(type, low=low) if upward else replace(type, high=high)
+    reach = replace(type, low=low, policy="limit") if upward else replace(type, high=high, policy="limit")
     made = into(body, end, reach, node.end.span, shown(node.variable))
     if isinstance(made, Limit):
         sites = body.report.checks

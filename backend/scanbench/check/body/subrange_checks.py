@@ -20,17 +20,23 @@ from scanbench.program.program import (
     Const,
     Convert,
     Expr,
+    Halt,
+    If,
     Intrinsic,
     Limit,
     Load,
     Place,
     Sequence,
+    Stmt,
+    Violates,
 )
-from scanbench.program.sites import CheckSite
+from scanbench.program.sites import CheckSite, TrapKind
 from scanbench.program.types import BOOL, Elementary, Kind, Member, Subrange, base_of
 from scanbench.program.untyped import bounds
 from scanbench.syntax import tree
 
+LIMITED = ("limit", "hold")
+"""Policies under which a value that is read is limited."""
 WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 
 
@@ -69,10 +75,46 @@ def into(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> E
 def _limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
     if body.pou is None:
         return expr  # among declarations everything is constant
-    base = base_of(type)
+    base, policy = base_of(type), policy_of(body, type)
+    if policy not in LIMITED:
+        expr = Load(replace(expr.place, type=base)) if isinstance(expr, Load) else expr
+        if policy == "off":
+            return expr
     site = CheckSite(span, body.scope.pou, variable, type.low, type.high, _proof(expr, type))
     number = body.report.check(site)
-    return expr if site.needless else Limit(base, expr, type.low, type.high, number)
+    if site.needless:
+        return expr
+    if policy in LIMITED:
+        return Limit(base, expr, type.low, type.high, number)
+    kept = body.temporary(base, span)
+    outside = Violates(BOOL, Load(kept), type.low, type.high, number)
+    if policy == "report":
+        then: Stmt = Assign(body.temporary(BOOL, span), outside, span)
+    else:
+        trap = body.trap(TrapKind.BOUNDS, span, f"{variable} is outside of {type.low}..{type.high}")
+        then = If(((outside, (Halt(trap, span),)),), (), span)
+    return Sequence((Assign(kept, expr, span), then), Load(kept))
+
+
+def policy_of(body: Body, type: Subrange) -> str:
+    """What becomes of a value outside: as the variable or its type says, else the POU, else it is limited."""
+    return type.policy or body.scope.policy or "limit"
+
+
+def holding(body: Body, value: Expr, place: Place, span: Span) -> Expr:
+    """A value on its way into a variable that holds its last value where the new one is outside. Where the index of an element calls a
+    function, the new one is limited instead."""
+    type = place.type
+    if not (isinstance(type, Subrange) and isinstance(value, Limit) and policy_of(body, type) == "hold"):
+        return value
+    same = again_at(place)
+    if same is None:
+        return value
+    base = base_of(type)
+    kept = body.temporary(base, span)
+    outside = Violates(BOOL, Load(kept), value.low, value.high, value.site)
+    last = Load(replace(same, type=base))
+    return Sequence((Assign(kept, value.value, span),), Intrinsic("SEL", base, (outside, Load(kept), last)))
 
 
 @contextmanager
@@ -101,7 +143,10 @@ def as_written(body: Body, place: Place, member: Member | None) -> Expr:
     valid = Compare("eq", BOOL, limited(base, kept, type.low, type.high), there)
     once_more = again(there)
     assert once_more is not None
-    return Intrinsic("SEL", base, (valid, once_more, kept))
+    written = Intrinsic("SEL", base, (valid, once_more, kept))
+    if policy_of(body, type) != "hold":
+        return written
+    return Intrinsic("SEL", base, (Violates(BOOL, kept, type.low, type.high, 0), written, kept))
 
 
 def _note_of(body: Body, place: Place, member: Member | None) -> Place | None:
@@ -134,8 +179,11 @@ def keeping(value: Expr, note: Place | None, span: Span) -> Expr:
     """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
     if note is None:
         return value
-    if isinstance(value, Limit):
-        return Sequence((Assign(note, value.value, span),), replace(value, value=Load(note)))
+    match value:
+        case Limit():
+            return Sequence((Assign(note, value.value, span),), replace(value, value=Load(note)))
+        case Sequence((Assign(kept),) as first, Intrinsic("SEL", args=(Violates(), *_)) as chosen):  # `holding`
+            return Sequence((*first, Assign(note, Load(kept), span)), chosen)
     return Sequence((Assign(note, value, span),), value if isinstance(value, Const) else Load(note))
 
 

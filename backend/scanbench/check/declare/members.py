@@ -22,6 +22,7 @@ from scanbench.program.types import (
     Record,
     Reference,
     Section,
+    Subrange,
     Type,
     actual_name,
     has_instance,
@@ -63,6 +64,7 @@ def _declare(
     try:
         bound = section is Section.IN_OUT and not copied
         made = declared.referred(variable.type) if bound else declared.type_of(variable.type)
+        made = with_policy(made, variable.policy)
         if isinstance(made, OpenArray) and section is not Section.IN_OUT:
             raise declared.report.reject(
                 "D008",
@@ -241,3 +243,13 @@ def _with_arguments(variable: tree.Variable) -> tree.Variable:
 def own_memory(name: str) -> str:
     """The hidden variable of an `AT %I*` that is used as long as no address is given."""
     return f"{name}$memory"
+
+
+def with_policy(type: Type, policy: str) -> Type:
+    """The type whose subranges (its own, or those of its elements) say what becomes of a value outside."""
+    match type:
+        case Subrange() if policy:
+            return replace(type, policy=policy)
+        case ArrayType(bounds=found, element=element) if policy:
+            return ArrayType(found, with_policy(element, policy))
+    return type

@@ -46,6 +46,8 @@ class Scope:
     """VAR_INST and VAR_STAT: what is found under their names."""
     who: Who = "program"
     """With whose rights it writes to areas of the model."""
+    policy: str = ""
+    """What becomes of values outside of a subrange here, where their variables say nothing."""
 
     def find(self, name: str) -> tuple[Member, Base, Record] | None:
         """The member, what its offset counts from, and who owns it."""
