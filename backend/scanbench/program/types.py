@@ -91,8 +91,7 @@ class Subrange(Elementary):
     low: int = 0
     high: int = 0
     base_name: str = "INT"
-    policy: str = field(default="", compare=False)
-    """What becomes of a value outside: one of `syntax.pragmas.POLICIES`; empty: as where it is used."""
+    policy: str = field(default="", compare=False)  # of a value outside: `pragmas.POLICIES`; empty: as where it is used
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,8 +100,7 @@ class Reference(Elementary):
 
     target: "Type | None" = None
     """None for NULL, which fits every reference."""
-    pointer: bool = False
-    """POINTER TO: it can be computed with, in bytes."""
+    pointer: bool = False  # POINTER TO: it can be computed with, in bytes
     automatic: bool = False
     """REFERENCE TO: every use of the variable dereferences it."""
 

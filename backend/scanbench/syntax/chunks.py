@@ -200,8 +200,9 @@ def _start(tokens: Tokens, first: int) -> int:
     if not tokens.pragmas:
         return tokens.starts[first]
     before = tokens.starts[first - 1] if first else -1
-    tied = [*in_out_pragmas(tokens.pragmas), *subrange_policies(tokens.pragmas)]
-    own = (each.start for each in tied if before < each.start < tokens.starts[first])
+    tied = [each.start for each in in_out_pragmas(tokens.pragmas)]
+    tied += [each.start for each in subrange_policies(tokens.pragmas)]
+    own = (start for start in tied if before < start < tokens.starts[first])
     return min(own, default=tokens.starts[first])
 
 

@@ -251,13 +251,11 @@ class Variable:
     address: str | None
     span: Span
     address_span: Span | None = None
-    arguments: tuple["Argument", ...] = ()
-    """`inst : FB(a := 1)` of vendors: initial values of an instance."""
+    arguments: tuple["Argument", ...] = ()  # `inst : FB(a := 1)` of vendors: initial values of an instance
     edge: str = ""  # R or F for an input that is declared with R_EDGE or F_EDGE
     elements: tuple[tuple["Argument", ...], ...] = ()
     """`inst : ARRAY[1..2] OF FB[(a := 1), (a := 2)]` of vendors: the arguments of each element, in the order of memory."""
-    policy: str = ""
-    """What becomes of a value outside of its subrange, where a pragma says so (`pragmas.POLICIES`)."""
+    policy: str = ""  # of a value outside of its subrange, where a pragma says one: `pragmas.POLICIES`
 
 
 @node
@@ -287,12 +285,10 @@ class TypeDeclaration:
     span: Span
     namespace: str = ""
     using: tuple[str, ...] = ()
-    access: str = "PUBLIC"
-    """Or INTERNAL, of a namespace."""
+    access: str = "PUBLIC"  # or INTERNAL, of a namespace
     qualified_only: bool = False
     """An enumeration whose values are only known with its name in front (a vendor's attribute)."""
-    policy: str = ""
-    """As of a variable."""
+    policy: str = ""  # as of a variable
 
 
 @node
@@ -351,10 +347,8 @@ class PouDeclaration:
     """How it takes its in-outs, where a pragma says so: `reference` or `value`."""
     stub: bool = False
     """Whether a pragma says that its body takes the place of one that needs a device: the user sets what it gives."""
-    overload: str = ""
-    """Of the second FUNCTION of one name `(2)`, and so on."""
-    policy: str = ""
-    """What becomes of values outside of a subrange in its statements, where a pragma says so and the variable says nothing."""
+    overload: str = ""  # of the second FUNCTION of one name `(2)`, and so on
+    policy: str = ""  # of values outside of subranges in its statements, whose variables say none
 
 
 @node
