@@ -15,6 +15,7 @@ from scanbench.runtime.command import Category, Command, Entry, Plan, Refusal, V
 from scanbench.runtime.journal import Fold
 
 ServerKind = Literal["fins", "slmp", "modbus", "opcua"]
+FaultKind = Literal["none", "silent", "late", "cut", "refused", "node"]
 SERVER_NAMES: Mapping[ServerKind, str] = {"fins": "FINS", "slmp": "SLMP", "modbus": "Modbus TCP", "opcua": "OPC UA"}
 LATEST_MS = 60_000
 _VENDORS: Mapping[ServerKind, str] = {"fins": "omron", "slmp": "mitsubishi"}
@@ -28,7 +29,7 @@ class LineFault(Public):
     PUBLIC: ClassVar = "CommunicationFault"
     GIVEN: ClassVar = True
 
-    kind: Literal["none", "silent", "late", "cut", "refused", "node"] = "none"
+    kind: FaultKind = "none"
     """silent: the PLC does what it was asked, and no answer comes, so that clients run into their time limit. late: each answer comes
     `late_ms` later. cut: connections end at the next request, before it is done. refused: nobody can connect. node: the PLC has a
     different node number than its clients believe, so that their requests reach nobody."""

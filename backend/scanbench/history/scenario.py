@@ -22,7 +22,7 @@ from typing import Literal
 import yaml
 
 ENDING = ".scenario.yaml"
-VERBS = ("write", "force", "release", "raise", "clear", "mode", "restart")
+VERBS = ("write", "force", "release", "raise", "clear", "mode", "restart", "break", "mend")
 """What `do` begins with."""
 _KINDS: tuple[Literal["holds"], Literal["always"], Literal["never"]] = ("holds", "always", "never")
 _MOST_SCANS = 10_000_000

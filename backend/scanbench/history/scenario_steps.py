@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 
 from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.line_faults import BreakLine, MendLine
 from scanbench.history.rerun_plan import comes_by_itself
 from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.plcmodel.model import Model
@@ -58,6 +59,17 @@ def _steps(command: Command, model: Model) -> Iterator[str]:
             yield f"mode {mode}"
         case Restart(kind=kind):
             yield f"restart {kind}"
+        case BreakLine(server=server, fault=fault):
+            yield f"break {server}={fault.kind}" + (f" {fault.late_ms}" if fault.kind == "late" else "")
+        case MendLine(server=server):
+            yield f"mend {server}"
+        case _:
+            yield from _of_clients(command, model)
+
+
+def _of_clients(command: Command, model: Model) -> Iterator[str]:
+    """What protocol clients wrote."""
+    match command:
         case WriteAreas(writes=writes):
             for write in writes:
                 yield from _words(write, model)
@@ -67,12 +79,20 @@ def _steps(command: Command, model: Model) -> Iterator[str]:
 
 
 def _words(write: AreaWrite, model: Model) -> Iterator[str]:
-    """What a protocol client wrote, word by word."""
+    """What a protocol client wrote, word by word; of a byte that is no part of a whole word, bit by bit."""
     area = model.area(write.area)
     assert area is not None
     if write.bit is not None:
         yield f"write {model.format(area, write.byte, write.bit, 1)}={'TRUE' if write.data[0] else 'FALSE'}"
         return
-    for at in range(0, len(write.data) - 1, 2):
-        value = int.from_bytes(write.data[at : at + 2], "little")
-        yield f"write {model.format(area, write.byte + at, None, 16)}=16#{value:04X}"
+    at = 0
+    while at < len(write.data):
+        byte = write.byte + at
+        if byte % 2 == 0 and at + 1 < len(write.data):
+            value = int.from_bytes(write.data[at : at + 2], "little")
+            yield f"write {model.format(area, byte, None, 16)}=16#{value:04X}"
+            at += 2
+            continue
+        for bit in range(8):
+            yield f"write {model.format(area, byte, bit, 1)}={'TRUE' if write.data[at] >> bit & 1 else 'FALSE'}"
+        at += 1

@@ -2,9 +2,11 @@
 
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import get_args
 
 from scanbench.faults.inject import Recover
+from scanbench.faults.line_faults import SERVER_NAMES, BreakLine, FaultKind, LineFault, MendLine, ServerKind, servers_of
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, RestartKind
 from scanbench.runtime.forces import Force, Release
@@ -83,7 +85,38 @@ def _restart(_: Program, text: str) -> Command:
     return Restart(AUTHOR, kinds[text.lower()])
 
 
+def _break(program: Program, text: str) -> Command:
+    server, equals, fault = text.partition("=")
+    kind, _, late = fault.strip().partition(" ")
+    if not equals or (late and not late.strip().isdecimal()):
+        raise BadCommand("break SERVER=FAULT, as in break fins=cut, or break modbus=late 500 (ms)")
+    known = {each.kind: each for each in map(LineFault, _FAULTS)}
+    if kind not in known:
+        raise BadCommand(f"there is no fault {kind!r} of a line: they are {', '.join(known)}")
+    found = known[kind] if not late else replace(known[kind], late_ms=int(late))
+    return _possible(program, BreakLine(AUTHOR, _server(server), found))
+
+
+def _mend(program: Program, text: str) -> Command:
+    return _possible(program, MendLine(AUTHOR, _server(text)))
+
+
+def _possible(program: Program, command: BreakLine | MendLine) -> Command:
+    """`BadCommand` where the model does not speak that."""
+    if command.server not in servers_of(program.layout.model):
+        raise BadCommand(f"{program.layout.model.name} does not speak {SERVER_NAMES[command.server]}")
+    return command
+
+
+def _server(text: str) -> ServerKind:
+    kinds: dict[str, ServerKind] = {kind: kind for kind in get_args(ServerKind)}
+    if text.strip().lower() not in kinds:
+        raise BadCommand(f"there is no line {text.strip()!r}: they are {', '.join(kinds)}")
+    return kinds[text.strip().lower()]
+
+
+_FAULTS: tuple[FaultKind, ...] = ("silent", "late", "cut", "refused", "node")
 VERBS: Mapping[str, Callable[[Program, str], Command]] = {
     "write": _write, "force": _force, "release": _release, "raise": _raise, "clear": _clear, "mode": _mode,
-    "restart": _restart,
+    "restart": _restart, "break": _break, "mend": _mend,
 }  # fmt: skip

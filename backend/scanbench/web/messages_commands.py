@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, RootModel
 
+from scanbench.faults.line_faults import LineFault, ServerKind
 from scanbench.web.messages import Mode, RestartKind
 from scanbench.web.messages_base import Id, Wire
 from scanbench.web.messages_errors import ArmFaults, ClearErrors, DisarmFaults, GenerateErrors, GenerateOne
@@ -124,6 +125,21 @@ class Calm(Numbered):
     ids: list[Id] | None = Field(default=None, description="null is all of them")
 
 
+class BreakLine(Numbered):
+    """Lets something be wrong with the line between a server of the communication unit and its clients."""
+
+    type: Literal["break_line"] = "break_line"
+    server: ServerKind
+    fault: LineFault
+
+
+class MendLine(Numbered):
+    """Nothing is wrong with a line any more."""
+
+    type: Literal["mend_line"] = "mend_line"
+    server: ServerKind
+
+
 Command = (
     Write
     | Force
@@ -140,6 +156,8 @@ Command = (
     | ClearDiagnostics
     | Disturb
     | Calm
+    | BreakLine
+    | MendLine
 )
 
 

@@ -8,6 +8,7 @@ from scanbench.faults.arm import Arm, Disarm
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.disturb.disturb import Calm, Disturb
 from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.line_faults import BreakLine, MendLine
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import Force, Release
@@ -42,6 +43,8 @@ COMMANDS: dict[str, Known] = {
     "clear_diagnostics": Known(ClearViolations, ()),
     "disturb": Known(Disturb, ("wanted",)),
     "calm": Known(Calm, ("ids",)),
+    "break_line": Known(BreakLine, ("server", "fault")),
+    "mend_line": Known(MendLine, ("server",)),
 }
 
 

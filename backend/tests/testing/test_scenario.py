@@ -3,19 +3,25 @@
 import random
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scanbench.faults.line_faults import BreakLine, LineFault, MendLine
 from scanbench.history.scenario import BadScenario, Expectation, Scenario, Step, read_scenario, write_scenario
+from scanbench.history.scenario_steps import from_run
+from scanbench.runtime.command import Entry, Plan
+from scanbench.runtime.write_areas import AreaWrite, WriteAreas
 from scanbench.testing.attempts import Attempts
 from scanbench.testing.play import Failed
 from scanbench.testing.project import Project
 from scanbench.testing.shrink import shrink
 from tests.amounts import amount
 from tests.cli.calling import scanbench
+from tests.comm.bench import machine
 
 SOURCE = """
 VAR_GLOBAL a, b, c, d, start, motor : BOOL; level, n : INT; END_VAR
@@ -168,3 +174,41 @@ def test_a_scenario_is_recorded_from_a_run_played_and_shortened(folder: Path, tm
     assert short.returncode == 0, short.stderr
     assert "# 1 of 5 steps are left" in short.stdout
     assert [each.do for each in read_scenario(short.stdout).steps] == ["write level=7"]
+
+
+def test_a_recorded_line_cut_and_what_a_client_wrote_are_steps_that_play(
+    attempt: Callable[[Scenario], Failed | None],
+) -> None:
+    resource = machine("CJ1M-CPU63")
+    model = resource.program.layout.model
+    plan = Plan((), "")
+    commands = (
+        BreakLine("Ada", "fins", LineFault("cut")), BreakLine("Ada", "modbus", LineFault("late", 500)), MendLine("Ada", "fins"),
+        WriteAreas("plant", (AreaWrite("D", 401, b"\x00"), AreaWrite("D", 400, b"\x07\x00\x03"))),
+    )  # fmt: skip
+    entries = [Entry(at, datetime(2026, 1, 1, tzinfo=UTC), each, plan) for at, each in enumerate(commands, 5)]
+    made = from_run(entries, 20, model, [("D200", "16#0007")])
+    told = [each.do for each in made.steps]
+    assert told[:3] == ["break fins=cut", "break modbus=late 500", "mend fins"]
+    assert told[3:11] == [f"write D200.{bit:02}=FALSE" for bit in range(8, 16)]
+    assert told[11] == "write D200=16#0007"
+    assert told[12:14] == ["write D201.00=TRUE", "write D201.01=TRUE"]
+    assert made.notes == ()
+    assert attempt(read_scenario(write_scenario(made))) is None
+
+
+@pytest.mark.parametrize(
+    ("do", "why"),
+    [
+        ("break fins", "break SERVER=FAULT"),
+        ("break fins=torn", "there is no fault 'torn' of a line"),
+        ("break profinet=cut", "there is no line 'profinet'"),
+        ("mend slmp", "CJ1M-CPU63 does not speak SLMP"),
+    ],
+)
+def test_a_step_of_a_line_that_makes_no_sense_says_why(
+    attempt: Callable[[Scenario], Failed | None], do: str, why: str
+) -> None:
+    failed = attempt(read_scenario(f"scans: 10\nsteps: [{{at: 5, do: {do}}}]\n"))
+    assert failed is not None
+    assert why in failed.message

@@ -3339,6 +3339,29 @@ export interface components {
             scan?: number | null;
         };
         /**
+         * BreakLine
+         * @description Lets something be wrong with the line between a server of the communication unit and its clients.
+         */
+        BreakLine: {
+            fault: components["schemas"]["CommunicationFault"];
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * Server
+             * @enum {string}
+             */
+            server: "fins" | "slmp" | "modbus" | "opcua";
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "break_line";
+        };
+        /**
          * BreakpointInfo
          * @description A breakpoint of this instance, whoever manages it.
          */
@@ -3937,7 +3960,7 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["BreakLine"] | components["schemas"]["MendLine"] | components["schemas"]["Press"] | components["schemas"]["Run"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"] | components["schemas"]["OpenDraft"] | components["schemas"]["EditDraft"] | components["schemas"]["CloseDraft"] | components["schemas"]["Here"];
         /** CloseDraft */
         CloseDraft: {
             /** Path */
@@ -6243,6 +6266,28 @@ export interface components {
             symbols: components["schemas"]["Symbol"][];
         };
         /**
+         * MendLine
+         * @description Nothing is wrong with a line any more.
+         */
+        MendLine: {
+            /**
+             * Ref
+             * @description on the WebSocket: comes back in `Done`; by REST it means nothing
+             * @default 0
+             */
+            ref: number;
+            /**
+             * Server
+             * @enum {string}
+             */
+            server: "fins" | "slmp" | "modbus" | "opcua";
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "mend_line";
+        };
+        /**
          * ModbusRange
          * @description `count` coils or registers from `first` on, counted from 0.
          */
@@ -7024,7 +7069,7 @@ export interface components {
          * PlcCommand
          * @description A command by its `type`.
          */
-        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"];
+        PlcCommand: components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["GenerateAbsent"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["Clear"] | components["schemas"]["ClearErrorLog"] | components["schemas"]["SetMode"] | components["schemas"]["Restart"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["Disturb"] | components["schemas"]["Calm"] | components["schemas"]["BreakLine"] | components["schemas"]["MendLine"];
         /**
          * Pou
          * @description What a file declares, for the explorer.
