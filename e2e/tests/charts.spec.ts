@@ -1,5 +1,6 @@
 import { readFile } from 'node:fs/promises';
 import AxeBuilder from '@axe-core/playwright';
+import { drawing } from '../fixtures/drawing';
 import { expect, test } from '../fixtures/test';
 
 const BATCH = `FUNCTION_BLOCK Batch
@@ -34,27 +35,15 @@ test('a chart with a simultaneous branch and a network are drawn, live, with lan
 }) => {
   const mika = await openAs('Mika');
   const { page } = mika;
-  await mika.runs();
-  const project = (await server.get<{ id: number; name: string }[]>('/projects'))[0]?.id;
-  const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
-  const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
-  const main = text
-    .replace('END_VAR', '  batch : Batch;\n  guard : Guard;\nEND_VAR')
-    .replace(
-      'END_PROGRAM',
-      'batch(start := start, level := SEL(stop, 0, 80));\nguard(start := start, stop := stop);\nEND_PROGRAM',
-    );
-  for (const [file, data] of [
-    ['Batch.st', { text: BATCH, version: 0 }],
-    ['Main.st', { text: main, version }],
-  ] as const)
-    expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
-
-  const sheet = page.getByRole('listbox', { name: 'Drawing of Batch.st' });
+  const sheet = await drawing(mika, server, {
+    block: 'Batch',
+    text: BATCH,
+    variables: 'batch : Batch;\n  guard : Guard;',
+    calls: 'batch(start := start, level := SEL(stop, 0, 80));\nguard(start := start, stop := stop);',
+  });
   const step = (name: string) => sheet.getByRole('option', { name: new RegExp(`^(Initial s|S)tep ${name}\\b`) });
   const active = sheet.locator('.step.on');
   await test.step('it is drawn, and the first step is active', async () => {
-    await mika.explorer.item('Batch').dblclick();
     await expect(step('Idle')).toBeVisible();
     await mika.editor('Batch.st').build();
     await expect(active).toHaveCount(1);

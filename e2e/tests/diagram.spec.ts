@@ -1,7 +1,5 @@
-import type { Locator } from '@playwright/test';
-import type { Server } from '../fixtures/server';
+import { drawing } from '../fixtures/drawing';
 import { expect, test } from '../fixtures/test';
-import type { Ide } from '../pages/ide';
 
 const EMPTY = `FUNCTION_BLOCK Hold
 VAR_INPUT go, halt : BOOL; END_VAR
@@ -13,26 +11,12 @@ END_FUNCTION_BLOCK
 
 const CHART = EMPTY.replace(/NETWORK[\s\S]*END_NETWORK/, 'INITIAL_STEP Init:\nEND_STEP');
 
-/** Opens the drawing of a block, which the main program calls. */
-async function drawing(mika: Ide, server: Server, block: string): Promise<Locator> {
-  const { page } = mika;
-  await mika.runs();
-  const project = (await server.get<{ id: number; name: string }[]>('/projects'))[0]?.id;
-  const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
-  const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
-  const main = text
-    .replace('END_VAR', '  hold : Hold;\nEND_VAR')
-    .replace('END_PROGRAM', 'hold(go := start, halt := stop);\nEND_PROGRAM');
-  for (const [file, data] of [
-    ['Hold.st', { text: block, version: 0 }],
-    ['Main.st', { text: main, version }],
-  ] as const)
-    expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
-  const sheet = page.getByRole('listbox', { name: 'Drawing of Hold.st' });
-  await mika.explorer.item('Hold').dblclick();
-  await expect(sheet.getByRole('group')).toBeVisible();
-  return sheet;
-}
+const hold = (text: string) => ({
+  block: 'Hold',
+  text,
+  variables: 'hold : Hold;',
+  calls: 'hold(go := start, halt := stop);',
+});
 
 test('a network is drawn by keys from nothing, is text at once, is built, and its value comes out @nightly', async ({
   openAs,
@@ -41,7 +25,7 @@ test('a network is drawn by keys from nothing, is text at once, is built, and it
   const mika = await openAs('Mika');
   const { page } = mika;
   const { keyboard } = page;
-  const sheet = await drawing(mika, server, EMPTY);
+  const sheet = await drawing(mika, server, hold(EMPTY));
   const item = (name: string) => sheet.getByRole('option', { name, exact: true });
   const type = async (text: string, key: string) => {
     await expect(sheet.getByRole('combobox')).toBeFocused();
@@ -121,7 +105,7 @@ test('a network is drawn by keys from nothing, is text at once, is built, and it
 test('a network is drawn with the mouse @nightly', async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   const { page } = mika;
-  const sheet = await drawing(mika, server, EMPTY);
+  const sheet = await drawing(mika, server, hold(EMPTY));
   const item = (name: string) => sheet.getByRole('option', { name, exact: true });
   const tool = (name: string) => page.getByRole('toolbar', { name: 'Edit the drawing' }).getByRole('button', { name });
   const offer = (name: RegExp) => page.getByRole('option', { name });
@@ -179,7 +163,7 @@ test('a chart is drawn by keys from its first step, is built, and runs @nightly'
   const mika = await openAs('Mika');
   const { page } = mika;
   const { keyboard } = page;
-  const sheet = await drawing(mika, server, CHART);
+  const sheet = await drawing(mika, server, hold(CHART));
   const option = (name: string) => sheet.getByRole('option', { name, exact: true });
   const type = async (text: string, key: string) => {
     await expect(sheet.getByRole('combobox')).toBeFocused();

@@ -1,3 +1,4 @@
+import { drawing } from '../fixtures/drawing';
 import { expect, test } from '../fixtures/test';
 import { Debug } from '../pages/debug';
 import { Verify } from '../pages/verify';
@@ -27,20 +28,12 @@ test('power is drawn as the code saw it: live, halted before a block, one scan b
   const mika = await openAs('Mika');
   const { page } = mika;
   const { keyboard } = page;
-  await mika.runs();
-  const project = (await server.get<{ id: number; name: string }[]>('/projects'))[0]?.id;
-  const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
-  const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
-  const main = text
-    .replace('END_VAR', '  first, second : Gate;\nEND_VAR')
-    .replace('END_PROGRAM', 'first(go := start);\nsecond(go := FALSE);\nEND_PROGRAM');
-  for (const [file, data] of [
-    ['Gate.st', { text: GATE, version: 0 }],
-    ['Main.st', { text: main, version }],
-  ] as const)
-    expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
-  await mika.explorer.item('Gate').dblclick();
-  const sheet = page.getByRole('listbox', { name: 'Drawing of Gate.st' });
+  const sheet = await drawing(mika, server, {
+    block: 'Gate',
+    text: GATE,
+    variables: 'first, second : Gate;',
+    calls: 'first(go := start);\nsecond(go := FALSE);',
+  });
   const rung = (title: string) => sheet.getByRole('group', { name: new RegExp(title) });
   await expect(sheet).toContainText('The motor holds itself');
   await expect(page.getByText('From values')).toBeVisible();

@@ -1,3 +1,4 @@
+import { drawing } from '../fixtures/drawing';
 import { expect, test } from '../fixtures/test';
 
 const EMPTY = `FUNCTION_BLOCK Latch
@@ -12,22 +13,13 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
   const mika = await openAs('Mika');
   const { page } = mika;
   const { keyboard } = page;
-  await mika.runs();
-  const project = (await server.get<{ id: number; name: string }[]>('/projects'))[0]?.id;
-  const files = new URL(`/api/projects/${project}/files/`, page.url()).href;
-  const { text, version } = await server.get<{ text: string; version: number }>(`/projects/${project}/files/Main.st`);
-  const main = text
-    .replace('END_VAR', '  latch : Latch;\nEND_VAR')
-    .replace('END_PROGRAM', 'latch(go := start);\nEND_PROGRAM');
-  for (const [file, data] of [
-    ['Latch.st', { text: EMPTY, version: 0 }],
-    ['Main.st', { text: main, version }],
-  ] as const)
-    expect((await page.request.put(`${files}${file}`, { data })).status()).toBe(200);
-
-  const sheet = page.getByRole('listbox', { name: 'Drawing of Latch.st' });
+  const sheet = await drawing(mika, server, {
+    block: 'Latch',
+    text: EMPTY,
+    variables: 'latch : Latch;',
+    calls: 'latch(go := start);',
+  });
   await test.step('a motor that holds itself, from nothing, by the keyboard alone', async () => {
-    await mika.explorer.item('Latch').dblclick();
     await expect(sheet).toContainText('The motor holds itself');
     await sheet.focus();
     for (const [key, name] of [

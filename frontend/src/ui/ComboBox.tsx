@@ -135,10 +135,12 @@ function Floating({ below, onGone, ...box }: FloatingProps) {
     setPlace({ left: Math.max(4, Math.min(left, innerWidth - width - 4)), top: fits ? bottom + 2 : top - height - 2 });
   }, [below]);
   useEffect(() => {
-    addEventListener("scroll", onGone, true);
+    // The list itself scrolls, too.
+    const onScroll = ({ target }: Event) => target !== menu.current && onGone();
+    addEventListener("scroll", onScroll, true);
     addEventListener("resize", onGone);
     return () => {
-      removeEventListener("scroll", onGone, true);
+      removeEventListener("scroll", onScroll, true);
       removeEventListener("resize", onGone);
     };
   });

@@ -93,6 +93,7 @@ export const graphic = {
   "graphic.network": "Network {number} {title}",
   "graphic.unconnected": "{wire} is not connected: no line sets it",
   "graphic.view.network": "Blocks",
+  "graphic.field.take": "Take this (Enter)",
   "graphic.fit": "Fit",
   "graphic.fit.hint": "Makes drawings that are wider than the editor smaller, down to half their size",
   "graphic.svg": "SVG",

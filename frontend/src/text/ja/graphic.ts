@@ -95,6 +95,7 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.network": "ネットワーク {number} {title}",
   "graphic.unconnected": "{wire} は未接続です（設定する行がありません）",
   "graphic.view.network": "ブロック",
+  "graphic.field.take": "確定 (Enter)",
   "graphic.fit": "幅に合わせる",
   "graphic.fit.hint": "エディターより幅の広い図を、半分の大きさまで縮小します",
   "graphic.svg": "SVG",

@@ -3,6 +3,7 @@ import type { Naming } from "../../../../logic/graphic/edit";
 import type { Spot } from "../../../../logic/graphic/sheet";
 import { t } from "../../../../text";
 import { ComboBox } from "../../../../ui/ComboBox";
+import { Icon } from "../../../../ui/Icon";
 import { type Offer, useOffers } from "../../../../ui/useOffers";
 
 interface Props {
@@ -43,7 +44,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
     input.current?.select();
     all.current = names();
     // Who has typed nothing yet sees what there is.
-    if (naming.value === "" && naming.offers === "box")
+    if (naming.value === "" && naming.offers !== "none")
       void all.current.then((found) => input.current?.value === "" && offering.show(found.slice(0, MOST)));
   }, []);
 
@@ -70,29 +71,51 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
     return true;
   }
 
+  /** A list that nobody asked for is left with its field. */
+  function onEscape(event: KeyboardEvent): void {
+    if (event.key !== "Escape" || text !== naming.value) return;
+    event.stopPropagation();
+    onLeave();
+  }
+
   return (
     // What is typed or clicked here is no key or click of the drawing.
     <span
       className="inplace"
       style={{ left: Math.max(0, x), top: y - up - 6, width: wide }}
+      onKeyDownCapture={onEscape}
       onKeyDown={(event) => event.stopPropagation()}
       onClick={(event) => event.stopPropagation()}
       onDoubleClick={(event) => event.stopPropagation()}
       onPointerDown={(event) => event.stopPropagation()}
     >
-      <ComboBox
-        input={input}
-        className={`inp sm mono${bad ? " bad" : ""}`}
-        label={label}
-        value={text}
-        offering={offering}
-        bad={bad}
-        placeholder={naming.example}
-        onType={type}
-        onTake={({ path }, by) => void take(text.replace(WORD, "") + path, by === "Tab")}
-        onKey={onKey}
-        onBlur={onLeave}
-      />
+      <span className="taking">
+        <ComboBox
+          input={input}
+          className={`inp sm mono${bad ? " bad" : ""}`}
+          label={label}
+          value={text}
+          offering={offering}
+          bad={bad}
+          placeholder={naming.example}
+          onType={type}
+          onTake={({ path }, by) => void take(text.replace(WORD, "") + path, by === "Tab")}
+          onKey={onKey}
+          onBlur={onLeave}
+        />
+        <button
+          type="button"
+          className="btn quiet sm"
+          tabIndex={-1}
+          title={t("graphic.field.take")}
+          aria-label={t("graphic.field.take")}
+          // The field is left when it loses the focus.
+          onPointerDown={(event) => event.preventDefault()}
+          onClick={() => void take(text, false)}
+        >
+          <Icon name="check" small />
+        </button>
+      </span>
       {bad && (
         <span className="hint bad" role="alert">
           {t(`graphic.field.bad.${naming.offers === "box" || naming.offers === "step" ? naming.offers : "other"}`)}
