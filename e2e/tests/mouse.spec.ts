@@ -35,7 +35,7 @@ class Mouse {
 
   /** Chooses a name of the list that the open field offers. */
   async choose(name: string): Promise<void> {
-    const offers = this.page.getByRole('listbox', { name: 'Suggestions' });
+    const offers = this.page.getByRole('listbox', { name: 'Matching variables and addresses' });
     await this.click(offers.getByRole('option', { name: new RegExp(`^${name}\\b`) }).first());
     await expect(this.sheet.getByRole('combobox')).toHaveCount(0);
   }
@@ -47,7 +47,7 @@ class Mouse {
   }
 }
 
-test('the motor latch is drawn from an empty rung in eleven clicks, and holds itself @nightly', async ({
+test('the motor latch is drawn from an empty rung in ten clicks, and holds itself @nightly', async ({
   openAs,
   server,
 }) => {
@@ -66,13 +66,12 @@ test('the motor latch is drawn from an empty rung in eleven clicks, and holds it
     await mouse.choose(name);
     await expect(option(made)).toBeVisible();
   }
-  // Behind the parallel, whose end is a place of its own: before the coil.
-  await mouse.click(option('Coil on'));
-  await mouse.tool('Before');
+  await mouse.click(option('Behind the branches'));
   await mouse.tool('Closed');
   await mouse.choose('halt');
   await expect(option('Closed contact halt')).toBeVisible();
-  expect(mouse.clicks).toBe(11);
+  expect(mouse.clicks).toBe(10);
+  await expect(sheet.getByRole('option')).toHaveCount(5);
 
   await mika.editor('Hold.st').build();
   await mika.watch.set('start', 'TRUE');
@@ -81,4 +80,68 @@ test('the motor latch is drawn from an empty rung in eleven clicks, and holds it
   await expect(sheet.locator('.el.on')).toHaveCount(3);
   await mika.watch.set('stop', 'TRUE');
   await expect(sheet.locator('.el.on')).toHaveCount(0);
+});
+
+test('a chart with a simultaneous branch and an alternative is drawn from its first step, and runs @nightly', async ({
+  openAs,
+  server,
+}) => {
+  const mika = await openAs('Mika');
+  const sheet = await drawing(mika, server, hold('INITIAL_STEP Init:\nEND_STEP'));
+  const mouse = new Mouse(mika.page, sheet);
+  const option = (name: string) => sheet.getByRole('option', { name, exact: true });
+  const condition = async (transition: string, name: string) => {
+    await mouse.click(option(`${transition}: ???`));
+    await mouse.tool('Name');
+    await mouse.choose(name);
+    await expect(option(`${transition}: ${name}`)).toBeVisible();
+  };
+
+  await test.step('two steps one after the other, the second with one beside it', async () => {
+    await mouse.click(option('Initial step Init'));
+    for (const name of ['Step1', 'Step2']) {
+      await mouse.tool('Step');
+      await mouse.take();
+      await expect(option(`Step ${name}`)).toHaveAttribute('aria-selected', 'true');
+    }
+    await mouse.tool('Simultaneous');
+    await mouse.take();
+    await expect(option('Transition from Step1 to Step2, Step3: ???')).toBeVisible();
+    await mouse.click(option('Step Step2'));
+    await mouse.tool('Action');
+    await mouse.choose('on');
+    await expect(option('Action on, N, of step Step2')).toBeVisible();
+  });
+
+  await test.step('from both back to the first, or from the one between', async () => {
+    await condition('Transition from Init to Step1', 'go');
+    await mouse.tool('Alternative');
+    await mouse.choose('halt');
+    await expect(option('Transition from Init to Step1: halt')).toBeVisible();
+    await mouse.tool('Delete');
+    await expect(option('Transition from Init to Step1: halt')).toHaveCount(0);
+    await condition('Transition from Step1 to Step2, Step3', 'go');
+    await mouse.click(option('Step Step2'));
+    await mouse.tool('Jump');
+    await mouse.choose('Init');
+    await condition('Transition from Step2, Step3 to Init', 'halt');
+  });
+
+  await test.step('the initial step stays, and the page says why', async () => {
+    await mouse.click(option('Initial step Init'));
+    await mouse.tool('Delete');
+    await expect(mika.page.getByText('A chart needs its initial step.')).toBeVisible();
+    await expect(option('Initial step Init')).toBeVisible();
+  });
+
+  await test.step('it is built, and runs', async () => {
+    await mika.editor('Hold.st').build();
+    await expect(sheet.locator('.step.on')).toHaveCount(1);
+    await mika.watch.set('start', 'TRUE');
+    await expect(sheet.locator('.step.on')).toHaveCount(2);
+    await expect(sheet.locator('.action.closes')).toHaveCount(1);
+    await mika.watch.set('start', 'FALSE');
+    await mika.watch.set('stop', 'TRUE');
+    await expect(sheet.locator('.step.on')).toHaveCount(1);
+  });
 });

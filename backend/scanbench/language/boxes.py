@@ -29,6 +29,8 @@ class Box:
     """Names of pins, in order; in-outs are among them."""
     outputs: tuple[str, ...]
     """Without the result of a function."""
+    types: tuple[str, ...]
+    """Those of the inputs, then of the outputs; empty where a pin takes several, or has one without a name. So are all of a standard function."""
     by_position: bool
     """Whether arguments are written without their names: a standard function."""
     more: bool
@@ -55,10 +57,12 @@ def _instances(body: Body) -> Iterator[Box]:
             if member.hidden or not isinstance(type, Record):
                 continue
             pins = [each for each in type.members.values() if not each.hidden and not each.name.startswith("__")]
-            inputs = tuple(each.name for each in pins if each.section in (Section.INPUT, Section.IN_OUT))
-            outputs = tuple(each.name for each in pins if each.section is Section.OUTPUT)
+            inputs = [each for each in pins if each.section in (Section.INPUT, Section.IN_OUT)]
+            outputs = [each for each in pins if each.section is Section.OUTPUT]
             if inputs or outputs:
-                yield Box(member.name, "instance", type.name, inputs, outputs, False, False, "")
+                types = tuple(str(each.type) for each in (*inputs, *outputs))
+                names = [tuple(each.name for each in some) for some in (inputs, outputs)]
+                yield Box(member.name, "instance", type.name, *names, types, False, False, "")
 
 
 def _declared(reading: Reading) -> Iterator[Box]:
@@ -75,9 +79,9 @@ def _library(reading: Reading) -> Iterator[Box]:
 
 
 def _of(reading: Reading, pou: tree.PouDeclaration, name: str) -> Box:
-    def pins(keywords: tuple[str, ...]) -> tuple[str, ...]:
+    def pins(keywords: tuple[str, ...]) -> tuple[tree.Variable, ...]:
         return tuple(
-            each.name
+            each
             for section in pou.sections
             if section.keyword in keywords
             for each in section.variables
@@ -87,12 +91,26 @@ def _of(reading: Reading, pou: tree.PouDeclaration, name: str) -> Box:
     told = describe(reading, Symbol("pou", "", name.upper()))
     comment = "" if told is None else _about(told.comment)
     kind: BoxKind = "function" if pou.kind == "function" else "block"
-    return Box(name, kind, "", pins(INPUTS), pins(OUTPUTS), False, False, comment)
+    inputs, outputs = pins(INPUTS), pins(OUTPUTS)
+    types = tuple(
+        each.type.name.upper() if isinstance(each.type, tree.NamedType) else "" for each in (*inputs, *outputs)
+    )
+    return Box(
+        name,
+        kind,
+        "",
+        tuple(each.name for each in inputs),
+        tuple(each.name for each in outputs),
+        types,
+        False,
+        False,
+        comment,
+    )
 
 
 def _standard() -> Iterator[Box]:
     for name, row in FUNCTIONS.items():
-        yield Box(name, "function", "", row.formals, (), True, row.variadic, _about(text_of(name)))
+        yield Box(name, "function", "", row.formals, (), (), True, row.variadic, _about(text_of(name)))
 
 
 def _about(text: str) -> str:

@@ -35,12 +35,15 @@ def test_instances_come_first_with_the_pins_of_their_blocks() -> None:
     assert (found["inc"].kind, found["inc"].type) == ("instance", "Inc")
     assert (found["inc"].inputs, found["inc"].outputs) == (("by", "total"), ("n",))
     assert (found["jam"].inputs, found["jam"].outputs) == (("IN", "PT"), ("Q", "ET"))
+    assert found["jam"].types == found["TON"].types == ("BOOL", "TIME", "BOOL", "TIME")
 
 
 def test_blocks_and_functions_have_pins_and_say_what_they_do() -> None:
     found = offered()
-    assert found["Inc"] == Box("Inc", "block", "", ("by", "total"), ("n",), False, False, "Counts up.")
-    assert found["Twice"] == Box("Twice", "function", "", ("value",), (), False, False, "")
+    assert found["Inc"] == Box(
+        "Inc", "block", "", ("by", "total"), ("n",), ("INT", "INT", "INT"), False, False, "Counts up."
+    )
+    assert found["Twice"] == Box("Twice", "function", "", ("value",), (), ("INT",), False, False, "")
     assert (found["TON"].kind, found["TON"].inputs, found["TON"].outputs) == ("block", ("IN", "PT"), ("Q", "ET"))
     both, limit = found["AND"], found["LIMIT"]
     assert (both.inputs, both.by_position, both.more) == (("IN1", "IN2"), True, True)

@@ -3,6 +3,7 @@ import {
   type KeyboardEvent,
   type ReactNode,
   type RefObject,
+  useCallback,
   useEffect,
   useLayoutEffect,
   useRef,
@@ -124,19 +125,33 @@ interface FloatingProps {
   onGone: () => void;
 }
 
-/** Outside the element that scrolls, so that it is not cut off; closed when that element scrolls. */
+/** Outside the element that scrolls, so that it is not cut off; it goes with its field, and is closed when that is out of sight. */
 function Floating({ below, onGone, ...box }: FloatingProps) {
   const menu = useRef<HTMLDivElement>(null);
-  const [place, setPlace] = useState({ left: 0, top: 0 });
-  useLayoutEffect(() => {
+  const [place, setPlace] = useState<{ left: number; top: number; maxHeight?: number }>({ left: 0, top: 0 });
+  const put = useCallback(() => {
     const { left, top, bottom } = below.getBoundingClientRect();
-    const { width = 0, height = 0 } = menu.current?.getBoundingClientRect() ?? {};
-    const fits = bottom + 2 + height <= innerHeight;
-    setPlace({ left: Math.max(4, Math.min(left, innerWidth - width - 4)), top: fits ? bottom + 2 : top - height - 2 });
+    const { width = 0 } = menu.current?.getBoundingClientRect() ?? {};
+    const height = menu.current?.scrollHeight ?? 0;
+    // Below the field, unless there is more room above it; a list that is longer than that is scrolled.
+    const [under, over] = [innerHeight - bottom - 6, top - 6];
+    const fits = height <= under || under >= over;
+    const most = fits ? under : over;
+    setPlace({
+      left: Math.max(4, Math.min(left, innerWidth - width - 4)),
+      top: fits ? bottom + 2 : top - Math.min(height, most) - 2,
+      maxHeight: Math.max(0, most),
+    });
+    return bottom > 0 && top < innerHeight;
   }, [below]);
+  useLayoutEffect(() => {
+    put();
+  }, [put]);
   useEffect(() => {
     // The list itself scrolls, too.
-    const onScroll = ({ target }: Event) => target !== menu.current && onGone();
+    const onScroll = ({ target }: Event) => {
+      if (target !== menu.current && !put()) onGone();
+    };
     addEventListener("scroll", onScroll, true);
     addEventListener("resize", onGone);
     return () => {

@@ -10,7 +10,7 @@ from scanbench.translation.inside import paragraphs
 from scanbench.web.lsp.language import Language
 
 BOXES = "scanbench/boxes"
-"""`{textDocument, position}`: `[{name, kind, type, inputs, outputs, by_position, more, comment}]`, with the instances that are visible there."""
+"""`{textDocument, position}`: `[{name, kind, type, inputs, outputs, types, by_position, more, comment}]`, with the instances that are visible there."""
 
 
 class _Placed(Protocol):

@@ -24,6 +24,14 @@ const S = (name: string) => `STEP ${name}:\nEND_STEP`;
 const lines = (...all: string[]) => all.join("\n");
 
 describe("a chart is edited", () => {
+  it("with a jump that waits for all sequences that began together", () => {
+    const steps = lines(INIT, T("Init", "(A, B)"), S("A"), S("B"));
+    expect(edited(steps, "j", [2], "Init").text).toContain(T("(A, B)", "Init"));
+    const longer = edited(steps, "s", [3], "C").text;
+    expect(edited(longer, "j", [2], "Init").text).toContain(T("(A, C)", "Init"));
+    expect(edited(lines(steps, T("B", "Init")), "j", [2], "Init").text).toContain(T("A", "Init"));
+  });
+
   it("from its first step to a loop with a simultaneous branch", () => {
     let made = edited(INIT, "s", [0], "Fill");
     expect(made.text).toBe(lines(INIT, T("Init", "Fill"), S("Fill")));

@@ -167,6 +167,23 @@ function parallel(written: Written, element: ChartElement, around: Around): Made
   });
 }
 
+/** The steps that a transition after this one waits for: those at the open ends of the sequences that begin together with its own. */
+function endingWith({ transitions }: Chart, step: ChartStep): readonly string[] {
+  const open = (name: string, steps = 0): string | null => {
+    const next = transitions.filter(({ from }) => has(from, name));
+    const [only] = next;
+    if (!only) return name;
+    const goes = next.length === 1 && only.from.length === 1 && only.to.length === 1 && steps < transitions.length;
+    return goes ? open(only.to[0] ?? "", steps + 1) : null;
+  };
+  for (const { to } of transitions) {
+    const ends = to.map((name) => open(name));
+    if (to.length > 1 && ends.some((end) => end !== null && same(end, step.name)) && !ends.includes(null))
+      return ends.filter((end) => end !== null);
+  }
+  return [step.name];
+}
+
 /** A transition from this step to a step that is named, or different steps after this transition. */
 function jump(written: Written, element: ChartElement): Made {
   const { text, chart } = written;
@@ -187,7 +204,7 @@ function jump(written: Written, element: ChartElement): Made {
   if (!step) return null;
   const { end } = step.span;
   const to = (names: readonly string[]) => {
-    const line = `TRANSITION FROM ${step.name} TO ${listed(names)} := ${NOTHING}; END_TRANSITION`;
+    const line = `TRANSITION FROM ${listed(endingWith(chart, step))} TO ${listed(names)} := ${NOTHING}; END_TRANSITION`;
     const made = changed(text, [{ at: end, end, text: `\n${blanksOf(written, step.span)}${line}` }]);
     return edited(written, made, (each) => each.span.at > end);
   };

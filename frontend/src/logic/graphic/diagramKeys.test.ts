@@ -7,7 +7,7 @@ import type { Place } from "./ladderLayout";
 import { networksIn } from "./networks";
 
 const box = (name: string, more: Partial<Box>): Box => ({
-  ...{ name, kind: "function", type: "", inputs: ["IN1", "IN2"], outputs: [] },
+  ...{ name, kind: "function", type: "", inputs: ["IN1", "IN2"], outputs: [], types: [] },
   ...{ by_position: true, more: true, comment: "" },
   ...more,
 });

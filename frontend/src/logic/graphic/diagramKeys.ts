@@ -157,7 +157,7 @@ function boxAt(diagram: Diagram, place: Place, around: Around, enabled: boolean)
 }
 
 const UNKNOWN: Box = {
-  ...{ name: NOTHING, kind: "function", type: "", inputs: ["IN"], outputs: [] },
+  ...{ name: NOTHING, kind: "function", type: "", inputs: ["IN"], outputs: [], types: [] },
   ...{ by_position: true, more: false, comment: "" },
 };
 

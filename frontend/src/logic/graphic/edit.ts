@@ -12,6 +12,8 @@ export interface Box {
   type: string;
   inputs: readonly string[];
   outputs: readonly string[];
+  /** Types of the inputs, then of the outputs; empty where a pin takes several. */
+  types: readonly string[];
   /** Its arguments are written without names. */
   by_position: boolean;
   /** It takes more inputs than are named. */

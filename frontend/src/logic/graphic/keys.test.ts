@@ -69,7 +69,7 @@ test.each([
   ["contact", "x > 5", "x > 5"],
   ["coil", "S jammed", "S jammed"],
   ["box", "jam(IN := ~, PT := T#1s).Q", "jam(IN := ~, PT := T#1s).Q"],
-  ["box", "JMP out", "JMP out"],
+  ["box", "JMP out", "out"],
 ] as const)("the field of a %s takes %s", (kind, text, shown) => {
   const element = elementOf(kind, text);
   if (!element || element.kind === "parallel") throw new Error(text);

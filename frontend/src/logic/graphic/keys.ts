@@ -3,6 +3,7 @@
 import { NOTHING } from "./diagram";
 import { type Edit, type Made, withDeclared } from "./edit";
 import { elementOf, fieldText } from "./field";
+import { boxNaming } from "./ladderBox";
 import {
   coil,
   contact,
@@ -10,14 +11,18 @@ import {
   elementAt,
   insert,
   insertBelow,
+  insertBranch,
   insertCoil,
+  insertEnd,
   negated,
   nextEdge,
   remove,
   replace,
 } from "./ladderEdit";
 import type { Place } from "./ladderLayout";
+import { readRung } from "./ladderRead";
 import { writeRung } from "./ladderWrite";
+import { type Found, networksIn } from "./networks";
 import type { Element, Head, Path } from "./tree";
 
 interface Change extends Edited {
@@ -28,7 +33,9 @@ interface Change extends Edited {
 const NOWHERE = { at: 0, end: 0 };
 const box = (): Element => ({ kind: "box", result: null, callee: NOTHING, args: [], output: null, span: NOWHERE });
 
-type Deed = (path: Path, place: Place) => Edited;
+type Deed = (path: Path, place: Place) => Edited | null;
+const link = (kind: "send" | "receive"): Element => ({ kind, name: "link", span: NOWHERE });
+const jump = (label: string | null): Element => ({ kind: "jump", label, span: NOWHERE });
 const FRESH: Record<string, Deed> = {
   c: (path, place) => insert(path, place, contact("", NOTHING)),
   "/": (path, place) => insert(path, place, contact("/", NOTHING)),
@@ -39,6 +46,19 @@ const FRESH: Record<string, Deed> = {
   s: (path, place) => insertCoil(path, place, coil("S", NOTHING)),
   r: (path, place) => insertCoil(path, place, coil("R", NOTHING)),
   f: (path, place) => insert(path, place, box()),
+  "shift+f": (path, place) => insert(path, place, box()),
+  j: (path, place) => insertEnd(path, place, jump("label")),
+  "#": (path, place) => insertEnd(path, place, link("send")),
+  "shift+#": (path, place) => insert(path, place, link("receive")),
+};
+
+const PLAIN: Record<string, Deed> = {
+  delete: deleted,
+  backspace: deletedLeft,
+  b: (path, place) => insertBranch(path, place, 1),
+  "shift+j": (path, place) => insertEnd(path, place, jump(null)),
+  "!": (path, place) => changedAt(path, place, negated),
+  e: (path, place) => changedAt(path, place, nextEdge),
 };
 
 function changedAt(path: Path, place: Place, change: (element: Element) => Element | null): Edited | null {
@@ -47,20 +67,33 @@ function changedAt(path: Path, place: Place, change: (element: Element) => Eleme
   return made ? { path: replace(path, place, made), place } : null;
 }
 
+/** Branches are deleted element by element: where they join nothing is. */
+function deleted(path: Path, place: Place): Edited | null {
+  return elementAt(path, place)?.kind === "parallel" ? null : remove(path, place);
+}
+
+/** The element to the left of the cursor goes, and the cursor stays; at the first one the cursor's own goes. */
+function deletedLeft(path: Path, place: Place): Edited | null {
+  const index = place.at(-1) ?? 0;
+  if (place.length % 2 === 0 || index === 0) return deleted(path, place);
+  const left = [...place.slice(0, -1), index - 1];
+  if (elementAt(path, left)?.kind === "parallel") return null;
+  return { path: remove(path, left).path, place: left };
+}
+
 /** The rung after a key; null where the key does nothing there. */
 export function afterKey(key: string, path: Path, place: Place): Change | null {
   const lower = key.toLowerCase();
-  const deed = FRESH[lower];
-  if (deed) return { ...deed(path, place), fresh: true };
-  const made =
-    key === "!"
-      ? changedAt(path, place, negated)
-      : lower === "e"
-        ? changedAt(path, place, nextEdge)
-        : key === "Delete" || key === "Backspace"
-          ? remove(path, place)
-          : null;
-  return made && { ...made, fresh: false };
+  const [fresh, plain] = [FRESH[lower], PLAIN[lower]];
+  const made = (fresh ?? plain)?.(path, place);
+  return made ? { ...made, fresh: fresh !== undefined } : null;
+}
+
+/** The place of the element at the cursor if something of it is not connected yet. */
+export function emptyInRung(found: Found, text: string, place: Place): Place | null {
+  const read = readRung({ ...found, ...networksIn(text)[0], text });
+  const element = read.kind === "rung" ? elementAt(read.path, place) : null;
+  return element?.kind === "box" && fieldText(element).includes(NOTHING) ? place : null;
 }
 
 /** A rung whose text was read. */
@@ -90,9 +123,13 @@ export function rungEdit({ head, path, indent, comments }: Readable, key: string
       const read = elementOf(kind, typed);
       return read && done(replace(after, at, read), at);
     });
-    const value = fieldText(element).replace(kind === "box" ? /^\?\?\?\(\)$/ : NOTHING, "");
-    const naming = { value, offers: bool ? ("bool" as const) : ("none" as const), taken };
-    return { ...done(after, at), naming: bool ? naming : { ...naming, example: "timer(IN := ~, PT := T#1s).Q" } };
+    if (made && kind === "box") {
+      const put = (box: Element) => done(replace(after, at, box), at);
+      return { ...done(after, at), naming: boxNaming(put, key.toLowerCase() === "shift+f") };
+    }
+    const unnamed = made && (kind === "send" || kind === "receive" || kind === "jump");
+    const value = unnamed ? "" : fieldText(element).replace(bool ? NOTHING : "", "");
+    return { ...done(after, at), naming: { value, offers: bool ? "bool" : "none", taken } };
   };
   return made ? (made.fresh ? named : done)(made.path, made.place) : named(path, place);
 }

@@ -63,6 +63,27 @@ export function insertCoil(path: Path, place: Place, element: Element): Edited {
   return insert(path, end < 0 ? branch : [...branch, end], element);
 }
 
+/** Puts in what ends its path: at the end of the rung, or of the cursor's branch. Null where something ends it already. */
+export function insertEnd(path: Path, place: Place, element: Element): Edited | null {
+  const branch = place.length % 2 === 0 ? place : place.slice(0, -1);
+  const inner = innerPath(path, branch);
+  const last = inner.at(-1);
+  if (last?.kind === "send" || last?.kind === "jump") return null;
+  return insert(path, inner.length === 0 ? branch : [...branch, inner.length - 1], element);
+}
+
+/** An empty branch below the elements at these places, which are beside each other. */
+export function insertBranch(path: Path, place: Place, count: number): Edited | null {
+  if (isStart(place)) return null;
+  const first = lastOf(place);
+  const made = changed(path, place, (inner) => [
+    ...inner.slice(0, first),
+    parallel([inner.slice(first, first + count), []]),
+    ...inner.slice(first + count),
+  ]);
+  return { path: made, place: [...place, 1] };
+}
+
 function innerPath(path: Path, place: Place): Path {
   const [index, branch, ...rest] = place;
   if (index === undefined || branch === undefined) return path;

@@ -6,7 +6,7 @@
 import { writeArgument } from "./args";
 import { widthOf } from "./measure";
 import type { PowerNode } from "./power";
-import type { Argument, Box, Element, Parallel, Path } from "./tree";
+import type { Argument, Box, Element, Parallel, Path, Span } from "./tree";
 
 /** Indexes from the rung to an element or a branch: element, branch, element, and so on. Of even length: the start of a path. */
 export type Place = readonly number[];
@@ -61,11 +61,20 @@ export interface Drawing {
   nodes: readonly PowerNode[];
   /** The nodes that send power to a link, by its name in upper case. */
   sends: ReadonlyMap<string, readonly number[]>;
-  /** Starts of branches without an element, which a cursor can be at. */
-  empty: readonly { place: Place; x: number; y: number; width: number }[];
+  /** Where branches join again, and branches without an element: a cursor can be there, too. */
+  gaps: readonly Gap[];
   rail: { left: number; right: number; top: number; bottom: number };
   /** The node at the end of the rung. */
   end: number;
+}
+
+/** A place on a wire. */
+interface Gap {
+  element: { kind: "gap"; span: Span };
+  place: Place;
+  x: number;
+  y: number;
+  width: number;
 }
 
 const LEFT = 4;
@@ -105,7 +114,7 @@ export function layOut(path: Path, width: number): Drawing {
     elements: drawer.elements,
     nodes: drawer.nodes,
     sends: drawer.sends,
-    empty: drawer.empty,
+    gaps: drawer.gaps,
     rail: { left: LEFT, right: whole - RIGHT, top: y - 13, bottom: Math.max(y + 14, bottom) },
     end,
   };
@@ -200,7 +209,7 @@ class Drawer {
   readonly elements: Drawn[] = [];
   readonly nodes: PowerNode[] = [{ kind: "rail" }];
   readonly sends = new Map<string, number[]>();
-  readonly empty: { place: Place; x: number; y: number; width: number }[] = [];
+  readonly gaps: Gap[] = [];
 
   constructor(private readonly path: Path) {}
 
@@ -215,7 +224,6 @@ class Drawer {
     const rest = path.slice(tail);
     const start = right - sizeOfPath(rest).width - (rest.length === 0 ? -EMPTY : 0);
     this.wire(main.x, start, y, main.node);
-    if (path.length === 0) this.empty.push({ place, x: left, y, width: right - left });
     const end = this.run(rest, place, tail, start, y, main.node);
     if (end.x < right) this.wire(end.x, right, y, end.node);
     return end.node;
@@ -304,7 +312,10 @@ class Drawer {
       const row = y + (rows[index] ?? 0);
       const here = [...place, index];
       if (index > 0) this.upright(left, y + (rows[index - 1] ?? 0), row, node);
-      if (branch.length === 0) this.empty.push({ place: here, x: left, y: row, width: right - left });
+      if (branch.length === 0) {
+        const middle = Math.round((left + right) / 2);
+        this.gaps.push({ element: { kind: "gap", span: element.span }, place: here, x: middle - 7, y: row, width: 14 });
+      }
       const shift = open ? inner - (sizes[index]?.width ?? 0) : 0;
       if (shift > 0) this.wire(left, left + shift, row, node);
       const end = this.run(branch, here, 0, left + shift, row, node);
@@ -319,6 +330,7 @@ class Drawer {
       this.upright(right, ends[index]?.row ?? y, row, below);
     });
     this.wire(right, right + LEAD, y, joined);
+    this.gaps.push({ element: { kind: "gap", span: element.span }, place, x: right + 1, y, width: LEAD - 2 });
     return { x: right + LEAD, node: joined };
   }
 

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { next } from "./near";
 import { elementIn, inText } from "./places";
-import { actionOf, type DrawnRung, heightOf, Sheet, stepIn } from "./sheet";
+import { actionOf, type DrawnRung, heightOf, placeOnWire, Sheet, stepIn } from "./sheet";
 
 const rung = (body: string, head = "") => `RUNG${head}\n    ${body}\nEND_RUNG\n`;
 
@@ -81,4 +81,16 @@ test("a place in the text of a chart is that of its innermost element; statement
 test("a rung of an action knows its chart", () => {
   const parts = new Sheet().of(CHART.replace("n := n + 1;", "RUNG\n[a] (b)\nEND_RUNG") + rung("[a] (b)"), 600);
   expect(parts.map((part) => actionOf(parts, part)?.name)).toEqual([undefined, "Count", undefined]);
+});
+
+test("a click at a wire means the place behind what is to its left", () => {
+  const [part] = new Sheet().of(rung("< [a] | [b] > [c] (d)"), 600);
+  if (part?.kind !== "rung" || !part.drawing) throw new Error("not drawn");
+  const [a, b, c, d] = part.drawing.elements;
+  const on = (x: number, y = c?.y ?? 0) => placeOnWire(part, x, y);
+  expect(on((c?.x ?? 0) + 1)).toEqual([0]);
+  expect(on((d?.x ?? 0) - 30)).toEqual([1]);
+  expect(on((a?.x ?? 0) + 2)).toEqual([0, 0]);
+  expect(on((b?.x ?? 0) + 70, b?.y)).toEqual([0, 1, 0]);
+  expect(on(300, 500)).toBeNull();
 });

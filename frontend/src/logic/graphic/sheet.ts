@@ -50,9 +50,26 @@ export interface Spot {
 
 export const spotsOf = (part: DrawnPart | undefined): readonly Spot[] => part?.drawing?.elements ?? [];
 
-/** Where a cursor can be: at elements, and at the pins of a network. */
-export const stopsOf = (part: DrawnPart | undefined): readonly Spot[] =>
-  part?.kind === "network" && part.drawing ? [...part.drawing.elements, ...pinsOf(part.drawing)] : spotsOf(part);
+/** Where a cursor can be: at elements, at the pins of a network, and where the branches of a rung join. */
+export function stopsOf(part: DrawnPart | undefined): readonly Spot[] {
+  if (part?.kind === "network" && part.drawing) return [...part.drawing.elements, ...pinsOf(part.drawing)];
+  if (part?.kind === "rung" && part.drawing) return [...part.drawing.elements, ...part.drawing.gaps];
+  return spotsOf(part);
+}
+
+/** How far from a wire a click means it. */
+const NEAR = 10;
+
+/** The place on the wire of a rung at a point of its drawing: what is put in comes there. Null where there is no wire. */
+export function placeOnWire(part: DrawnPart, x: number, y: number): Place | null {
+  if (part.kind !== "rung" || !part.drawing) return null;
+  const row = stopsOf(part).filter((each) => Math.abs(each.y - y) <= NEAR);
+  const left = row.filter((each) => each.x + each.width / 2 <= x).sort((a, b) => b.x - a.x)[0];
+  if (left) return left.place;
+  const first = row.sort((a, b) => a.x - b.x)[0]?.place;
+  if (first) return first.length % 2 === 0 ? first : first.slice(0, -1);
+  return part.path?.length === 0 ? [] : null;
+}
 
 /** The action of a chart that a rung or network is written in, and the chart; null elsewhere. */
 export function actionOf(parts: readonly DrawnPart[], { found }: DrawnPart): { name: string; chart: DrawnPart } | null {

@@ -35,6 +35,8 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.fromvalues": "値から計算",
   "graphic.fromvalues.hint":
     "電力と条件の成立は、スキャン後の値から計算したもので、プログラムの実行中に記録したものではありません。エッジ接点、PLC だけが計算する条件、ボックスの結果より後は不明なため破線で示します。",
+  "graphic.gap": "分岐の後ろ",
+  "graphic.gap.empty": "空の分岐",
   "graphic.jump": "{label} へジャンプ",
   "graphic.next": "次の要素",
   "graphic.of": "{path} の図",

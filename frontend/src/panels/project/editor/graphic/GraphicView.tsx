@@ -16,7 +16,9 @@ import { NOTHING } from "../../../../logic/graphic/diagram";
 import { diagramOf } from "../../../../logic/graphic/diagramEdit";
 import { connected } from "../../../../logic/graphic/diagramKeys";
 import { type Around, instancesIn, namesIn } from "../../../../logic/graphic/edit";
+import { emptyInRung } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
+import type { Found } from "../../../../logic/graphic/networks";
 import { elementIn, holds, inText } from "../../../../logic/graphic/places";
 import {
   actionOf,
@@ -24,6 +26,7 @@ import {
   drawnWith,
   headOf,
   heightOf,
+  placeOnWire,
   Sheet,
   scaleOf,
   stepIn,
@@ -222,7 +225,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     // The field that opens next takes the focus; a blur of this one would close it.
     if (made.naming) return true;
     const found = drawn[at]?.found;
-    const empty = found?.kind === "chart" ? emptyIn(found, made.text) : emptyAfter(made.text, made.place);
+    const emptyOf = { chart: emptyIn, rung: emptyInRung, network: emptyAfter };
+    const empty = found ? emptyOf[found.kind](found, made.text, made.place) : null;
     const next = onwards ? empty : null;
     if (next && editing.press("F2", { rung: at, place: next }, made.text)) return true;
     if (onwards && preview) go({ rung: at, place: elementBeside({ elements: stopsOf(preview) }, made.place) });
@@ -256,7 +260,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     window.addEventListener("click", (event) => event.stopPropagation(), { capture: true, once: true });
   }
 
-  function onClick({ target: on }: MouseEvent): void {
+  function onClick(event: MouseEvent): void {
+    const { target: on } = event;
     if (!(on instanceof Element)) return;
     const rung = on.closest<HTMLElement>("[data-index]");
     if (!rung) return;
@@ -269,7 +274,8 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     }
     const goal = on.closest<SVGElement>("[data-goal]")?.dataset.goal;
     const step = goal === undefined ? undefined : stepIn(clicked, goal);
-    setCursor({ rung: index, place: step ?? (hit === undefined ? [] : hit.split(".").map(Number)) });
+    const onWire = hit === undefined && clicked ? wireAt(clicked, event) : null;
+    setCursor({ rung: index, place: step ?? onWire ?? (hit === undefined ? [] : hit.split(".").map(Number)) });
   }
 
   function leave(): void {
@@ -387,6 +393,15 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   );
 }
 
+/** The place on a wire that is clicked; null for a click that means none. */
+function wireAt(part: DrawnPart, { target, clientX, clientY }: MouseEvent): Place | null {
+  const svg = target instanceof Element ? target.closest("svg.draw") : null;
+  if (!svg || !part.drawing) return null;
+  const { left, top, width } = svg.getBoundingClientRect();
+  const scale = width / part.drawing.width;
+  return placeOnWire(part, (clientX - left) / scale, (clientY - top) / scale);
+}
+
 /** Where the element at the cursor begins in the file. */
 function placeInText(part: DrawnPart | undefined, { place }: Cursor): { line: number; column: number } {
   if (!part) return { line: 1, column: 1 };
@@ -394,7 +409,7 @@ function placeInText(part: DrawnPart | undefined, { place }: Cursor): { line: nu
 }
 
 /** The first input at or after a place of a network that is not connected; null where there is none. */
-function emptyAfter(text: string, [index = 0, pin = 0]: Place): Place | null {
+function emptyAfter(_found: Found, text: string, [index = 0, pin = 0]: Place): Place | null {
   const items = diagramOf(text)?.items ?? [];
   const places = items.flatMap(({ inputs }, item) =>
     inputs.flatMap((input, at): Place[] => (input.text === NOTHING ? [[item, at]] : [])),

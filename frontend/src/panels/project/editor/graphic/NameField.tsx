@@ -20,6 +20,8 @@ interface Props {
 
 const WORD = /[#\p{L}_][\p{L}\p{N}_.]*$/u;
 const MOST = 60;
+/** What a field shows before a name is there: nothing, or the mode of a contact or coil. */
+const MODE = /^(?:\/|[SRPN] )?$/;
 
 /** The name of an element, or the text of a box, where it is drawn. Enter takes it, Tab goes on to the next one, Escape leaves. */
 export function NameField({ naming, spot: { x, y, up = 10, width }, label, names, onTake, onLeave }: Props) {
@@ -41,11 +43,13 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   // biome-ignore lint/correctness/useExhaustiveDependencies: once, when it opens
   useEffect(() => {
     input.current?.focus();
-    input.current?.select();
+    const fresh = MODE.test(naming.value);
+    // The name comes behind the mode.
+    if (!fresh) input.current?.select();
     all.current = names();
     // Who has typed nothing yet sees what there is.
-    if (naming.value === "" && naming.offers !== "none")
-      void all.current.then((found) => input.current?.value === "" && offering.show(found.slice(0, MOST)));
+    if (fresh && naming.offers !== "none")
+      void all.current.then((found) => input.current?.value === naming.value && offering.show(found.slice(0, MOST)));
   }, []);
 
   async function take(wanted: string, onwards: boolean): Promise<void> {

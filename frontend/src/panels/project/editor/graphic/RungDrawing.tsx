@@ -1,6 +1,7 @@
 import { memo } from "react";
 import type { Drawing, Drawn, Frame } from "../../../../logic/graphic/ladderLayout";
 import { widthOf } from "../../../../logic/graphic/measure";
+import { t } from "../../../../text";
 import { nameOf } from "./names";
 import { type Marked, SpotGroup, sharp } from "./SpotGroup";
 
@@ -10,7 +11,7 @@ interface Props extends Marked {
 
 /** A rung as it is drawn. Its values are written to the elements directly, twenty times a second: see `live.ts`. */
 export const RungDrawing = memo(function RungDrawing({ drawing, ...marked }: Props) {
-  const { width, height, wires, elements, rail } = drawing;
+  const { width, height, wires, elements, gaps, rail } = drawing;
   return (
     <svg className="draw" width={width} height={height} role="presentation">
       {wires.map(({ points, node }, index) => (
@@ -26,6 +27,19 @@ export const RungDrawing = memo(function RungDrawing({ drawing, ...marked }: Pro
       <path className="rail2" d={`M${sharp(rail.right)} ${rail.top}V${rail.bottom}`} />
       {elements.map((drawn) => (
         <Element key={drawn.place.join(".")} drawn={drawn} {...marked} />
+      ))}
+      {gaps.map(({ place, x, y, width: wide }) => (
+        <SpotGroup
+          key={`gap${place.join(".")}`}
+          {...marked}
+          place={place}
+          kind="gap"
+          name={t(place.length % 2 === 0 ? "graphic.gap.empty" : "graphic.gap")}
+          box={{ x, y: y - 9, width: wide, height: 19 }}
+          dot={{ x, y }}
+        >
+          {null}
+        </SpotGroup>
       ))}
     </svg>
   );

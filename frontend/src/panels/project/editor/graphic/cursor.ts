@@ -14,6 +14,7 @@ export const sameElement = (a: Place, b: Place) => a.join(".") === b.join(".");
 /** The place of the next element in the order of the text; the same one at the end. */
 export function elementBeside({ elements }: { elements: readonly Spot[] }, place: Place): Place {
   const at = elements.findIndex((each) => sameElement(each.place, place));
+  if (elements[at + 1]?.element.kind === "gap") return place;
   return elements[at + 1]?.place ?? place;
 }
 

@@ -113,6 +113,8 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
   function onKey(event: KeyboardEvent, cursor: Cursor): boolean {
     const { key, ctrlKey, altKey, shiftKey } = event;
     const shifted = shiftKey && (ctrlKey || /^[a-z]$/i.test(key));
+    // `#` needs Shift on many keyboards; where it has a key of its own, that key with Shift is another character.
+    if (altKey ? key === "#" : shiftKey && event.code === "Backslash" && key === "'") return press("Shift+#", cursor);
     return press(`${ctrlKey ? "Ctrl+" : ""}${altKey ? "Alt+" : ""}${shifted ? "Shift+" : ""}${key}`, cursor);
   }
 
@@ -138,7 +140,8 @@ function madeOf(part: DrawnPart, key: string, place: Place, around: (part: Drawn
   if (part.kind === "network") return diagramEdit(text, key, place, around(part));
   if (part.kind === "chart") return chartEdit(found, key, place, around(part));
   const { path, comments } = part;
-  const plain = key.startsWith("Shift+") ? key.slice("Shift+".length) : key;
+  // Where a letter with Shift means nothing else it means the letter.
+  const plain = /^Shift\+[fj#]$/i.test(key) ? key : key.replace("Shift+", "");
   if (path !== null) return rungEdit({ head, path, indent, comments }, plain, place);
   return rungEdit({ head, path: [], indent, comments: false }, plain, []) && { refused: "graphic.refused.unread" };
 }

@@ -1,0 +1,60 @@
+import { expect, test } from "vitest";
+import { writeElement } from "./args";
+import { type Around, type Box, type Edit, namesIn } from "./edit";
+import { rungEdit } from "./keys";
+import { callOf } from "./ladderBox";
+import { readRung } from "./ladderRead";
+import { networksIn } from "./networks";
+
+const known = (name: string, kind: Box["kind"], inputs: readonly string[], more: Partial<Box> = {}): Box => ({
+  ...{ name, kind, type: "", inputs, outputs: [], types: [], by_position: kind === "function", more: false },
+  ...{ comment: "" },
+  ...more,
+});
+const TON = known("TON", "block", ["IN", "PT"], { outputs: ["Q", "ET"], types: ["BOOL", "TIME", "BOOL", "TIME"] });
+const AROUND: Around = { boxes: [TON, known("ADD", "function", ["IN1", "IN2"])], names: namesIn("ton1") };
+
+/** The rung after a key at a place, with what was typed into the fields. */
+function after(body: string, key: string, place: readonly number[], ...typed: string[]): Edit {
+  const [found] = networksIn(`RUNG\n    ${body}\nEND_RUNG\n`);
+  const read = found && readRung(found);
+  if (!found || read?.kind !== "rung") throw new Error(body);
+  let made = rungEdit({ head: found.head, path: read.path, indent: "", comments: false }, key, place);
+  for (const text of typed) made = made && "naming" in made ? (made.naming?.taken(text, AROUND) ?? null) : null;
+  if (!made || "refused" in made) throw new Error(key);
+  return made;
+}
+const bodyOf = ({ text }: Edit) =>
+  text
+    .split("\n")
+    .slice(1, -1)
+    .map((line) => line.trim())
+    .join(" ");
+
+test("a block gets the power at its first input of BOOL, an instance of its own, and hands the power on", () => {
+  const made = after("[a] (b)", "f", [0], "ton", "wait");
+  expect(bodyOf(made)).toBe("[a] wait(IN := ~, PT := ???).Q (b)");
+  expect(made.declares).toEqual([{ name: "wait", type: "TON" }]);
+  expect(after("[a]", "f", [0], "TON").naming?.value).toBe("ton2");
+});
+
+test("a function, and what has no input of BOOL, gets the power at EN; so does a block with Shift", () => {
+  expect(bodyOf(after("[a]", "f", [0], "ADD"))).toBe("[a] ??? := ADD(EN := ~, IN1 := ???, IN2 := ???).ENO");
+  expect(bodyOf(after("[a]", "Shift+F", [0], "TON", "t"))).toBe("[a] t(EN := ~, IN := ???, PT := ???).ENO");
+  const count = known("n", "instance", ["by"], { outputs: ["n"], types: ["INT", "INT"] });
+  expect(writeElement(callOf(count, "n", false))).toBe("n(EN := ~, by := ???).ENO");
+});
+
+test("jumps and links end their path, and a branch goes around the element at the cursor", () => {
+  expect(bodyOf(after("[a]", "j", [0], "out"))).toBe("[a] JMP out");
+  expect(bodyOf(after("[a]", "Shift+J", [0]))).toBe("[a] RETURN");
+  expect(bodyOf(after("< [a] | [b] > (c)", "#", [0, 1, 0], "low"))).toBe("< [a] | [b] -> #low > (c)");
+  expect(bodyOf(after("[a] (b)", "Shift+#", [0], "low"))).toBe("[a] #low (b)");
+  expect(bodyOf(after("[a] [b] (c)", "b", [1]))).toBe("[a] < [b] | > (c)");
+  expect(() => after("[a] JMP out", "j", [0], "in")).toThrow();
+});
+
+test("Backspace deletes what is to the left of the cursor", () => {
+  expect(bodyOf(after("[a] [b] (c)", "Backspace", [1]))).toBe("[b] (c)");
+  expect(bodyOf(after("[a] [b] (c)", "Delete", [1]))).toBe("[a] (c)");
+});
