@@ -61,8 +61,8 @@ def _instances(body: Body) -> Iterator[Box]:
             outputs = [each for each in pins if each.section is Section.OUTPUT]
             if inputs or outputs:
                 types = tuple(str(each.type) for each in (*inputs, *outputs))
-                names = [tuple(each.name for each in some) for some in (inputs, outputs)]
-                yield Box(member.name, "instance", type.name, *names, types, False, False, "")
+                ins, outs = (tuple(each.name for each in some) for some in (inputs, outputs))
+                yield Box(member.name, "instance", type.name, ins, outs, types, False, False, "")
 
 
 def _declared(reading: Reading) -> Iterator[Box]:

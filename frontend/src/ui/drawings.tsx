@@ -273,6 +273,7 @@ export const drawings = {
     </>
   ),
   trigger: <path d="M2 12h4.5V4H14" />,
+  printer: <path d="M4.5 6V2.5h7V6m-7 5.5h-2V6h11v5.5h-2m-7-2h7v4h-7z" />,
   export: <path d="M8 2.25v7.5M5 7l3 3 3-3M2.75 11.5v1.25a1 1 0 0 0 1 1h8.5a1 1 0 0 0 1-1V11.5" />,
   differs: <path d="M3 6h10M3 10h10M10.75 3l-5.5 10" />,
   filter: <path d="M2.5 4h11M4.75 8h6.5M6.75 12h2.5" />,

@@ -22,16 +22,16 @@ const wholeText = ({ text, indent, head }: Found) =>
     .map((line) => (line.startsWith(indent) ? line.slice(indent.length) : line))
     .join("\n");
 
-/** The text of the element at a place, of a pin that of its line; without one that of the network. Of a chart only elements are copied. */
+/** The text of the element at a place, of a pin that of its line; without one that of the network or chart. */
 export function copied(part: DrawnPart, place: Place): string | null {
   const { text } = part.found;
-  if (!part.readable) return part.kind === "chart" ? null : wholeText(part.found);
+  if (!part.readable) return part.kind === "chart" ? text : wholeText(part.found);
   if (part.kind === "rung") {
     const element = part.path && elementAt(part.path, place);
     return element ? text.slice(element.span.at, element.span.end) : wholeText(part.found);
   }
   const span = spotsOf(part).find((each) => each.place[0] === place[0])?.element.span;
-  if (part.kind === "chart") return span ? text.slice(span.at, span.end) : null;
+  if (part.kind === "chart") return text.slice(span?.at, span?.end);
   return span ? `${text.slice(span.at, span.end)};` : wholeText(part.found);
 }
 

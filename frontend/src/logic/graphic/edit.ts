@@ -97,10 +97,11 @@ export const isName = (text: string) => IDENTIFIER.test(text);
 export const isOnePiece = (typed: string) =>
   typed !== "" && !/[;\n]|\/\/|\(\*|\/\*/.test(typed.replace(/'(?:\$.|[^'$])*'|"(?:\$.|[^"$])*"/g, ""));
 
-/** `name : TYPE`, as it is typed into a field to declare a variable with it; null for anything else. */
-function declaredIn(typed: string): Declared | null {
-  const [, name = "", type = ""] = /^\s*([\p{L}_][\p{L}\p{N}_]*)\s*:\s*([\p{L}_][^;:=]*?)\s*$/u.exec(typed) ?? [];
-  return name === "" ? null : { name, type };
+/** `name : TYPE`, as it is typed into a field to declare a variable with it, and the mode before it; null for anything else. */
+function declaredIn(typed: string): (Declared & { mode: string }) | null {
+  const [, mode = "", name = "", type = ""] =
+    /^\s*(\/\s*|[PNSR]\s+)?([\p{L}_][\p{L}\p{N}_]*)\s*:\s*([\p{L}_][^;:=]*?)\s*$/u.exec(typed) ?? [];
+  return name === "" ? null : { mode, name, type };
 }
 
 /** What takes a name takes `name : TYPE` as well, and declares it. */
@@ -108,8 +109,10 @@ export const withDeclared =
   (take: Naming["taken"]): Naming["taken"] =>
   (typed, around) => {
     const declared = declaredIn(typed);
-    const edit = take(declared?.name ?? typed, around);
-    return edit && declared ? { ...edit, declares: [declared] } : edit;
+    if (!declared) return take(typed, around);
+    const { mode, name, type } = declared;
+    const edit = take(mode + name, around);
+    return edit && { ...edit, declares: [{ name, type }] };
   };
 
 /** The instances that a text declares of the blocks that are known. */

@@ -98,6 +98,9 @@ export const graphic = {
   "graphic.field.take": "Take this (Enter)",
   "graphic.fit": "Fit",
   "graphic.fit.hint": "Makes drawings that are wider than the editor smaller, down to half their size",
+  "graphic.print": "Print",
+  "graphic.print.hint":
+    "Prints the drawing of this file on pages, without values and marks; the browser saves it as PDF, too",
   "graphic.svg": "SVG",
   "graphic.svg.hint": "Saves the drawing of this file as an SVG, without values and marks",
   "graphic.field.bad.box": "No function, block or instance has this name.",

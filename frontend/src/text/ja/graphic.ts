@@ -100,6 +100,8 @@ export const graphic: Record<keyof typeof english, string> = {
   "graphic.field.take": "確定 (Enter)",
   "graphic.fit": "幅に合わせる",
   "graphic.fit.hint": "エディターより幅の広い図を、半分の大きさまで縮小します",
+  "graphic.print": "印刷",
+  "graphic.print.hint": "このファイルの図を、値とマークなしでページに印刷します。ブラウザーで PDF としても保存できます",
   "graphic.svg": "SVG",
   "graphic.svg.hint": "このファイルの図を、値とマークなしの SVG として保存します",
   "graphic.field.bad.box": "この名前のファンクション、ブロック、インスタンスはありません。",

@@ -52,6 +52,7 @@ import { ElementField } from "./ElementField";
 import { FlowNote } from "./FlowNote";
 import { marksOf, togglePart } from "./marks";
 import { PartRow } from "./PartRow";
+import { layOnPaper, PAPER, usePrinted } from "./printed";
 import { svgFile } from "./svgFile";
 import { Tools } from "./Tools";
 import { type Cursor, useEditing } from "./useEditing";
@@ -179,13 +180,24 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     openFile(path, line, column);
   }
 
-  function toFile(): void {
-    const written = svgFile(drawn, ({ found, kind }) => {
+  /** The headline of a part on paper, which has no page around it. */
+  const headlineIn =
+    (all: readonly DrawnPart[]) =>
+    ({ found, kind }: DrawnPart) => {
       const { label, title } = found.head;
       const pou = pouAt(pous, path, found.line, text)?.name ?? "";
-      const of = kind === "chart" ? "" : `${pou} ${drawn.findIndex((each) => each.found === found) + 1}`;
+      const of = kind === "chart" ? "" : `${pou} ${all.findIndex((each) => each.found === found) + 1}`;
       return [of, label && `${label}:`, kind === "chart" ? pou : title].filter(Boolean).join("  ");
-    });
+    };
+
+  usePrinted(() => {
+    const all = new Sheet().of(text, PAPER);
+    // A file in a tab behind others is not what is printed.
+    return sheet.current?.offsetParent ? layOnPaper(baseName(path), all, headlineIn(all)) : null;
+  });
+
+  function toFile(): void {
+    const written = svgFile(drawn, headlineIn(drawn));
     saveFile(new Blob([written], { type: "image/svg+xml" }), `${baseName(path).replace(/\.\w+$/, "")}.svg`);
   }
 
@@ -383,6 +395,10 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         >
           <Icon name="fit" small />
           {t("graphic.fit")}
+        </button>
+        <button type="button" className="btn quiet sm" title={t("graphic.print.hint")} onClick={() => print()}>
+          <Icon name="printer" small />
+          {t("graphic.print")}
         </button>
         <button type="button" className="btn quiet sm" title={t("graphic.svg.hint")} onClick={toFile}>
           <Icon name="export" small />

@@ -67,9 +67,11 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
     offering.ask(typed);
   }
 
-  function onKey({ key }: KeyboardEvent): boolean {
+  function onKey({ key, ctrlKey }: KeyboardEvent): boolean {
     if (key === "Escape") onLeave();
     else if (waiting) return true;
+    // A contact or coil of a name that is new: it is declared.
+    else if (ctrlKey && key === "Enter" && naming.offers === "bool") void take(`${text} : BOOL`, false);
     else if (key === "Enter" || key === "Tab") void take(text, key === "Tab");
     else return false;
     return true;

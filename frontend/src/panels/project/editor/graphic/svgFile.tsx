@@ -15,7 +15,11 @@ const LINE = 16;
 const PLAIN: Marked = { id: "", cursor: null, next: "", points: "" };
 
 /** `headOf` gives the headline of a part. */
-export function svgFile(parts: readonly DrawnPart[], headOf: (part: DrawnPart) => string): string {
+export const svgFile = (parts: readonly DrawnPart[], headOf: (part: DrawnPart) => string): string =>
+  withPictures(parts, (paper) => whole(paper, parts, headOf));
+
+/** What `use` makes of an element that has the picture of each part in an element of its own, in the colours of the light theme. */
+export function withPictures<T>(parts: readonly DrawnPart[], use: (paper: HTMLElement) => T): T {
   const paper = document.createElement("div");
   // Colours are those of this element, whatever the theme of the page is.
   paper.dataset.theme = "light";
@@ -24,7 +28,7 @@ export function svgFile(parts: readonly DrawnPart[], headOf: (part: DrawnPart) =
   const root = createRoot(paper);
   try {
     flushSync(() => root.render(parts.map((part) => <div key={part.found.from}>{pictureOf(part)}</div>)));
-    return whole(paper, parts, headOf);
+    return use(paper);
   } finally {
     root.unmount();
     paper.remove();
@@ -63,7 +67,10 @@ function whole(paper: HTMLElement, parts: readonly DrawnPart[], headOf: (part: D
       y += LINE;
     }
     if (picture) {
-      file.append(bare(picture, y));
+      const copy = bare(picture);
+      copy.setAttribute("x", String(MARGIN));
+      copy.setAttribute("y", String(y));
+      file.append(copy);
       width = Math.max(width, Number(picture.getAttribute("width")));
       y += Number(picture.getAttribute("height"));
     }
@@ -92,15 +99,13 @@ function textAt(text: string, look: string, y: number): SVGElement {
 }
 
 /** A picture without what is there for the pointer and for readers of the screen. */
-function bare(picture: SVGSVGElement, y: number): SVGElement {
+export function bare(picture: SVGSVGElement): SVGSVGElement {
   const copy = picture.cloneNode(true) as SVGSVGElement;
   for (const each of copy.querySelectorAll(".hit, .pad, [data-live], .vl")) each.remove();
   for (const each of [copy, ...copy.querySelectorAll("*")])
     for (const { name } of [...each.attributes])
       if (name === "role" || name === "id" || name.startsWith("aria-") || name.startsWith("data-"))
         each.removeAttribute(name);
-  copy.setAttribute("x", String(MARGIN));
-  copy.setAttribute("y", String(y));
   return copy;
 }
 
