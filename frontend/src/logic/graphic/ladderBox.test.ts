@@ -54,6 +54,13 @@ test("jumps and links end their path, and a branch goes around the element at th
   expect(() => after("[a] JMP out", "j", [0], "in")).toThrow();
 });
 
+test("a box is drawn before it has a name, and before its result has a variable", () => {
+  for (const edit of [after("[a]", "f", [0]), after("[a]", "f", [0], "ADD")]) {
+    const [found] = networksIn(`${edit.text}\n`);
+    expect(found && readRung(found).kind).toBe("rung");
+  }
+});
+
 test("Backspace deletes what is to the left of the cursor", () => {
   expect(bodyOf(after("[a] [b] (c)", "Backspace", [1]))).toBe("[b] (c)");
   expect(bodyOf(after("[a] [b] (c)", "Delete", [1]))).toBe("[a] (c)");

@@ -1,6 +1,7 @@
 /** Reads the text of a rung into the elements that are drawn. */
 
 import { readArguments, readCallee } from "./args";
+import { NOTHING } from "./diagram";
 import type { Found } from "./networks";
 import { NotRead, Reader } from "./reader";
 import type { Box, Coil, CoilMode, Contact, ContactMode, Element, Jump, Parallel, Path, Rung, Unread } from "./tree";
@@ -40,7 +41,8 @@ function readElement(reader: Reader): Element {
   }
   if (reader.takes("#")) return { kind: "receive", name: takeWord(reader), span: { at, end: reader.at } };
   const word = reader.word();
-  if (word === "") throw new NotRead(at, "element");
+  // A box without a name, or without a variable for its result, is drawn, too: the program is not built until it has one.
+  if (word === "" && !reader.sees(NOTHING)) throw new NotRead(at, "element");
   if (/^(?:JMP|RETURN)$/i.test(word)) return readJump(reader, word);
   return readBox(reader);
 }
