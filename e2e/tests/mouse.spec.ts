@@ -66,7 +66,7 @@ test('the motor latch is drawn from an empty rung in ten clicks, and holds itsel
     await mouse.choose(name);
     await expect(option(made)).toBeVisible();
   }
-  await mouse.click(option('Behind the branches'));
+  await mouse.click(option('After the branches'));
   await mouse.tool('Closed');
   await mouse.choose('halt');
   await expect(option('Closed contact halt')).toBeVisible();

@@ -66,7 +66,7 @@ test("Backspace deletes what is to the left of the cursor", () => {
   expect(bodyOf(after("[a] [b] (c)", "Delete", [1]))).toBe("[a] (c)");
 });
 
-test("a name with a type is declared, also behind a mode", () => {
+test("a name with a type is declared, also after a mode", () => {
   const made = after("[a]", "/", [0], "/halt : BOOL");
   expect(bodyOf(made)).toBe("[a] [/halt]");
   expect(made.declares).toEqual([{ name: "halt", type: "BOOL" }]);

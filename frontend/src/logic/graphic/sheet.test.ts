@@ -83,7 +83,7 @@ test("a rung of an action knows its chart", () => {
   expect(parts.map((part) => actionOf(parts, part)?.name)).toEqual([undefined, "Count", undefined]);
 });
 
-test("a click at a wire means the place behind what is to its left", () => {
+test("a click at a wire means the place after what is to its left", () => {
   const [part] = new Sheet().of(rung("< [a] | [b] > [c] (d)"), 600);
   if (part?.kind !== "rung" || !part.drawing) throw new Error("not drawn");
   const [a, b, c, d] = part.drawing.elements;

@@ -33,7 +33,7 @@ export const graphic = {
   "graphic.fromvalues": "From values",
   "graphic.fromvalues.hint":
     "Power, and whether a condition holds, are computed from the values after the scan, not noted while the program ran. After an edge contact, a condition that only the PLC computes, or the result of a box it is not known: dashed lines.",
-  "graphic.gap": "Behind the branches",
+  "graphic.gap": "After the branches",
   "graphic.gap.empty": "Empty branch",
   "graphic.jump": "Jump to {label}",
   "graphic.next": "next element",

@@ -107,7 +107,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
 
   const around = (): Around => {
     const boxes = boxesNow(path);
-    return { boxes: [...instancesIn(text, boxes), ...boxes], names: namesIn(text) };
+    const written = instancesIn(text, boxes);
+    const others = boxes.filter(({ name }) => written.every((each) => each.name.toUpperCase() !== name.toUpperCase()));
+    return { boxes: [...written, ...others], names: namesIn(text) };
   };
   const network = drawn.find(({ kind }) => kind === "network");
   // biome-ignore lint/correctness/useExhaustiveDependencies: once, when there is a network
@@ -192,7 +194,7 @@ export default function GraphicView({ path, text, readOnly }: Props) {
 
   usePrinted(() => {
     const all = new Sheet().of(text, PAPER);
-    // A file in a tab behind others is not what is printed.
+    // A file whose tab is not shown is not what is printed.
     return sheet.current?.offsetParent ? layOnPaper(baseName(path), all, headlineIn(all)) : null;
   });
 

@@ -44,7 +44,7 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   useEffect(() => {
     input.current?.focus();
     const fresh = MODE.test(naming.value);
-    // The name comes behind the mode.
+    // The name comes after the mode.
     if (!fresh) input.current?.select();
     all.current = names();
     // Who has typed nothing yet sees what there is.

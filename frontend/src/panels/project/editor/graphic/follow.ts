@@ -73,3 +73,25 @@ export function follow(pou: Pou, variables: Iterable<string>, paint: (values: Va
     unwatch();
   };
 }
+
+/** Calls `paint` with the values and with what the code saw, where that is known, whenever one of them changes. */
+export function showWith(
+  pou: Pou,
+  variables: Iterable<string>,
+  paint: (values: Values, flow: PartFlow | null) => void,
+): Shown {
+  let flow: PartFlow | null = null;
+  let values: Values | null = null;
+  const show = () => values && paint(values, flow);
+  const stop = follow(pou, variables, (now) => {
+    values = now;
+    show();
+  });
+  return {
+    stop,
+    onFlow: (found) => {
+      flow = found;
+      show();
+    },
+  };
+}

@@ -6,7 +6,7 @@ import type { Drawing } from "../../../../logic/graphic/ladderLayout";
 import { closedBy, type Power, powerOf } from "../../../../logic/graphic/power";
 import { t } from "../../../../text";
 import type { Pou } from "../../../../wire/types";
-import { follow, type Shown, type Values } from "./follow";
+import { type Shown, showWith, type Values } from "./follow";
 import { isStill } from "./followFlow";
 
 /** The variables whose values a rung shows. */
@@ -30,25 +30,11 @@ export function showRung(svg: SVGSVGElement, drawing: Drawing, pou: Pou): Shown 
     parsed.set(operand, made);
     return made;
   };
-  let flow: PartFlow | null = null;
-  let values: Values | null = null;
-  const paint = () => {
-    if (!values) return;
+  return showWith(pou, variablesIn(drawing), (values, flow) => {
     const { text, forced } = values;
     if (flow) paintSeen(svg, drawing, flow, conditionAt, values);
     else paintPower(svg, drawing, (operand) => holdsBy(conditionAt(operand), text), forced);
-  };
-  const stop = follow(pou, variablesIn(drawing), (now) => {
-    values = now;
-    paint();
   });
-  return {
-    stop,
-    onFlow: (found) => {
-      flow = found;
-      paint();
-    },
-  };
 }
 
 function paintSeen(

@@ -3,11 +3,11 @@
 import type { ChartTransition } from "../../../../logic/graphic/chart";
 import type { ChartDrawing } from "../../../../logic/graphic/chartLayout";
 import { type Condition, conditionOf, holdsBy, truthBy, variablesOf } from "../../../../logic/graphic/condition";
-import { type PartFlow, type Seen, valueIn } from "../../../../logic/graphic/flow";
+import { type Seen, valueIn } from "../../../../logic/graphic/flow";
 import { type Drawing, layOut } from "../../../../logic/graphic/ladderLayout";
 import { type Power, powerOf } from "../../../../logic/graphic/power";
 import type { Pou } from "../../../../wire/types";
-import { follow, type Shown, type Values } from "./follow";
+import { type Shown, showWith, type Values } from "./follow";
 
 interface Test {
   variables: readonly string[];
@@ -48,11 +48,7 @@ export function showChart(svg: SVGSVGElement, { elements }: ChartDrawing, pou: P
     for (const each of test.variables) variables.add(each);
   }
   const groups = svg.querySelectorAll<SVGElement>("[data-element]");
-  let flow: PartFlow | null = null;
-  let known: Values | null = null;
-  const paint = () => {
-    const values = known;
-    if (!values) return;
+  return showWith(pou, variables, (values, flow) => {
     elements.forEach(({ element, place }, index) => {
       const group = groups[index];
       if (!group) return;
@@ -64,18 +60,7 @@ export function showChart(svg: SVGSVGElement, { elements }: ChartDrawing, pou: P
         else paintTransition(group, element, tests.get(element), values);
       } else paintAction(group, element.action, values);
     });
-  };
-  const stop = follow(pou, variables, (now) => {
-    known = now;
-    paint();
   });
-  return {
-    stop,
-    onFlow: (found) => {
-      flow = found;
-      paint();
-    },
-  };
 }
 
 function write(group: SVGElement, what: string, text: string): void {

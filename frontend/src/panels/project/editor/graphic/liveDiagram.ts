@@ -5,7 +5,7 @@ import type { DiagramDrawing } from "../../../../logic/graphic/diagramLayout";
 import { boolWires, variablesIn, wireValues } from "../../../../logic/graphic/diagramValues";
 import { type PartFlow, type Seen, valueIn } from "../../../../logic/graphic/flow";
 import type { Pou } from "../../../../wire/types";
-import { follow, type Shown, type Values } from "./follow";
+import { type Shown, showWith } from "./follow";
 
 /** The value of each wire whose line ran, as the code saw it; null where the line did not run. */
 function seenWires(drawing: DiagramDrawing, { at, wires }: PartFlow): Map<string, string | null> {
@@ -38,12 +38,7 @@ export function showDiagram(svg: SVGSVGElement, drawing: DiagramDrawing, pou: Po
     const key = place.closest<SVGElement>("[data-element]")?.dataset.element;
     return key === undefined ? undefined : flow.at.get(key);
   };
-  let flow: PartFlow | null = null;
-  let known: Values | null = null;
-  const paint = () => {
-    if (!known) return;
-    const { text, forced } = known;
-    const noted = flow;
+  return showWith(pou, variablesIn(items), ({ text, forced }, noted) => {
     const values = noted ? seenWires(drawing, noted) : wireValues(items, text);
     const shownAt = (place: Element, variable: string) =>
       noted ? valueIn(seenAt(place, noted), variable) : text(variable);
@@ -66,16 +61,5 @@ export function showDiagram(svg: SVGSVGElement, drawing: DiagramDrawing, pou: Po
       groups[index]?.classList.toggle("stale", seen?.stale === true);
       groups[index]?.classList.toggle("idle", noted !== null && !called(element.item, seen));
     });
-  };
-  const stop = follow(pou, variablesIn(items), (now) => {
-    known = now;
-    paint();
   });
-  return {
-    stop,
-    onFlow: (found) => {
-      flow = found;
-      paint();
-    },
-  };
 }
