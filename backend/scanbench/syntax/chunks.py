@@ -1,6 +1,7 @@
 """A file in chunks that are parsed one by one: each POU, and the text between. An edit within POUs reparses
 only these; any other edit, all of it."""
 
+from bisect import bisect_left
 from dataclasses import dataclass, field
 
 from scanbench.problems import Problem
@@ -208,10 +209,8 @@ def _start(tokens: Tokens, first: int) -> int:
 
 def _free(tokens: Tokens, stretches: list[tuple[int, int, bool]]) -> bool:
     """Whether nothing between the POUs is tied to one."""
-    ties = [number for number, text in enumerate(tokens.texts) if text.upper() in TIES]
-    return not any(
-        start <= tokens.starts[number] < end for start, end, single in stretches if not single for number in ties
-    )
+    ties = [tokens.starts[number] for number, text in enumerate(tokens.texts) if text.upper() in TIES]
+    return not any(bisect_left(ties, start) < bisect_left(ties, end) for start, end, single in stretches if not single)
 
 
 def _is_one_pou(tokens: Tokens) -> bool:

@@ -25,8 +25,16 @@ class Needs:
         if known is None:
             self._known[id(type)] = False
             self._kept.append(type)
-            known = self._known[id(type)] = has_made(type) or any(self.of(each.type) for each in held(type))
+            known = self._known[id(type)] = has_made(type) or self._in(type)
         return known
+
+    def _in(self, record: Record) -> bool:
+        """Whether something in it needs it: in its base, or in what it has besides."""
+        if record.base is None:
+            return any(self.of(each.type) for each in held(record))
+        known = record.base.members
+        own = [member for key, member in record.members.items() if key not in known]
+        return self.of(record.base) or any(self.of(each.type) for each in own if _is_held(each))
 
     def members(self, record: Record) -> list[Member]:
         """The variables of a record that need it, in order of declaration."""
@@ -40,6 +48,8 @@ def has_made(record: Record) -> bool:
 
 def held(record: Record) -> Iterator[Member]:
     """The variables that are in an instance, and are not only referred to."""
-    for member in record.members.values():
-        if not member.located and not member.bound and member.section is not Section.EXTERNAL:
-            yield member
+    return filter(_is_held, record.members.values())
+
+
+def _is_held(member: Member) -> bool:
+    return not member.located and not member.bound and member.section is not Section.EXTERNAL

@@ -8,7 +8,7 @@ from scanbench.syntax.imported import Project, Read
 from scanbench.syntax.l5x import notes
 from scanbench.syntax.l5x.declarations import data_type, dimensions_of, section, sections, types_of_data
 from scanbench.syntax.l5x.names import ELEMENTARY, name_of
-from scanbench.syntax.l5x.statements import Known, Parameter, TooDeep, statements
+from scanbench.syntax.l5x.statements import Known, Parameter, Passed, TooDeep, passed_of, statements
 from scanbench.syntax.language_file import LANGUAGE_FILE, language_text
 from scanbench.syntax.xml_tree import Element, attribute, child, children, line_of, parse_xml, text_of
 
@@ -112,11 +112,14 @@ class _Reader:
         routines = list(children(child(node, "Routines"), "Routine"))
         taken = {attribute(each, "Name").upper() for each in tags}
         actions = {(found := attribute(each, "Name")).upper(): _action(found, taken) for each in routines}
-        known = Known(self._aliases_in(tags), actions, self._instructions, _types([*self._tags, *tags]))
+        known = Known(
+            self._aliases_in(tags), actions, self._instructions, _types([*self._tags, *tags]), _passed(routines)
+        )
         body, rest = "", ""
         for routine in routines:
             of = attribute(routine, "Name")
             read = self._read(f"{name}.{of}", routine)
+            known.routine = of.upper()
             text = _text(routine, known, read)
             if of.upper() == main:
                 body = text
@@ -243,15 +246,25 @@ def _calls_only(routine: Element) -> bool:
     return bool(rungs) and all(_ONLY_CALL.match(each) for each in rungs)
 
 
-def _text(routine: Element, known: Known, read: Read) -> str:
-    if read.refused:
-        return ""
+def _written(routine: Element) -> str:
     if attribute(routine, "Type") == "ST":
         lines = [text_of(each) for each in children(child(routine, "STContent"), "Line")]
     else:
         lines = [text_of(child(each, "Text")).strip() for each in children(child(routine, "RLLContent"), "Rung")]
+    return "\n".join(lines)
+
+
+def _passed(routines: Iterable[Element]) -> dict[str, Passed]:
+    """What each routine in Structured Text is given and gives back, by its name in upper case."""
+    texts = ((attribute(each, "Name").upper(), _written(each)) for each in routines if attribute(each, "Type") == "ST")
+    return {name: passed for name, text in texts if (passed := passed_of(text)) is not None}
+
+
+def _text(routine: Element, known: Known, read: Read) -> str:
+    if read.refused:
+        return ""
     try:
-        text = statements("\n".join(lines), known, read.notes).strip("\n")
+        text = statements(_written(routine), known, read.notes).strip("\n")
     except TooDeep:
         read.notes.append(notes.too_deep(attribute(routine, "Name")))
         read.refused = True

@@ -28,6 +28,11 @@ MAX_DEPTH = 100
 BLANK = ("comment", "space")
 
 
+_COMMENT = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*", re.DOTALL)
+_SBR = re.compile(r"(?i)\bSBR\s*\(([^()]*)\)")
+_RET = re.compile(r"(?i)\bRET\s*\(([^()]*)\)")
+
+
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """A required one of an Add-On Instruction."""
@@ -35,6 +40,14 @@ class Parameter:
     name: str
     usage: str
     """`Input`, `Output` or `InOut`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Passed:
+    """What a routine is given and gives back, as it is written there."""
+
+    inputs: tuple[str, ...] = ()
+    results: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
@@ -49,12 +62,44 @@ class Known:
     """Add-On Instructions."""
     types: Mapping[str, tuple[str, Sequence[int]]] = field(default_factory=dict)
     """The type of each tag, in upper case, and its dimensions."""
+    passed: Mapping[str, Passed] = field(default_factory=dict)
+    """What each routine of the program is given and gives back, where that is read."""
+    routine: str = ""
+    """The one that is written, in upper case."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Piece:
     kind: str
     text: str
+
+
+def passed_of(text: str) -> Passed | None:
+    """What a routine is given by SBR, its first statement, and gives back by RET; None where a call cannot say the same."""
+    code = _COMMENT.sub(" ", text)
+    given, back = _SBR.findall(code), _RET.findall(code)
+    results = {tuple(_parts(each)) for each in back}
+    if len(given) != len(re.findall(r"(?i)\bSBR\b", code)) or len(back) != len(re.findall(r"(?i)\bRET\b", code)):
+        return None
+    if len(given) > 1 or (given and not _SBR.match(code.lstrip())) or len(results) > 1:
+        return None
+    if results and any(results) and not re.search(r"(?i)\bRET\s*\([^()]*\)\s*;?\s*$", code):
+        return None  # the end of the routine gives nothing back
+    return Passed(tuple(_parts(given[0])) if given else (), results.pop() if results else ())
+
+
+def _parts(written: str) -> list[str]:
+    return [each.strip() for each in written.split(",")] if written.strip() else []
+
+
+def _depends(assigned: list[tuple[str, str]]) -> bool:
+    """Whether a value would be read after something that it names was assigned."""
+    seen: set[str] = set()
+    for target, value in assigned:
+        if seen & set(re.findall(r"\w+", value.upper())):
+            return True
+        seen |= set(re.findall(r"\w+", target.upper()))
+    return False
 
 
 class TooDeep(ValueError):
@@ -183,17 +228,35 @@ class _Writer:
     def jump(self, given: list[str]) -> str:
         """JSR: a routine of the same program is an action of it."""
         routine = given[0] if given else ""
-        if len(given) > 2 or (len(given) == 2 and given[1] not in ("", "0")):
+        call = f"{self._known.routines.get(routine.upper(), routine)}()"
+        if len(given) <= 1 or (len(given) == 2 and given[1] in ("", "0")):
+            return call
+        passed = self._known.passed.get(routine.upper())
+        count = int(given[1]) if given[1].isdigit() else 0
+        inputs, results = given[2 : 2 + count], given[2 + count :]
+        if passed is None or len(passed.inputs) != len(inputs) or len(passed.results) != len(results):
             return self._as_it_is("JSR", given)
-        return f"{self._known.routines.get(routine.upper(), routine)}()"
+        before = [*zip(map(self._again, passed.inputs), inputs, strict=True)]
+        after = [*zip(results, map(self._again, passed.results), strict=True)]
+        if _depends(before) or _depends(after):
+            return self._as_it_is("JSR", given)
+        return "; ".join([*(f"{a} := {b}" for a, b in before), call, *(f"{a} := {b}" for a, b in after)])
+
+    def _again(self, written: str) -> str:
+        """A part of a different routine of the program."""
+        return statements(written, self._known, self._told, self._depth + 1)
 
     def back(self, given: list[str]) -> str:
         """RET: the end of a routine."""
-        return self._as_it_is("RET", given) if given else "RETURN"
+        return self._as_it_is("RET", given) if given and not self._is_passed() else "RETURN"
 
     def begin(self, given: list[str]) -> str:
         """SBR: the beginning of one."""
-        return self._as_it_is("SBR", given) if given else ""
+        return self._as_it_is("SBR", given) if given and not self._is_passed() else ""
+
+    def _is_passed(self) -> bool:
+        """Whether those who call this routine assign what it is given and gives back."""
+        return self._known.routine in self._known.passed
 
     def _as_it_is(self, name: str, given: list[str]) -> str:
         self._tell(notes.with_parameters(name))

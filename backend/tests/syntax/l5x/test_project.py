@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from scanbench.check.libraries.catalogue import used_libraries
 from scanbench.syntax.l5x.project import is_l5x, read_project
-from scanbench.syntax.l5x.statements import Known, Parameter, statements
+from scanbench.syntax.l5x.statements import Known, Parameter, Passed, passed_of, statements
 from scanbench.syntax.xml_tree import BadXml
 from tests.amounts import amount
 from tests.caseformat import MODELS
@@ -214,3 +214,51 @@ def test_what_is_no_project_is_refused_with_a_reason(damage: bytes, message: str
             read_project(damage)
     else:
         assert read_project(damage).files == {}
+
+
+def routine(name: str, text: str) -> str:
+    return f'<Routine Name="{name}" Type="ST"><STContent><Line>{text}</Line></STContent></Routine>'
+
+
+def test_routines_are_given_values_and_give_some_back() -> None:
+    tags = "".join(f'<Tag Name="{each}" TagType="Base" DataType="DINT"/>' for each in "a b x y sum less".split())
+    main = routine("M", "a := a + 5; JSR(Both, 2, a, 3, sum, less); IF sum > 100 THEN JSR(Again, 1, a + 1); END_IF;")
+    both = routine("Both", "// of two\nSBR(x, y); RET(x + y, x - y);")
+    again = routine("Again", "SBR(x); IF x = 0 THEN RET(); END_IF; b := x;")
+    made = read_project(
+        controller(
+            "",
+            f'<Program Name="P" MainRoutineName="M"><Tags>{tags}</Tags><Routines>{main}{both}{again}</Routines></Program>',
+        )
+    )
+    assert [each.notes for each in made.pous] == [[], [], []]
+    assert "x := a; y := 3; Both(); sum := x + y; less := x - y;" in made.files["P.st"]
+    plc = BothEngines(
+        {each: text for each, text in made.files.items() if each != "Configuration.st"}, MODELS["GENERIC-IEC"]
+    )
+    plc.run(20)
+    values = {name: plc.values(f"P.{name}")[0] for name in ("a", "b", "sum", "less")}
+    assert values == {"a": "100", "b": "101", "sum": "103", "less": "97"}
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("x := 1;", Passed()),
+        ("SBR(a, b); x := a; RET(x);", Passed(("a", "b"), ("x",))),
+        ("IF a THEN RET(x); END_IF; RET(x);", Passed((), ("x",))),
+        ("x := 1; SBR(a);", None),
+        ("IF a THEN RET(x); END_IF;", None),
+        ("IF a THEN RET(y); END_IF; RET(x);", None),
+        ("SBR(f(a));", None),
+    ],
+)
+def test_what_a_routine_is_given_and_gives_back(text: str, found: Passed | None) -> None:
+    assert passed_of(text) == found
+
+
+def test_values_that_depend_on_each_other_are_not_passed() -> None:
+    known = Known(routines={"FILL": "Fill"}, passed={"FILL": Passed(("a", "b"), ())})
+    told: list[str] = []
+    assert statements("JSR(Fill, 2, b, a);", known, told) == "JSR(Fill, 2, b, a);"
+    assert len(told) == 1
