@@ -76,10 +76,10 @@ test('power is drawn as the code saw it: live, halted before a block, one scan b
 
   await test.step('one scan back it is what the code saw then', async () => {
     await mika.timeline.goTo(halted);
-    await expect(page.getByText(`As the code saw it in scan ${halted - 1}`)).toBeVisible();
+    await expect(page.getByText(`As the code saw it in scan ${(halted - 1).toLocaleString('en')}`)).toBeVisible();
     await expect(rung('A part is stuck').locator('.el.on')).toHaveCount(1);
     await mika.timeline.goTo(halted - 1);
-    await expect(page.getByText(`As the code saw it in scan ${halted - 2}`)).toBeVisible();
+    await expect(page.getByText(`As the code saw it in scan ${(halted - 2).toLocaleString('en')}`)).toBeVisible();
   });
 
   await test.step('a difference that was planted at a coil is marked there', async () => {

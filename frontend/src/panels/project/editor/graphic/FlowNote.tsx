@@ -1,4 +1,5 @@
 import { useEffect, useState } from "react";
+import { grouped } from "../../../../logic/format/numbers";
 import { valueIn } from "../../../../logic/graphic/flow";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { type DrawnPart, spotsOf } from "../../../../logic/graphic/sheet";
@@ -32,7 +33,7 @@ export function FlowNote({ path, part, place, pou }: Props) {
     <>
       <span className="row tight" title={t("graphic.flow.hint")}>
         <Icon name="check" small />
-        {t("graphic.flow.scan", { scan: flow.scan })}
+        {t("graphic.flow.scan", { scan: grouped(flow.scan) })}
       </span>
       {pou && flow.calls > 1 && <Calls pou={pou.name} call={flow.call} calls={flow.calls} />}
       {part && pou && flows && <SeenHere path={path} part={part} place={place} pou={pou} flows={flows} />}
