@@ -179,6 +179,6 @@ def _head(
         last=last if stopped is None or collected.last_scan is None else collected.last_scan,
         compared=collected.compared, skipped=collected.skipped, differing=collected.differing, tool=f"Scanbench {__version__}",
         trace=subject.trace, interval_ns=begun.interval_ns, forgotten=collected.seen - len(collected.rows()),
-        limit=limit, stretches=tuple(collected.stretches[-STRETCHES:]),
+        limit=limit, full=collected.full, stretches=tuple(collected.stretches[-STRETCHES:]),
         coverage=subject.verifier.coverage, note=" ".join(filter(None, notes)),
     )  # fmt: skip

@@ -37,6 +37,11 @@ def verify_text(report: Report) -> Iterator[str]:
             yield f"scan {row.scan}: {row.note}, in the reference as well"
     if head.coverage is not None:
         yield from _coverage(head.coverage)
+    if head.full:
+        yield (
+            f"the record was full in {count(head.full, 'scan')}: what a scan used beyond {head.limit:,} uses of variables was not "
+            "compared; --limit keeps more"
+        )
     yield _summary(head)
 
 
@@ -66,7 +71,7 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
 def _summary(head: ReportHead) -> str:
     same = "no difference in what was compared" if head.skipped else "no difference"
     came = f"{count(head.differing, 'row')} differ" if head.differing else same
-    if not head.compared:
+    if not head.compared and not head.differing:
         came = "nothing was compared"
     skipped = f", {head.skipped:,} not compared ({_stretches(head)})" if head.skipped else ""
     return (

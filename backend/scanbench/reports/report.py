@@ -51,6 +51,8 @@ class ReportHead:
     """Of a trace: what was compared, and what was not."""
     note: str = ""
     """What else a reader should know: how the trace was mapped, why it ended early."""
+    full: int = 0
+    """Scans of those skipped in which uses of variables found no room in the record."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +92,8 @@ class Collected:
     skipped: int = 0
     """Scans of which nothing was compared, and the stretches of them."""
     stretches: list[tuple[int, int]] = field(default_factory=list)
+    full: int = 0
+    """Scans of those in which uses found no room in the record."""
     differing: int = 0
     """Rows."""
     first_difference: tuple[Row, Mismatch] | None = None
@@ -110,6 +114,7 @@ class Collected:
             self.compared += 1
         else:
             self.skipped += 1
+            self.full += verified.cut
             stretched(self.stretches, verified.scan, verified.scan)
         self.last_scan = verified.scan
         self.most_used = max(self.most_used, verified.used)

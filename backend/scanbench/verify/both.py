@@ -213,7 +213,7 @@ class Both:
         control, monitor, passes = self.control.side, self.monitor.side, ran.passes
         cut = traps[0] != traps[1]
         different = self.different(begin=ran.control.memory if cut else b"")
-        if different:
+        if different and not any(each.full for each in (*passes, *other)):
             _settle(passes, other, control.memory, monitor.memory, different)
         rows = []
         for number in range(max(len(passes), len(other))):

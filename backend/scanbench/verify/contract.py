@@ -25,6 +25,8 @@ different result than the live run (the run file's checkpoint differs)."""
 
 ENDED = "ended by a run-time error"
 """The beginning of the note of a row if a run-time error ended its scan."""
+FULL = "record full"
+"""The beginning of the note of a row where uses found no room."""
 DEFAULT_LIMIT = 4096
 """The default for the number of uses of variables that are recorded in a scan."""
 MAX_LIMIT = 1_000_000
@@ -165,7 +167,7 @@ class Row(Public):
     """`record full: 4,096 of 5,120 uses kept`, `not run in this scan`, `ended by a run-time error: ...`."""
 
     compared: bool = True
-    """Whether anything was: not where the program stood still, nor where a trace has no value, or is believed."""
+    """Whether it was: not where the program stood still, where a trace has no value or is believed, nor where uses found no room."""
     index: int = 0
     """Of all rows, from 0, said where they are told; those that were forgotten keep theirs."""
     next: Place | None = None
@@ -177,6 +179,11 @@ class Row(Public):
     def differs(self) -> bool:
         """Whether anything is not as it should be."""
         return bool(self.differences)
+
+    @property
+    def cut(self) -> bool:
+        """Whether it had uses that found no room, and of which nothing is known."""
+        return FULL in self.note and not self.compared
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,8 +256,13 @@ class ScanVerified:
 
     @property
     def compared(self) -> bool:
-        """Whether anything of the scan was compared: else nothing can be said of it."""
-        return any(row.compared for row in self.rows)
+        """Whether the scan was compared: else nothing can be said of it."""
+        return any(row.compared for row in self.rows) and not self.cut
+
+    @property
+    def cut(self) -> bool:
+        """Whether something of it was not compared, as it found no room in the record."""
+        return any(row.cut for row in self.rows)
 
 
 @dataclass(frozen=True, slots=True)

@@ -122,7 +122,9 @@ def row_of(
     differences += _differences(pair, names, teller, control_at, monitor_at)
     kind: RowKind = "scan" if made.pou is None else "pass"
     note = ""
-    if made.full:
+    full = made.full or (pair.monitor is not None and pair.monitor.full)
+    if full:
+        made = made if made.full or pair.monitor is None else pair.monitor
         used = f"more than {made.used:,}" if made.uncounted else f"{made.used:,}"
         note = f"record full: {len(made.log):,} of {used} uses kept"
     if pair.cut and (pair.control is None or pair.monitor is None):
@@ -131,7 +133,8 @@ def row_of(
     if made.pou is not None and made.frames:
         place = reader.places.of(made.frames[0].site, made.frames)
     return Row(
-        kind, pair.scan, pair.call, 0, path, place, outputs, read, tuple(differences[:MAX_MISMATCHES]), (), made.used, note
+        kind, pair.scan, pair.call, 0, path, place, outputs, read, tuple(differences[:MAX_MISMATCHES]), (), made.used, note,
+        compared=not full,
     )  # fmt: skip
 
 

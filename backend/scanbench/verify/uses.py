@@ -193,8 +193,9 @@ class Recorder:
                     known.append((count, new))
 
     def entered(self) -> None:
-        """Something was entered inside of the scan: what it changed that a statement had written counts as its result."""
-        if self._open is not None:
+        """Something was entered inside of the scan: what it changed that a statement had written counts as its result; not where
+        the record is full, as the last write of a variable in it is not the last one that ran."""
+        if self._open is not None and not self._open.full:
             results_are(self._open.log, self._memory)
 
     # ---- passes ---------------------------------------------------------------------------------------------------

@@ -9992,7 +9992,7 @@ export interface components {
             call: number;
             /**
              * Compared
-             * @description Whether anything was: not where the program stood still, nor where a trace has no value, or is believed.
+             * @description Whether it was: not where the program stood still, where a trace has no value or is believed, nor where uses found no room.
              */
             compared: boolean;
             /**

@@ -254,7 +254,7 @@ class VerifyRow(TypedDict):
     note: str
     """`record full: 4,096 of 5,120 uses kept`, `not run in this scan`, `ended by a run-time error: ...`."""
     compared: bool
-    """Whether anything was: not where the program stood still, nor where a trace has no value, or is believed."""
+    """Whether it was: not where the program stood still, where a trace has no value or is believed, nor where uses found no room."""
     index: int
     """Of all rows, from 0, said where they are told; those that were forgotten keep theirs."""
     next: VerifyPlace | None

@@ -145,7 +145,7 @@ export const verify = {
   "verify.norows.yet": "The first rows appear when a scan is compared.",
   "verify.norows": "There are no rows.",
   "verify.notcompared.about":
-    "The program did not run in this scan, or the log has no values to compare. This scan has no result.",
+    "The program did not run in this scan, the log has no values to compare, or the record was full: what found no room was not compared.",
   "verify.notcompared": "not compared",
   "verify.notrun.about": "The range was not executed in this scan, on either side.",
   "verify.notrun": "not executed in this scan",

@@ -143,7 +143,7 @@ export const verify: Record<keyof typeof english, string> = {
   "verify.norows.yet": "最初のスキャンが比較されると行が現れます。",
   "verify.norows": "行がありません。",
   "verify.notcompared.about":
-    "プログラムが停止していたか、ログに比較する値がありません。このスキャンについては判定しません。",
+    "プログラムが停止していたか、ログに比較する値がないか、記録がいっぱいで入らなかった使用が比較されていません。このスキャンについては判定しません。",
   "verify.notcompared": "比較なし",
   "verify.notrun.about": "このスキャンではどちらの側でも範囲は実行されませんでした。",
   "verify.notrun": "このスキャンでは実行なし",
