@@ -5,7 +5,7 @@ from types import MappingProxyType
 
 from scanbench.comm.door import Away, Door
 from scanbench.comm.slmp.devices import Device, read_device
-from scanbench.comm.slmp.frame import Broken, Cursor, End, Refused, Request, answer, failure, number
+from scanbench.comm.slmp.frame import Broken, Cursor, End, NoDigits, Refused, Request, answer, failure, number
 from scanbench.faults.clear import ClearErrors
 from scanbench.runtime.command import Command
 from scanbench.runtime.modes import SetMode
@@ -29,6 +29,8 @@ async def respond(request: Request, door: Door, read_only: bool) -> tuple[bytes,
         return answer(request, await _handled(request, door, read_only)), End.OK
     except Refused as refused:
         end = refused.code
+    except NoDigits:
+        end = End.NOT_HEXADECIMAL
     except Broken:
         end = End.LENGTH
     except Away:
@@ -245,7 +247,7 @@ NAMES: Mapping[int, str] = MappingProxyType({
 })  # fmt: skip
 OUTCOMES: Mapping[End, str] = MappingProxyType({
     End.NO_STATION: "no such station: network 0, PC 255, module I/O 03FF, station 0 is this CPU module",
-    End.NOT_HEXADECIMAL: "the digits of a device are wrong",
+    End.NOT_HEXADECIMAL: "a number has characters that are no digits",
     End.TOO_MANY: "no device, or too many",
     End.OUTSIDE: "the last device is outside of the area",
     End.COMMAND: "the module does not know this command",

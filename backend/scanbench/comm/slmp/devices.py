@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from scanbench.comm.slmp.frame import Cursor, End, Refused
+from scanbench.comm.slmp.frame import DECIMAL, HEXADECIMAL, Cursor, End, Refused
 from scanbench.plcmodel.areas import Area
 from scanbench.plcmodel.model import Model
 from scanbench.wire.memory import AreaSpan
@@ -55,11 +55,7 @@ def read_device(model: Model, cursor: Cursor) -> Device:
     if cursor.ascii:
         name = cursor.take(2).decode("latin-1").replace("*", "")
         name = _ASCII.get(name, name)
-        digits = cursor.take(6).decode("latin-1")
-        try:
-            number = int(digits, 16 if name in _HEXADECIMAL else 10)
-        except ValueError:
-            raise Refused(End.NOT_HEXADECIMAL) from None
+        number = cursor.digits(6, HEXADECIMAL if name in _HEXADECIMAL else DECIMAL)
     else:
         number = cursor.number(3)
         name = CODES.get(cursor.number(1), "")

@@ -23,6 +23,8 @@ _FIXED = 9
 """Bytes up to the length, that included."""
 _LEAST, _MOST = 6, 4096
 _ASCII_FIRST = ord("5")
+DECIMAL, HEXADECIMAL = b"0123456789", b"0123456789ABCDEFabcdef"
+"""Digits of a number in ASCII code."""
 
 
 class End(IntEnum):
@@ -50,6 +52,10 @@ class Refused(Exception):
 
 class Broken(Exception):
     """What came is no 3E frame: the connection is closed."""
+
+
+class NoDigits(Broken):
+    """A number in ASCII code has a character that is no digit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,10 +90,14 @@ class Cursor:
         """A number of so many bytes."""
         if not self.ascii:
             return int.from_bytes(self.take(size), "little")
-        try:
-            return int(self.take(2 * size).decode("ascii"), 16)
-        except ValueError:
-            raise Broken from None
+        return self.digits(2 * size, HEXADECIMAL)
+
+    def digits(self, count: int, allowed: bytes) -> int:
+        """A number in ASCII code, `DECIMAL` or `HEXADECIMAL`. `int` alone would take signs, blanks, `_` and `0x`."""
+        found = self.take(count)
+        if found.strip(allowed):
+            raise NoDigits
+        return int(found, 10 if allowed == DECIMAL else 16)
 
     def subheader(self) -> int:
         """The one number that has its high byte first, also in binary code."""
