@@ -201,12 +201,24 @@ async def on_write_registers(target: Target, data: bytes) -> bytes:
 
 
 async def on_mask_register(target: Target, data: bytes) -> bytes:
-    """22: what is there AND the first mask, OR the second one where the first is 0."""
+    """22: what is there AND the first mask, OR the second one where the first is 0.
+
+    Only the bits whose first mask is 0 are written: the others are the program's, which may change them in any scan.
+    """
     if len(data) != 6:  # three words
         raise Refused(Code.VALUE)
     first, both, either = (int.from_bytes(data[at : at + 2], "big") for at in (0, 2, 4))
-    now = int.from_bytes(await _read_words(target, "holding register", first, 1), "big")
-    await _write_words(target, first, (now & both | either & ~both & 0xFFFF).to_bytes(2, "big"))
+    (part,) = _parts(target, "holding register", first, 1)
+    (word,) = words_of(part)
+    writes = [
+        AreaWrite(part.range.area, 2 * word + bit // 8, bytes((either >> bit & 1,)), bit % 8)
+        for bit in range(16)
+        if not both >> bit & 1
+    ]
+    if writes:
+        await _enter(target, writes)
+    else:
+        await _read_words(target, "holding register", first, 1)  # whether the PLC answers
     return data
 
 
