@@ -11,6 +11,8 @@ from scanbench.faults.line_faults import NO_FAULT, LineFault
 from scanbench.public import Moment, Public
 from scanbench.runtime.clock import monotonic_ns, wall_time
 
+ELSEWHERE = "the fault of the line that was chosen here: the PLC has a different node number"
+"""Why the request of a client reaches nobody: it may well have asked right."""
 FRAMES_KEPT = 50
 CLIENTS_KEPT = 64
 _WINDOW_NS = 2_000_000_000

@@ -40,6 +40,7 @@ def test_a_short_table_with_comments_as_a_spreadsheet_writes_it() -> None:
         (["holding register,0,1,D32767,,1"], "line 2: 2 from D32767 on do not fit into D"),
         (["holding register,0,2,D0,,2"], "line 2: 3 of 2 registers a value"),
         (["holding register,0,3,D0,D9,1"], "line 2: it ends at D3, not at D9"),
+        (["coil,0,1," + "x" * 140_000], "line 2: this is no line of a table"),
         ([], "has no range"),
     ],
 )

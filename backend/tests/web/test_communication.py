@@ -16,6 +16,7 @@ from pymcprotocol.mcprotocolerror import MCProtocolError  # type: ignore[import-
 from pymodbus.client import ModbusTcpClient
 from pymodbus.exceptions import ConnectionException
 
+from scanbench.comm.desk import ELSEWHERE
 from scanbench.faults.line_faults import BreakLine, MendLine
 from scanbench.recording.blocks import read_contents
 from scanbench.recording.format import RunFile
@@ -335,6 +336,11 @@ def test_what_is_wrong_with_the_line_is_seen_by_clients(server: Server) -> None:
         socket.create_connection(("127.0.0.1", other), PATIENCE_S)
     assert not seen(server, instance, "modbus")["listening"]
     assert seen(server, instance, "modbus")["fault"] == {"kind": "refused", "late_ms": 1000}
+    break_line(server, instance, "modbus", "node")
+    with ModbusTcpClient("127.0.0.1", port=other, timeout=PATIENCE_S, retries=0) as modbus:
+        assert modbus.read_holding_registers(100, count=1, device_id=1).exception_code == 0x0B
+    (frame,) = seen(server, instance, "modbus")["frames"]
+    assert frame["outcome"] == f"0B {ELSEWHERE}", "the client asked the right unit"
     break_line(server, instance, "modbus", "none")
     with ModbusTcpClient("127.0.0.1", port=other) as modbus:
         assert modbus.read_holding_registers(100, count=1).registers == [7]

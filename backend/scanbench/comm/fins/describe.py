@@ -11,7 +11,6 @@ _SEVERAL, _TRANSFER = 0x0104, 0x0105
 _SHOWN = 4
 
 OUTCOMES = {
-    End.NO_NODE: "the PLC has a different node number",
     End.NO_UNIT: "no such unit: DA2 has to be 00, the CPU Unit",
     End.UNDEFINED: "the model does not know this command",
     End.TOO_LONG: "the request is too long",

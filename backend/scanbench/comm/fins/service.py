@@ -5,7 +5,7 @@ import logging
 from contextlib import suppress
 from typing import cast
 
-from scanbench.comm.desk import Desk, LineCut
+from scanbench.comm.desk import ELSEWHERE, Desk, LineCut
 from scanbench.comm.door import Door
 from scanbench.comm.fins import tcp_frame as tcp
 from scanbench.comm.fins.codes import End
@@ -32,10 +32,11 @@ class Answering:
         """The answer to a frame, which is noted; empty where none is wanted, or none comes. `LineCut`."""
         self.desk.before_request()
         if self.desk.elsewhere:
-            answered, end = answer(request, End.NO_NODE), End.NO_NODE
+            answered, told = answer(request, End.NO_NODE), f"{End.NO_NODE:04X} {ELSEWHERE}"
         else:
             answered, end = await respond(request, door, self.desk.read_only, self._error_bits)
-        self.desk.note(name, described(request, door.model), outcome(end), frame, answered)
+            told = outcome(end)
+        self.desk.note(name, described(request, door.model), told, frame, answered)
         return await self.desk.on_the_way(answered) if request.wants_answer else b""
 
 

@@ -51,7 +51,14 @@ def _lines(text: str) -> Iterator[tuple[int, list[str]]]:
     plain = text.removeprefix("\ufeff")
     first = next((each for each in plain.splitlines() if each.strip() and not each.startswith("#")), "")
     reader = csv.reader(plain.splitlines(), delimiter=";" if ";" in first else ",")
-    for cells in reader:
+    while True:
+        try:
+            cells = next(reader, None)
+        except csv.Error:  # a cell longer than csv takes
+            wrong = _Wrong("this is no line of a table")
+            raise Refused(f"{MAP_FILE}, line {reader.line_num}: {wrong}") from None
+        if cells is None:
+            return
         told = [each.strip() for each in cells]
         if any(told) and not told[0].startswith("#"):
             yield reader.line_num, told

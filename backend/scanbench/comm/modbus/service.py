@@ -2,7 +2,7 @@
 
 from collections.abc import Awaitable, Callable, Iterator
 
-from scanbench.comm.desk import Desk
+from scanbench.comm.desk import ELSEWHERE, Desk
 from scanbench.comm.door import Door
 from scanbench.comm.modbus.frame import Broken, Code, Request, Stream, failure
 from scanbench.comm.modbus.functions import Target, described, outcome, respond
@@ -18,12 +18,12 @@ def modbus_server(desk: Desk, table: Callable[[], tuple[Mapped, ...]]) -> Listen
 
         async def answer(request: Request, frame: bytes) -> bytes:
             desk.before_request()
-            code: Code | None
             if desk.elsewhere:
-                answered, code = failure(request, Code.NO_TARGET), Code.NO_TARGET
+                answered, told = failure(request, Code.NO_TARGET), f"{Code.NO_TARGET:02X} {ELSEWHERE}"
             else:
                 answered, code = await respond(request, Target(door, table()), desk.read_only)
-            desk.note(name, described(request), outcome(code), frame, answered)
+                told = outcome(code)
+            desk.note(name, described(request), told, frame, answered)
             return answered
 
         def answers(data: bytes) -> Iterator[Awaitable[bytes]]:

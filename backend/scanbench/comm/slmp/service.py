@@ -2,7 +2,7 @@
 
 from collections.abc import Awaitable, Iterator
 
-from scanbench.comm.desk import Desk
+from scanbench.comm.desk import ELSEWHERE, Desk
 from scanbench.comm.door import Door
 from scanbench.comm.slmp.commands import described, outcome, respond
 from scanbench.comm.slmp.frame import Broken, End, Request, Stream, failure
@@ -18,10 +18,11 @@ def slmp_server(desk: Desk) -> Listener:
         async def answer(request: Request, frame: bytes) -> bytes:
             desk.before_request()
             if desk.elsewhere:
-                answered, end = failure(request, End.NO_STATION), End.NO_STATION
+                answered, told = failure(request, End.NO_STATION), f"{End.NO_STATION:04X} {ELSEWHERE}"
             else:
                 answered, end = await respond(request, door, desk.read_only)
-            desk.note(name, described(request, door), outcome(end), frame, answered)
+                told = outcome(end)
+            desk.note(name, described(request, door), told, frame, answered)
             return answered
 
         def answers(data: bytes) -> Iterator[Awaitable[bytes]]:
