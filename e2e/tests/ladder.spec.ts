@@ -48,6 +48,19 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(sheet.getByRole('option', { name: 'Coil on' })).toBeVisible();
   });
 
+  await test.step('a closed contact is still a closed one after it is given its name', async () => {
+    await sheet.getByRole('option', { name: 'Contact go' }).click();
+    await keyboard.press('!');
+    await expect(sheet.getByRole('option', { name: 'Closed contact go' })).toBeVisible();
+    await keyboard.press('F2');
+    await keyboard.type('on');
+    await keyboard.press('Enter');
+    await expect(sheet.getByRole('option', { name: 'Closed contact on' })).toBeVisible();
+    await keyboard.press('Control+Z');
+    await keyboard.press('!');
+    await expect(sheet.getByRole('option', { name: 'Contact go', exact: true })).toBeVisible();
+  });
+
   await test.step('it is built, and power flows where its contacts are closed', async () => {
     await mika.editor('Latch.st').build();
     await mika.watch.set('start', 'TRUE');

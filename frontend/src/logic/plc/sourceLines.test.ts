@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Pou } from "../../wire/types";
-import { lineIn, pouAt } from "./sourceLines";
+import { isBuilt, lineIn, pouAt } from "./sourceLines";
 
 const pous: Pou[] = [
   { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
@@ -38,5 +38,17 @@ describe("the line in a different version of the text", () => {
     expect(lineIn(before, "a\nd", 2)).toBe(1);
     expect(lineIn(before, "a\nd", 4)).toBe(2);
     expect(lineIn(before, "", 3)).toBe(1);
+  });
+});
+
+describe("lines of the built text", () => {
+  const rung = "RUNG\n  [run] (motor)\nEND_RUNG";
+  const built = `PROGRAM Main\n${rung}\nEND_PROGRAM\n`;
+  it("are those that moved, too, and not equal ones that nobody has built", () => {
+    const twice = `PROGRAM Main\n${rung}\n${rung}\nEND_PROGRAM\n`;
+    expect(isBuilt(twice, built, 2, rung)).toBe(true);
+    expect(isBuilt(twice, built, 5, rung)).toBe(false);
+    expect(isBuilt(built.replace("RUNG", "RUNG // new\n\nRUNG"), built, 4, rung)).toBe(true);
+    expect(isBuilt(built.replace("[run]", "[stop]"), built, 2, rung.replace("[run]", "[stop]"))).toBe(false);
   });
 });

@@ -31,3 +31,13 @@ export function lineIn(from: string, to: string, line: number): number {
   if (line > a.length - tail) return line - a.length + b.length;
   return Math.max(1, Math.min(line, b.length - tail));
 }
+
+/** Whether these lines of the shown text, from `line` on, are lines of the built one, and not only equal to some others of it. */
+export function isBuilt(shown: string, built: string, line: number, text: string): boolean {
+  if (shown === built) return true;
+  const from = lineIn(shown, built, line);
+  if (lineIn(built, shown, from) !== line) return false;
+  const lines = text.split("\n");
+  const found = built.split("\n").slice(from - 1, from - 1 + lines.length);
+  return found.join("\n").includes(text);
+}

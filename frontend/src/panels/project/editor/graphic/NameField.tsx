@@ -20,8 +20,8 @@ interface Props {
 
 const WORD = /[#\p{L}_][\p{L}\p{N}_.]*$/u;
 const MOST = 60;
-/** What a field shows before a name is there: nothing, or the mode of a contact or coil. */
-const MODE = /^(?:\/|[SRPN] )?$/;
+/** What is before the name of a contact or coil: it is closed, of an edge, set or reset. */
+const MODE = /^(?:\/|[SRPN] )?/;
 
 /** The name of an element, or the text of a box, where it is drawn. Enter takes it, Tab goes on to the next one, Escape leaves. */
 export function NameField({ naming, spot: { x, y, up = 10, width }, label, names, onTake, onLeave }: Props) {
@@ -43,9 +43,10 @@ export function NameField({ naming, spot: { x, y, up = 10, width }, label, names
   // biome-ignore lint/correctness/useExhaustiveDependencies: once, when it opens
   useEffect(() => {
     input.current?.focus();
-    const fresh = MODE.test(naming.value);
-    // The name comes after the mode.
-    if (!fresh) input.current?.select();
+    const mode = naming.offers === "bool" ? (MODE.exec(naming.value)?.[0].length ?? 0) : 0;
+    const fresh = mode === naming.value.length;
+    // A new name leaves the mode as it is.
+    input.current?.setSelectionRange(mode, naming.value.length);
     all.current = names();
     // Who has typed nothing yet sees what there is.
     if (fresh && naming.offers !== "none")

@@ -2,6 +2,7 @@
 
 import { type PartFlow, partFlow } from "../../../../logic/graphic/flow";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
+import { isBuilt } from "../../../../logic/plc/sourceLines";
 import { lookAtFlow, useFlow } from "../../../../store/debug/flow";
 import { useBench } from "../../../../store/plc/bench";
 import { usePlc } from "../../../../store/plc/plc";
@@ -14,7 +15,7 @@ export function flowOfPart(part: DrawnPart, path: string, flows: Flows | null): 
   if (!flows || flows.file !== path) return null;
   const current = showsRan(path) || flows.program_version === useBench.getState().project?.version;
   const { built, text } = shownText(path);
-  if (!current || !built.includes(part.found.text)) return null;
+  if (!current || !isBuilt(text, built, part.found.line, part.found.text)) return null;
   const { first, last } = linesOf(part, path);
   if (first < flows.first || last > flows.last) return null; // It has just come into sight.
   return partFlow(part, flows.flows, built === text ? (line) => line : (line) => shownLine(path, line));
