@@ -71,8 +71,10 @@ class Chart:
             f"TRANSITION {said}FROM {listed(sources)} TO {listed(targets)} := {self._condition(each)}; END_TRANSITION\n"
         )
 
-    def _before(self, each: Thing) -> list[str]:
-        """The steps that lead to it."""
+    def _before(self, each: Thing, way: tuple[Thing, ...] = ()) -> list[str]:
+        """The steps that lead to it. `way`: from the transition to it."""
+        if self._is_circle(each, way):
+            return []
         found: list[str] = []
         for end in (end for pin in each.inputs for end, _ in pin.ends):
             source = self._things.get(end)
@@ -83,11 +85,13 @@ class Chart:
                 "simultaneousConvergence",
                 "simultaneousDivergence",
             ):
-                found += self._before(source)
+                found += self._before(source, (*way, each))
         return list(dict.fromkeys(found))
 
-    def _after(self, each: Thing) -> list[str]:
+    def _after(self, each: Thing, way: tuple[Thing, ...] = ()) -> list[str]:
         """The steps that it leads to."""
+        if self._is_circle(each, way):
+            return []
         found: list[str] = []
         for other in self._things.values():
             if not any(end == each.id for pin in other.inputs for end, _ in pin.ends):
@@ -95,8 +99,16 @@ class Chart:
             if other.kind in ("step", "jumpStep"):
                 found.append(other.name)
             elif other.kind in ("selectionConvergence", "simultaneousDivergence", "simultaneousConvergence"):
-                found += self._after(other)
+                found += self._after(other, (*way, each))
         return list(dict.fromkeys(found))
+
+    def _is_circle(self, each: Thing, way: tuple[Thing, ...]) -> bool:
+        if each not in way:
+            return False
+        said = notes.circle(way[0].line)
+        if said not in self.notes:
+            self.notes.append(said)
+        return True
 
     def _condition(self, each: Thing) -> str:
         node = child(self._nodes[each.id], "condition")

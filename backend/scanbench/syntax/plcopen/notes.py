@@ -21,6 +21,14 @@ def no_transition(line: int) -> str:
     return f"the transition of line {line} is left out: it does not lead from a step to a step"
 
 
+def circle(line: int) -> str:
+    return f"from the transition of line {line} lines lead in a circle without a step; they are followed once"
+
+
+def same_name(path: str) -> str:
+    return f"something of this name comes before it: this is in {path}"
+
+
 def drawn_condition(line: int) -> str:
     return f"the condition of the transition of line {line} is drawn; it is FALSE until it is written"
 

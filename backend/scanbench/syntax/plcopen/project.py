@@ -28,6 +28,7 @@ from scanbench.syntax.xml_tree import Element, attribute, child, children, kind,
 WORDS = {"functionBlock": "FUNCTION_BLOCK", "function": "FUNCTION", "program": "PROGRAM"}
 DIALECTS: Mapping[str, DialectName] = {"codesys": "codesys", "sysmac": "omron"}
 """By the product that says that it wrote the file."""
+CONFIGURATION = "Configuration.st"
 QUOTE = "'"
 LANGUAGES = ("ST", "IL", "LD", "FBD", "SFC")
 
@@ -45,7 +46,10 @@ def read_project(data: bytes) -> Project:
         space = attribute(each, "namespace")
         read = Read(name, line_of(each), "" if body is None else kind(body))
         made.pous.append(read)
-        made.files[_file(space, name)] = _in_namespace(space, _pou(each, read))
+        path = _free(_file(space, name), made.files)
+        if path != _file(space, name):
+            read.notes.append(notes.same_name(path))
+        made.files[path] = _in_namespace(space, _pou(each, read))
     for each in children(child(root, "types", "pous"), "unread"):
         said = notes.not_read(attribute(each, "name"), line_of(each))
         made.pous.append(Read(attribute(each, "name"), line_of(each), "", [said], refused=True))
@@ -53,7 +57,7 @@ def read_project(data: bytes) -> Project:
         _configuration(each) for each in children(child(root, "instances", "configurations"), "configuration")
     )
     if configurations:
-        made.files["Configuration.st"] = configurations
+        made.files[CONFIGURATION] = configurations
     for each in own_data(root, "globalVars"):
         name = attribute(each, "name") or "GVL"
         made.files[f"{name}.TcGVL"] = _global_list(name, each)
@@ -66,6 +70,13 @@ def read_project(data: bytes) -> Project:
 
 def _file(space: str, name: str) -> str:
     return f"{space}.{name}.st" if space else f"{name}.st"
+
+
+def _free(path: str, files: Mapping[str, str]) -> str:
+    """The name of a file that is not there yet, whatever the case of its letters."""
+    taken = {each.upper() for each in (*files, CONFIGURATION)}
+    names = (path if number == 1 else f"{path.removesuffix('.st')}_{number}.st" for number in count(1))
+    return next(each for each in names if each.upper() not in taken)
 
 
 def _in_namespace(space: str, text: str) -> str:

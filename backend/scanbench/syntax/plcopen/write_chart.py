@@ -21,6 +21,10 @@ class _Writer:
         self._into: dict[str, list[End]] = {name: [] for name in self._order}
 
     def write(self) -> None:
+        named = (one.name for each in self._chart.transitions for one in (*each.sources, *each.targets))
+        missing = next((name for name in named if name.upper() not in self._order), None)
+        if missing is not None:
+            raise CannotWrite(f"a transition of the step {missing}, which is not there")
         nodes = {}
         for step in self._chart.steps:
             name = step.name.name.upper()

@@ -83,6 +83,8 @@ class DiagramWriter:
             inner = self._input(name, value.operand)
             return name, inner[1], "", not inner[3]
         if isinstance(value, tree.Name) and _is_wire(value):
+            if value.name.upper() not in self._wires:
+                raise CannotWrite(f"the wire {value.name}, which comes from nothing")
             end, negated = self._wires[value.name.upper()]
             return name, [end], "", negated
         if uses_wires(value):

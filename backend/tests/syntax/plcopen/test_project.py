@@ -12,6 +12,14 @@ from tests.caseformat import MODELS
 from tests.syntax.both_engines import BothEngines
 
 LINE = (Path(__file__).parent / "line.xml").read_bytes()
+CIRCLE = b"""<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous><pou name="Main" pouType="program"><interface/><body><SFC>
+<step localId="1" name="A" initialStep="true"><connectionPointIn><connection refLocalId="4"/></connectionPointIn></step>
+
+<transition localId="2"><connectionPointIn><connection refLocalId="1"/></connectionPointIn><condition><inline><ST><p>TRUE</p></ST></inline></condition></transition>
+<selectionConvergence localId="3"><connectionPointIn><connection refLocalId="2"/><connection refLocalId="4"/></connectionPointIn></selectionConvergence>
+<selectionConvergence localId="4"><connectionPointIn><connection refLocalId="3"/></connectionPointIn></selectionConvergence>
+</SFC></body></pou></pous></types></project>
+"""
 LD = LINE[LINE.index(b"<body><LD>") : LINE.index(b"</LD></body>")]
 
 
@@ -106,3 +114,20 @@ def test_no_part_that_is_missing_breaks_it(cut: int) -> None:
     except BadXml:
         return
     check_sources(made.files, MODELS["GENERIC-IEC"])
+
+
+def test_two_pous_of_one_name_are_both_kept() -> None:
+    second = b'<pou name="MAIN" pouType="program"><interface/><body><ST><p>;</p></ST></body></pou></pous>'
+    made = read_project(LINE.replace(b"</pous>", second))
+    assert list(made.files) == ["Types.st", "Latch.st", "Ramp.st", "Main.st", "MAIN_2.st", "Configuration.st"]
+    assert "TRANSITION" in made.files["Main.st"]
+    assert made.pous[-1].notes == ["something of this name comes before it: this is in MAIN_2.st"]
+    assert any("MAIN" in each.message for each in check_sources(made.files, MODELS["GENERIC-IEC"]).problems)
+
+
+def test_lines_of_a_chart_that_lead_in_a_circle_are_followed_once() -> None:
+    made = read_project(CIRCLE)
+    assert "TRANSITION FROM A TO A := TRUE; END_TRANSITION\n" in made.files["Main.st"]
+    assert [each.notes for each in made.pous] == [
+        ["from the transition of line 4 lines lead in a circle without a step; they are followed once"]
+    ]

@@ -151,3 +151,18 @@ def test_random_charts_go_the_same_way(made: tuple[test_random_charts.Machine, l
     written = [{name: str(bool(value)).upper() for name, value in each.items()} for each in sets]
     steps = (f"S{number}.{part}" for number in range(len(machine.steps)) for part in "XT")
     same(test_random_charts.text_of(machine), written, [*test_random_charts.OUTPUTS, *steps])
+
+
+@pytest.mark.parametrize(
+    ("body", "why"),
+    [
+        ("INITIAL_STEP A:\nEND_STEP\nTRANSITION FROM B TO A := x; END_TRANSITION\n", "a transition of the step B"),
+        ("INITIAL_STEP A:\nEND_STEP\nTRANSITION FROM A TO B := x; END_TRANSITION\n", "a transition of the step B"),
+        ("NETWORK\n    x := #Q;\nEND_NETWORK\n", "the wire #Q"),
+    ],
+)
+@pytest.mark.parametrize("form", Form)
+def test_what_is_half_written_is_left_out_and_told(body: str, why: str, form: Form) -> None:
+    source = f"PROGRAM Main\nVAR x : BOOL; END_VAR\n{body}END_PROGRAM\n"
+    (said,) = write_project("Half", {"main.st": source}, form).left_out
+    assert said.startswith(f"Main: {why}, which ")
