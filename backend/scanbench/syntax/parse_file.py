@@ -27,9 +27,12 @@ STIMULUS_ENDING = ".csv"
 
 def is_program_file(path: str) -> bool:
     """Whether a file of this path is part of a program, or in `plant/` and a stimulus."""
-    folder = path.replace("\\", "/").rpartition("/")[0].lower()
-    in_plant = folder == "plant" or folder.endswith("/plant") or folder.startswith("plant/") or "/plant/" in folder
-    return path.lower().endswith(ENDINGS) or (in_plant and is_stimulus(path))
+    return path.lower().endswith(ENDINGS) or (is_in_plant(path) and is_stimulus(path))
+
+
+def is_in_plant(path: str) -> bool:
+    """Whether a file of this path drives the inputs, and is no part of the program."""
+    return "plant" in path.replace("\\", "/").lower().split("/")[:-1]
 
 
 def is_stimulus(name: str) -> bool:

@@ -12,7 +12,7 @@ from scanbench.syntax import tree
 from scanbench.syntax.chart import Chart
 from scanbench.syntax.lexer import tokenize
 from scanbench.syntax.networks import NetworkBody, Rung
-from scanbench.syntax.parse_file import is_program_file, parse_file
+from scanbench.syntax.parse_file import is_in_plant, is_program_file, parse_file
 from scanbench.syntax.parse_type import POU_ENDS
 from scanbench.syntax.plcopen.write_chart import write_chart
 from scanbench.syntax.plcopen.write_declarations import write_initial, write_sections, write_type
@@ -58,7 +58,7 @@ def write_project(name: str, files: Mapping[str, str], form: Form = Form.TC6) ->
     left: list[str] = []
     read: list[tree.File] = []
     for path, content in files.items():
-        if not is_program_file(path) or path.startswith("plant/"):
+        if not is_program_file(path) or is_in_plant(path):
             continue
         file, problems = parse_file(Source(path, content))
         if problems:

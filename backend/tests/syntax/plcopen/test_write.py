@@ -166,3 +166,9 @@ def test_what_is_half_written_is_left_out_and_told(body: str, why: str, form: Fo
     source = f"PROGRAM Main\nVAR x : BOOL; END_VAR\n{body}END_PROGRAM\n"
     (said,) = write_project("Half", {"main.st": source}, form).left_out
     assert said.startswith(f"Main: {why}, which ")
+
+
+@pytest.mark.parametrize("path", ["plant/Machine.st", "line/Plant/Machine.st", "line\\plant\\tank\\Machine.st"])
+def test_what_drives_the_inputs_is_no_part_of_the_program(path: str) -> None:
+    files = {"line/Main.st": "PROGRAM Main\nEND_PROGRAM\n", path: "PROGRAM Machine\nEND_PROGRAM\n"}
+    assert "Machine" not in write_project("Line", files).data.decode()
