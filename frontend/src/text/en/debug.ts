@@ -4,7 +4,7 @@ export const debug = {
   "console.effects":
     "Enter evaluates the expression at the current statement. Expressions change nothing, unless they begin with !, for example ! count := 0",
   "console.entry": "Evaluate an expression",
-  "console.hint": "Expression, e.g. Main.count + 1",
+  "console.hint": "Expression, e.g. Main.count + 1, or ! Main.count := 0",
   "console.none": "Type an expression to see its value here. Messages of logpoints appear here, too.",
   "console.offers": "What may follow",
   "coverage.export": "Export LCOV",

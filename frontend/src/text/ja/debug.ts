@@ -6,7 +6,7 @@ export const debug: Record<keyof typeof english, string> = {
   "console.effects":
     "Enter でプログラムの停止位置で評価します。式は何も変更しません。! で始めると変更できます: ! count := 0",
   "console.entry": "式を評価",
-  "console.hint": "式 (例: Main.count + 1)",
+  "console.hint": "式 (例: Main.count + 1、! Main.count := 0)",
   "console.none": "式を入力すると値がここに表示されます。ログポイントのメッセージもここに出ます。",
   "console.offers": "入力候補",
   "coverage.export": "LCOV を書き出す",
