@@ -3,6 +3,7 @@
 import { create } from "zustand";
 import { messageOf } from "../../logic/format/messageOf";
 import { skeleton } from "../../logic/project/skeleton";
+import { t } from "../../text";
 import { rest } from "../../wire/rest";
 import type { ExchangeFile, ExchangeForm, Project, ProjectArchive, ProjectTemplate } from "../../wire/types";
 import { saveFile } from "../page/download";
@@ -31,6 +32,8 @@ export async function createProject(
   else {
     await refreshApp();
     await chooseProject(project);
+    useDocuments.setState({ trouble: t("newproject.noplc", { name: instanceName }) });
+    showPanel("problems");
   }
 }
 

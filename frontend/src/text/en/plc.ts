@@ -38,6 +38,8 @@ export const plc = {
   "newproject.loading": "Loading the models",
   "newproject.model": "PLC model",
   "newproject.name": "Name",
+  "newproject.noplc":
+    "{name} was not made, as the program has errors. When they are corrected and the program is built, choose New instance at the top left.",
   "newproject.taken": "An instance named {name} already exists. Choose another name.",
   "newproject.title": "New project",
   "people.here": "Connected users",

@@ -40,6 +40,8 @@ export const plc: Record<keyof typeof english, string> = {
   "newproject.loading": "機種を読み込んでいます",
   "newproject.model": "PLC 機種",
   "newproject.name": "名前",
+  "newproject.noplc":
+    "プログラムにエラーがあるため、{name} は作成されませんでした。エラーを直してビルドした後、左上の「新しいインスタンス」を選んでください。",
   "newproject.taken": "インスタンス {name} は既にあります。別の名前にしてください。",
   "newproject.title": "新しいプロジェクト",
   "people.here": "接続中の人",

@@ -47,9 +47,11 @@ export function End({ run }: { run: RunOnAxis | null }) {
             icon={shown.icon}
             word={run?.past || !online ? shown.word : t("timeline.live")}
           />
-          <span className="hint cut" title={run?.past ? t("timeline.return") : undefined}>
-            {run?.past ? "Shift+Esc" : t("timeline.hint")}
-          </span>
+          {run && (
+            <span className="hint cut" title={run.past ? t("timeline.return") : undefined}>
+              {run.past ? "Shift+Esc" : t("timeline.hint")}
+            </span>
+          )}
         </span>
       )}
       {run && <GoTo run={run} locked={locked} bad={bad} onBad={setBad} />}
