@@ -107,8 +107,14 @@ def choose(error: ErrorEntry, given: Mapping[str, str], layout: Layout) -> Chose
 def code_text_with(error: ErrorEntry, given: Mapping[str, str]) -> str:
     """The code of an error with these details, as the vendor writes it. Without details, and with ones that do not fit, it is the
     kind's own."""
+    return code_text_raised(error, given) if given else error.code_text
+
+
+def code_text_raised(error: ErrorEntry, given: Mapping[str, str]) -> str:
+    """The code that an error has when it is raised with these details: those that are not given have their defaults, so that a FAL
+    of which nothing is said is number 1. With details that do not fit it is the kind's own."""
     code = error.code
-    for detail in error.details if given else ():
+    for detail in error.details:
         text = given.get(detail.name)
         word = None if text is None else _whole_word(detail, text)
         if word is not None:

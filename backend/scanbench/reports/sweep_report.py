@@ -7,7 +7,7 @@ from typing import cast, get_args
 
 from lxml import etree
 
-from scanbench.faults.details import code_text_with
+from scanbench.faults.details import code_text_raised
 from scanbench.faults.reaction.compare import Outcome, SweepChange, judged
 from scanbench.faults.reaction.reaction import OutputRestart, RequiredResult, Verdict
 from scanbench.faults.reaction.required import REQUIRED, Required
@@ -61,7 +61,7 @@ class SweepResult:
     def code(self, error: str) -> str:
         """The code of an error, with the details that it was raised with."""
         ref = named_reference(error)
-        return code_text_with(next(each for each in self.errors if each.id == ref.id), dict(ref.details))
+        return code_text_raised(next(each for each in self.errors if each.id == ref.id), dict(ref.details))
 
     def counts(self) -> dict[str, int]:
         """How often there was which verdict, in words."""

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import get_args
 
-from scanbench.faults.details import code_text_with
+from scanbench.faults.details import code_text_raised
 from scanbench.faults.history import key_for
 from scanbench.faults.reaction.compare import Outcome, outcome
 from scanbench.faults.reaction.reaction import FINDINGS, WORST_FIRST, Verdict
@@ -67,7 +67,7 @@ def rows_planned(model: Model, known: Sequence[SweptError], planned: Sequence[st
 def _code(model: Model, text: str) -> str:
     ref = named_reference(text)
     error = model.error(ref.id)
-    return "" if error is None else code_text_with(error, dict(ref.details))
+    return "" if error is None else code_text_raised(error, dict(ref.details))
 
 
 def _named(name: str, details: str) -> str:

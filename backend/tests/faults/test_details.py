@@ -6,11 +6,12 @@ from shutil import copy
 
 import pytest
 
-from scanbench.faults.details import Chosen, choose
+from scanbench.faults.details import Chosen, choose, code_text_raised, code_text_with
 from scanbench.plcmodel.load import load_file, model_directory
 from scanbench.plcmodel.model import ErrorEntry, Model
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Refusal
+from tests.runtime.bench import model, program
 
 BODY = """
 <Error Id="byte" ErrorCode="0100" ErrorFlag="S1.00" Severity="fatal" Priority="1"><Name>n</Name><ErrorDetailPattern>
@@ -208,3 +209,16 @@ def test_bits_of_a_list_have_one_notation(kinds: Model, text: str, written: str)
     assert isinstance(found, Chosen)
     assert str(found) == f"part={written}, far=a"
     assert chosen(kinds, "parts", dict(found.details)) == found
+
+
+def test_the_code_of_what_is_raised_has_the_defaults() -> None:
+    fal = model().error("fal")
+    assert fal is not None
+    assert (code_text_with(fal, {}), code_text_raised(fal, {}), code_text_raised(fal, {"number": "5"})) == (
+        "4100", "4101", "4105",
+    )  # fmt: skip
+    layout = program("PROGRAM Main END_PROGRAM").layout
+    for error in model().errors():
+        found = choose(error, {}, layout)
+        assert isinstance(found, Chosen)
+        assert code_text_raised(error, {}) == found.code_text, error.id
