@@ -59,6 +59,8 @@ class Allowance(Enum):
     INSTRUCTION_CALLS = auto()
     INSTRUCTION_TYPES = auto()
     SIGNED_TEXTS = auto()
+    TRUE_TEXTS = auto()
+    TEXT_NUMBERS = auto()
     BLOCK_MOVES = auto()
     VARIANTS = auto()
     INTEGER_SHIFTS = auto()
@@ -184,6 +186,16 @@ RULES: dict[Allowance, Rule] = {
         "an instruction whose type is found by those of its arguments: NORM_X, SCALE_X, SWAP",
         "a function has the type that it is declared with",
         "`NORM_X_REAL(MIN := low, VALUE := x, MAX := high)`",
+    ),
+    Allowance.TRUE_TEXTS: Rule(
+        "every REAL but 0.0 is TRUE as a BOOL, and of all texts 'TRUE' and 'true' alone",
+        "a REAL is rounded before it becomes a BOOL, and the text '1' is TRUE as well",
+        "`r <> 0.0`",
+    ),
+    Allowance.TEXT_NUMBERS: Rule(
+        "a text with a base or with `_` as an integer, '16#1F' or '1_000', of which the low bits are taken",
+        "a text is read as decimal digits, and what is beyond the limits is the nearest limit",
+        "`STRING_TO_INT('31')`",
     ),
     Allowance.SIGNED_TEXTS: Rule(
         "`INT_TO_STRING` and the like begin with the sign, also with `+`",

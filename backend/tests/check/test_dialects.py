@@ -229,7 +229,7 @@ APART = {
     Allowance.WIDE_RESULTS, Allowance.LIFE, Allowance.KEPT_VARIABLES, Allowance.BLOCK_TEMPORARIES, Allowance.VENDOR_TYPES,
     Allowance.FINAL_INTERFACES, Allowance.DINT_RESULTS, Allowance.LOCAL_ADDRESSES, Allowance.DIRECT_REFERENCES,
     Allowance.WRAPPED_REALS, Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_TYPES,
-    Allowance.SIGNED_TEXTS, Allowance.BLOCK_MOVES, Allowance.VARIANTS,
+    Allowance.SIGNED_TEXTS, Allowance.TRUE_TEXTS, Allowance.TEXT_NUMBERS, Allowance.BLOCK_MOVES, Allowance.VARIANTS,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
     Allowance.GENERIC_CONSTANTS,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS,

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from scanbench.check.body.allowed import may
 from scanbench.check.body.arguments import Invocation, invoke
 from scanbench.check.body.context import Body
 from scanbench.check.body.generic import instantiated
@@ -14,12 +15,18 @@ from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Method
 from scanbench.check.declare.names import Names
+from scanbench.check.dialect import Allowance
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.uses import Symbol
 from scanbench.program.origin import in_library
 from scanbench.program.program import Expr, Place, Pou
 from scanbench.program.types import ELEMENTARY, Record, Reference, Type
 from scanbench.syntax import tree
+
+_TEXTS = {
+    "STRING_TO_BOOL": Allowance.TRUE_TEXTS, "STRING_TO_ULINT": Allowance.TEXT_NUMBERS,
+    "STRING_TO_LWORD": Allowance.TEXT_NUMBERS,
+}  # fmt: skip
 
 
 def called(body: Body, callee: tree.Expression) -> Pou | None:
@@ -48,11 +55,19 @@ def callee_of(
     found = body.pous.functions.get(key) if key is not None else None
     if in_library(callee.span) and (found is None or not found.inline):
         return None  # the library means its own, which is no POU
+    if found is not None and in_library(found.span) and _is_vendors(body, found.name):
+        return None  # a conversion
     if key is not None:
         body.report.use(callee.span, name, Symbol("pou", "", key.partition("(")[0]))
     if key in body.pous.generic:
         return instantiated(body, body.pous.generic[key], node or tree.Call(callee, (), callee.span))
     return found
+
+
+def _is_vendors(body: Body, name: str) -> bool:
+    """Whether the dialect converts texts otherwise than this function of the library."""
+    allowance = _TEXTS.get(name.upper())
+    return allowance is not None and may(body, allowance)
 
 
 def hides(body: Body, path: str) -> bool:

@@ -68,6 +68,21 @@ class Conversion:
     way: str = "plain"
 
 
+@dataclass(frozen=True, slots=True)
+class Vendor:
+    """What a dialect has otherwise than the standard."""
+
+    by_number: bool = False
+    """REAL and DWORD, LREAL and LWORD convert by their number."""
+    true_texts: bool = False
+    """Every REAL but 0.0 is TRUE, and of all texts 'TRUE' and 'true'."""
+    text_numbers: bool = False
+    """Texts have a base and `_`, and lose their upper bits."""
+
+
+STANDARD = Vendor()
+
+
 def parse_name(name: str, find: Callable[[str], Type | None] = lambda name: None) -> Conversion | None:
     """The conversion that an upper-case name means, or None. `find` knows the user's types."""
 
@@ -94,17 +109,16 @@ def parse_name(name: str, find: Callable[[str], Type | None] = lambda name: None
 
 
 def convert(
-    expr: Expr, target: Type, way: str, library: Library, raw: bool = False, by_number: bool = False
+    expr: Expr, target: Type, way: str, library: Library, raw: bool = False, vendor: Vendor = STANDARD
 ) -> Expr | str:
     """The conversion of a value, or the text to add to the message `There is no conversion X_TO_Y`.
 
-    `raw`: in the library itself, where a number of nanoseconds becomes a long time as it is. `by_number`: REAL and DWORD, LREAL and LWORD convert by
-    their number, as some vendors have it.
+    `raw`: in the library itself, where a number of nanoseconds becomes a long time as it is. `vendor`: what the dialect has otherwise.
     """
     if isinstance(expr.type, Enumeration):
         expr = fold.convert(ELEMENTARY[expr.type.base_name], expr)
     if isinstance(target, Enumeration | Subrange):
-        made = convert(expr, ELEMENTARY[target.base_name], way, library, by_number=by_number)
+        made = convert(expr, ELEMENTARY[target.base_name], way, library, vendor=vendor)
         return fold.convert(target, made) if isinstance(target, Enumeration) and not isinstance(made, str) else made
     source = expr.type
     if not isinstance(source, Elementary | StringType) or not isinstance(target, Elementary | StringType):
@@ -115,7 +129,7 @@ def convert(
         return _from_bcd(expr, source, target, library) if way == "from_bcd" else _to_bcd(expr, source, target, library)
     if raw and isinstance(target, Elementary) and _is_raw(source, target):
         return fold.convert(target, expr)
-    made_or_none = _Converter(library, by_number).convert(expr, target)
+    made_or_none = _Converter(library, vendor).convert(expr, target)
     return ": it has no meaning." if made_or_none is None else made_or_none
 
 
@@ -162,8 +176,8 @@ def _to_bcd(expr: Expr, source: Type, target: Type, library: Library) -> Expr | 
 class _Converter:
     """Conversions between elementary types and strings; each gives None where there is none."""
 
-    def __init__(self, library: Library, by_number: bool = False) -> None:
-        self.library, self._by_number = library, by_number
+    def __init__(self, library: Library, vendor: Vendor) -> None:
+        self.library, self._vendor = library, vendor
 
     def convert(self, expr: Expr, target: Elementary | StringType) -> Expr | None:
         source = expr.type
@@ -176,12 +190,14 @@ class _Converter:
             return expr
         if Kind.REF in (source.kind, target.kind):
             return None
-        if (source.name, target.name) in BITCASTS and not self._by_number:
+        if (source.name, target.name) in BITCASTS and not self._vendor.by_number:
             return Intrinsic("BITCAST", target, (expr,))
         if source.kind in TIMES or target.kind in TIMES:
             return self._time(expr, source, target)
         if Kind.CHAR in (source.kind, target.kind):
             return self._char(expr, source, target)
+        if source.kind is Kind.REAL and target.kind is Kind.BOOL and self._vendor.true_texts:
+            return Compare("ne", BOOL, expr, Const(source, 0.0))
         if {source.kind, target.kind} in ({Kind.BITS, Kind.REAL}, {Kind.BOOL, Kind.REAL}):
             whole = ULINT if source.kind is not Kind.REAL else UNSIGNED[target.size]
             return fold.convert(target, fold.convert(whole, expr))
@@ -266,6 +282,11 @@ class _Converter:
             return None if text is None else self.convert(text, target)
         if target.kind is Kind.REAL:
             return fold.convert(target, Intrinsic("STR_TO_REAL", LREAL, (expr,)))
+        if target.kind in WHOLE and self._vendor.text_numbers:
+            made = self.library("__WHOLE_OF", expr)
+            return None if made is None else fold.convert(target, made)
+        if target.kind is Kind.BOOL and self._vendor.true_texts:
+            return self.library("__IS_TRUE", expr)
         if target.kind in WHOLE and target.size == 8 and not target.signed:
             made = self.library("STRING_TO_ULINT", expr)
             return None if made is None else fold.convert(target, made)

@@ -267,16 +267,18 @@ def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> 
         whole = isinstance(wanted, Elementary) and wanted.kind in (Kind.INT, Kind.UINT)
         target = wanted if whole and wanted is not None else DINT
     raw = in_library(node.span)
-    by_number = may(body, Allowance.NUMBER_OF_BITS)
+    vendor = conversions.Vendor(
+        may(body, Allowance.NUMBER_OF_BITS), may(body, Allowance.TRUE_TEXTS), may(body, Allowance.TEXT_NUMBERS)
+    )
     value = wide.settled(body, value)
-    result = conversions.convert(value, target, parsed.way, partial(_library, body), raw, by_number)
+    result = conversions.convert(value, target, parsed.way, partial(_library, body), raw, vendor)
     if isinstance(result, str):
         raise body.report.reject("T002", f"There is no conversion {name}{result}", node.span)
     if not raw and isinstance(target, StringType) and may(body, Allowance.SIGNED_TEXTS):
         return _signed_text(body, node, name, value, result)
     if not raw and isinstance(value.type, Elementary) and (value.type.name, target.name) in conversions.BITCASTS:
         number = "UDINT" if value.type.size == 4 else "ULINT"
-        if by_number:
+        if vendor.by_number:
             instead = f"`{number}_TO_{target}({value.type}_TO_{number}(...))`"
             used(body, Allowance.NUMBER_OF_BITS, node.span, f"`{name}` converts the number", instead)
             return result
