@@ -32,8 +32,9 @@ def diff(
 ) -> None:  # fmt: skip
     """Compare two runs scan by scan: the first scan after which anything differs, and what.
 
-    Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here; 4: the same, but
-    a file is damaged, and a part of its run is lost.
+    Exit 0: the same, as far as both go; 1: different; 2: wrong usage, files that cannot be compared here, or programs
+    without a common variable; 4: the same in what could be compared, but not everything could: a variable is only in one
+    of them or has another type, or a file is damaged, and a part of its run is lost.
     """
     of = programs_of(_Checked().program, on(Leaving(flavours())))
     try:
@@ -48,7 +49,11 @@ def diff(
             unreadable(Path(error.__cause__.filename), error.__cause__)
         unusable(with_near(str(error), error.near), error.__cause__)
     typer.echo(json.dumps(_data(found)) if as_json else "\n".join(_text(found)))
-    raise typer.Exit(1 if found.scan is not None else DAMAGED if any(lost) else 0)
+    if found.scan is not None:
+        raise typer.Exit(1)
+    if found.same == "nothing":
+        raise typer.Exit(2)
+    raise typer.Exit(DAMAGED if any(lost) or found.same == "partly" else 0)
 
 
 class _Checked:
@@ -111,6 +116,10 @@ def _text(found: Divergence) -> list[str]:
         )
         lines += [f"... and {changes.count - _SHOWN:,} more"] * (changes.count > _SHOWN)
         lines += [changes.note] * bool(changes.note)
+    if found.left:
+        lines += ["", "Not compared:"]
+        lines += [f"  {each.path}: {each.reason}" if each.path else f"  {each.reason}" for each in found.left[:_SHOWN]]
+        lines += [f"... and {found.left_count - _SHOWN:,} more"] * (found.left_count > _SHOWN)
     if found.entries:
         lines += ["", "Entered in one of them only:"]
         lines += [f"  {each.run}  scan {each.scan}  {each.author}: {each.text}" for each in found.entries[:_SHOWN]]

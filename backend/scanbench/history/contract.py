@@ -86,6 +86,18 @@ class Changes(Public):
 
 
 @dataclass(frozen=True, slots=True)
+class NotCompared(Public):
+    """What two runs cannot be compared in."""
+
+    PUBLIC: ClassVar = "NotComparedVariable"
+
+    path: str
+    """The variable, or the program; empty where it is about all of the run."""
+    reason: str
+    """Which of them has it, or in what the two differ."""
+
+
+@dataclass(frozen=True, slots=True)
 class Divergence(Public):
     """Where two runs part first."""
 
@@ -110,6 +122,14 @@ class Divergence(Public):
     """Commands that only one of them has, up to that scan and shortly after it."""
     marks: tuple[tuple[int, int], ...] = ()
     """Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more."""
+    same: Literal["", "all", "partly", "nothing"] = ""
+    """Without a difference: all variables were compared, only those that both have, or the programs have none in common."""
+    variables: int | None = None
+    """How many were compared by their names, an array of plain values counts as one; None: one program ran, so all."""
+    left: tuple[NotCompared, ...] = ()
+    """What was not compared, and why: the first 100."""
+    left_count: int = 0
+    """So many there are, those that found no room included."""
 
 
 @dataclass(frozen=True, slots=True)

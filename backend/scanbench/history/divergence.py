@@ -14,6 +14,7 @@ from typing import Literal
 from scanbench.history.changes import Comparer, Moment, entered, moment_of, same_model
 from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence
 from scanbench.history.first_write import first_write
+from scanbench.history.left_out import LeftOut
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.recording.replay import NOT_AS_RECORDED, replay
 from scanbench.runtime.command import Entry
@@ -24,6 +25,7 @@ from scanbench.verify.contract import Place
 
 MAX_MARKS = 200
 MAX_ENTRIES = 200
+MAX_LEFT = 100
 AFTER = 100
 """Scans after the difference whose entries are listed too."""
 _CHUNK = 10_000
@@ -114,9 +116,14 @@ class _Comparison:
         self._one, self._other = _Side(one, first), _Side(other, first)
         self._only = list(_unpaired(self._one.entries, self._other.entries, first, end))
         self._comparers: dict[tuple[int, int], Comparer] = {}
+        self._left_out = LeftOut()
 
     def run(self) -> Divergence:
-        """Both, up to where they part, and the stretches after that."""
+        """Both, up to where they part, and the stretches after that; and what could not be compared."""
+        found, left = self._found(), self._left_out.found()
+        return replace(found, variables=self._left_out.variables, left=left[:MAX_LEFT], left_count=len(left))
+
+    def _found(self) -> Divergence:
         same_model(self._one.resource.program, self._other.resource.program)
         if self._differ():
             scan, begun = self._first, True
@@ -136,6 +143,7 @@ class _Comparison:
         key = self._one.resource.version, self._other.resource.version
         if key not in self._comparers:
             one, other = self._one.moment(), self._other.moment()
+            self._left_out.add(one, other)
             self._comparers[key] = Comparer(one.program, other.program, one.digest == other.digest)
         return self._comparers[key]
 
@@ -231,11 +239,25 @@ class _Comparison:
 
     def _same(self) -> Divergence:
         count = self._end - self._first
-        text = f"the same in all {count:,} scans that both have, {self._first} to {max(self._first, self._end - 1)}"
+        last, left = max(self._first, self._end - 1), len(self._left_out.found())
+        same: Literal["all", "partly", "nothing"] = "all"
+        text = f"the same in all {count:,} scans that both have, {self._first} to {last}"
+        if self._left_out.nothing:
+            same = "nothing"
+            text = (
+                "the programs have no variable in common: only addresses were compared, "
+                f"the same in all {count:,} scans, {self._first} to {last}"
+            )
+        elif left:
+            same = "partly"
+            text = (
+                f"in what both have they are the same in all {count:,} scans, {self._first} to {last}; "
+                f"what only one has, or has otherwise, was not compared ({left:,})"
+            )
         if self._only:
             text += f", although {len(self._only)} commands are only in one of them"
         told = tuple(each.told for each in self._only[:MAX_ENTRIES])
-        return Divergence(count, self._first, self._end, None, "", text, None, None, told)
+        return Divergence(count, self._first, self._end, None, "", text, None, None, told, same=same)
 
     def _told(self, scan: int, begun: bool, changes: Changes, marks: tuple[tuple[int, int], ...]) -> Divergence:
         before = [each for each in self._only if each.entry.scan <= scan and each.entry.command.author != "PLC"]

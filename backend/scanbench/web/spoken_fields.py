@@ -13,7 +13,7 @@ from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.reaction.reaction import Reaction, RequiredResult
 from scanbench.history.campaign.contract import Trial
-from scanbench.history.contract import BetweenEntry, Changes, Divergence
+from scanbench.history.contract import BetweenEntry, Changes, Divergence, NotCompared
 from scanbench.history.whatif.contract import Try, WhatIf
 from scanbench.recording.recording import RecordingInfo
 from scanbench.reports.record import RecordCell
@@ -82,6 +82,7 @@ PUBLIC: "tuple[tuple[type[DataclassInstance], str], ...]" = (
     (Divergence, "text"),
     (Lost, "reason"),
     (Mismatch, "message"),
+    (NotCompared, "reason"),
     (PlantSeen, "trouble"),
     (PreviewedErrors, "message"),
     (Reaction, "note"),

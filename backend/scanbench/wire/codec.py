@@ -52,7 +52,7 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
 from scanbench.history.campaign.contract import CampaignWanted, Trial
-from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence, RerunChange, Writer
+from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence, NotCompared, RerunChange, Writer
 from scanbench.history.whatif.contract import SetValue, Try, WhatIf, WhatIfWanted
 from scanbench.problems import Problem, Span
 from scanbench.program.sites import CheckSite
@@ -126,7 +126,7 @@ _CLASSES: dict[str, type] = {
         trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
         trace_protocol.RecordRetrospective, trace_protocol.RetrospectiveAt, trace_protocol.RetrospectiveDone,
         Calm, Corrupt, Disturb, Disturbance, DisturbanceInfo, Flip, Freed, Held, Hold, Unfired, Unhold,
-        Column, Compared, VerifyCoverage, Input, Mismatch, Output, Place, Range, Row, BetweenEntry, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
+        Column, Compared, VerifyCoverage, Input, Mismatch, Output, Place, Range, Row, BetweenEntry, Change, Changes, Divergence, NotCompared, RerunChange, Writer, DisturbanceInfo,
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.BeginController, verify_protocol.TakeSamples, Sample, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.ScansDone,
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,

@@ -107,3 +107,35 @@ def test_files_that_cannot_be_compared(program: str, tmp_path: Path) -> None:
     assert models.exit_code == 2
     assert "CJ1M-CPU63" in models.stderr
     assert "GENERIC-IEC" in models.stderr
+
+
+def _short(folder: Path, name: str, source: str, *arguments: str) -> str:
+    file = folder / f"{name}.st"
+    file.write_text(source)
+    path = str(folder / f"{name}.scanrun")
+    ran = call("run", str(file), "--model", "GENERIC-IEC", "--scans", "10", "--record", path, *arguments)
+    assert ran.exit_code == 0, ran.output
+    return path
+
+
+def test_the_same_only_in_what_both_have(tmp_path: Path) -> None:
+    source = "PROGRAM Main VAR a, total : INT; END_VAR a := a + 1; total := a * 2; END_PROGRAM"
+    one = _short(tmp_path, "one", source)
+    found = call("diff", one, _short(tmp_path, "two", source.replace("total", "sum")))
+    assert found.exit_code == 4, found.output
+    assert found.stdout.startswith("In what both have they are the same in all 10 scans")
+    assert "Main.sum: only in B" in found.stdout
+    assert "Main.total: only in A" in found.stdout
+    slow = _short(tmp_path, "slow", source, "--interval", "20ms")
+    found = call("diff", one, slow, "--json")
+    data = json.loads(found.stdout)
+    assert (found.exit_code, data["same"]) == (4, "partly")
+    assert data["left"] == [{"path": "", "reason": "a scan lasts 10 ms in A and 20 ms in B"}]
+
+
+def test_nothing_in_common(tmp_path: Path) -> None:
+    source = "PROGRAM Main VAR a : INT; END_VAR a := a + 1; END_PROGRAM"
+    one = _short(tmp_path, "one", source)
+    found = call("diff", one, _short(tmp_path, "two", source.replace("Main", "Other")))
+    assert found.exit_code == 2, found.output
+    assert "no variable in common" in found.stdout

@@ -232,3 +232,79 @@ def test_each_run_has_a_clock_of_its_own(tmp_path: Path) -> None:
     assert found.changes is not None
     assert [each.path for each in found.changes.changes] == ["Main.when"]
     assert "SetClock" in found.text
+
+
+OF_ONE = (
+    "PROGRAM Main\nVAR a, total : INT; arr : ARRAY[0..3] OF INT; END_VAR\na := a + 1;\ntotal := a * 2;\nEND_PROGRAM"
+)
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "left"),
+    [
+        ("a, total", "a, more, total", {"Main.more": "only in B"}),
+        ("total", "sum", {"Main.sum": "only in B", "Main.total": "only in A"}),
+        (
+            "a, total : INT;",
+            "a : INT; total : DINT;",
+            {"Main.total": "different in A and B (type changed from INT to DINT)"},
+        ),
+        (
+            "[0..3]",
+            "[0..5]",
+            {"Main.arr": "different in A and B (type changed from ARRAY[0..3] OF INT to ARRAY[0..5] OF INT)"},
+        ),
+    ],
+)
+def test_what_only_one_has_is_named(was: str, now: str, left: dict[str, str], tmp_path: Path) -> None:
+    one, other = begun(tmp_path / "one", OF_ONE), begun(tmp_path / "other", OF_ONE.replace(was, now))
+    for each in (one, other):
+        advance(each, 10)
+    found = _compared(one, other)
+    assert (found.scan, found.same, found.left_count) == (None, "partly", len(left))
+    assert {each.path: each.reason for each in found.left} == left
+    assert "in what both have they are the same in all 10 scans" in found.text
+
+
+def test_programs_without_a_common_variable_are_not_the_same(tmp_path: Path) -> None:
+    one = begun(tmp_path / "one", OF_ONE)
+    other = begun(tmp_path / "other", OF_ONE.replace("Main", "Other"))
+    for each in (one, other):
+        advance(each, 10)
+    found = _compared(one, other)
+    assert (found.scan, found.same, found.variables) == (None, "nothing", 0)
+    assert {each.path for each in found.left} == {"Main", "Other"}
+    assert "no variable in common" in found.text
+
+
+def test_what_is_not_compared_is_listed_in_part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(divergence, "MAX_LEFT", 2)
+    one = begun(tmp_path / "one", OF_ONE)
+    other = begun(tmp_path / "other", OF_ONE.replace("a, total", "a, b, c, d, total"))
+    for each in (one, other):
+        advance(each, 10)
+    found = _compared(one, other)
+    assert (len(found.left), found.left_count, found.variables) == (2, 3, 3)
+
+
+def test_pointers_are_not_compared_between_programs(tmp_path: Path) -> None:
+    source = OF_ONE.replace("VAR a", "VAR p : REF_TO INT; a")
+    one, other = begun(tmp_path / "one", source), begun(tmp_path / "other", source.replace("VAR p", "VAR b : LINT; p"))
+    for each in (one, other):
+        advance(each, 10)
+    found = _compared(one, other)
+    assert (found.scan, found.same) == (None, "partly")
+    assert {each.path: each.reason for each in found.left} == {
+        "Main.b": "only in B",
+        "Main.p": "where it points is not compared between different programs",
+    }
+    assert found.variables == 3
+
+
+def test_a_member_of_a_block_that_has_another_name(tmp_path: Path) -> None:
+    one, other = begun(tmp_path / "one", SOURCE), begun(tmp_path / "other", SOURCE.replace("speed", "pace"))
+    for each in (one, other):
+        advance(each, 10)
+    found = _compared(one, other)
+    assert (found.scan, found.same) == (None, "partly")
+    assert {"Main.belt[1].pace", "Main.belt[1].speed"} <= {each.path for each in found.left}

@@ -6846,6 +6846,22 @@ export interface components {
             window: number;
         };
         /**
+         * NotComparedVariable
+         * @description What two runs cannot be compared in.
+         */
+        NotComparedVariable: {
+            /**
+             * Path
+             * @description The variable, or the program; empty where it is about all of the run.
+             */
+            path: string;
+            /**
+             * Reason
+             * @description Which of them has it, or in what the two differ.
+             */
+            reason: string;
+        };
+        /**
          * OnlineChange
          * @description What a swap of the program does to the variables of one running PLC.
          */
@@ -8085,6 +8101,16 @@ export interface components {
              */
             last: number;
             /**
+             * Left
+             * @description What was not compared, and why: the first 100.
+             */
+            left: components["schemas"]["NotComparedVariable"][];
+            /**
+             * Left Count
+             * @description So many there are, those that found no room included.
+             */
+            left_count: number;
+            /**
              * Marks
              * @description Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more.
              */
@@ -8095,6 +8121,12 @@ export interface components {
             /** @description The statement that wrote the first variable that differs, if it is known. */
             place: components["schemas"]["VerifyPlace"] | null;
             /**
+             * Same
+             * @description Without a difference: all variables were compared, only those that both have, or the programs have none in common.
+             * @enum {string}
+             */
+            same: "" | "all" | "partly" | "nothing";
+            /**
              * Scan
              * @description The first scan after which anything differs; None: the two are the same as far as both go.
              */
@@ -8104,6 +8136,11 @@ export interface components {
              * @description One sentence: the scan, the task, the variable, why.
              */
             text: string;
+            /**
+             * Variables
+             * @description How many were compared by their names, an array of plain values counts as one; None: one program ran, so all.
+             */
+            variables: number | null;
         };
         /**
          * SaveConflict

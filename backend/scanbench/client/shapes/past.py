@@ -80,6 +80,15 @@ class RunChanges(TypedDict):
     """That the program changed in between, say: then variables are compared by their names."""
 
 
+class NotComparedVariable(TypedDict):
+    """What two runs cannot be compared in."""
+
+    path: str
+    """The variable, or the program; empty where it is about all of the run."""
+    reason: str
+    """Which of them has it, or in what the two differ."""
+
+
 class RunDivergence(TypedDict):
     """Where two runs part first."""
 
@@ -102,6 +111,14 @@ class RunDivergence(TypedDict):
     """Commands that only one of them has, up to that scan and shortly after it."""
     marks: list[list[int]]
     """Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more."""
+    same: Literal["", "all", "partly", "nothing"]
+    """Without a difference: all variables were compared, only those that both have, or the programs have none in common."""
+    variables: int | None
+    """How many were compared by their names, an array of plain values counts as one; None: one program ran, so all."""
+    left: list[NotComparedVariable]
+    """What was not compared, and why: the first 100."""
+    left_count: int
+    """So many there are, those that found no room included."""
 
 
 class Comparison(TypedDict):

@@ -83,7 +83,13 @@ describe("comparisons", () => {
       changes: null,
       entries: [],
       marks: [],
+      same: "all" as const,
+      variables: null,
+      left: [],
+      left_count: 0,
     };
+    expect(verdictOf({ ...going, result: { ...result, same: "partly" } })).toBe("partly");
+    expect(verdictOf({ ...going, result: { ...result, same: "nothing" } })).toBe("nothing");
     expect(verdictOf(going)).toBe("underway");
     expect(verdictOf({ ...going, message: "gone" })).toBe("failed");
     expect(verdictOf({ ...going, result })).toBe("same");

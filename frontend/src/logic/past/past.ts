@@ -36,12 +36,13 @@ export function compareWith(here: Instance, all: readonly Instance[]): Instance[
 
 const stemOf = (name: string) => name.replace(/-\d+$/, "");
 
-type Verdict = "underway" | "failed" | "same" | "apart";
+type Verdict = "underway" | "failed" | "same" | "partly" | "nothing" | "apart";
 
 export function verdictOf({ result, message }: Comparison): Verdict {
   if (message !== "") return "failed";
   if (result === null) return "underway";
-  return result.scan === null ? "same" : "apart";
+  if (result.scan !== null) return "apart";
+  return result.same === "partly" || result.same === "nothing" ? result.same : "same";
 }
 
 /** The newest state of each comparison or replay; the newest one first. */

@@ -22,6 +22,8 @@ const LOOK: Record<ReturnType<typeof verdictOf>, { icon: IconName; tone: string 
   underway: { icon: "wait", tone: "stopped" },
   failed: { icon: "error", tone: "fatal" },
   same: { icon: "equal", tone: "running" },
+  partly: { icon: "equal", tone: "stopped" },
+  nothing: { icon: "differs", tone: "stopped" },
   apart: { icon: "differs", tone: "fatal" },
 };
 
@@ -118,6 +120,8 @@ function word(comparison: Comparison): string {
   const verdict = verdictOf(comparison);
   if (verdict === "failed") return t("compare.failed");
   if (verdict === "same") return t("compare.same");
+  if (verdict === "partly") return t("compare.partly");
+  if (verdict === "nothing") return t("compare.nothing");
   if (verdict === "apart") return t("compare.apart", { scan: grouped(comparison.result?.scan ?? 0) });
   return t("compare.progress", { done: grouped(comparison.done), of: grouped(comparison.of) });
 }

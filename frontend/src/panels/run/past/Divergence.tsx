@@ -29,7 +29,7 @@ export function Divergence({ result, b, names }: Props) {
   return (
     <>
       <p className="verdict">
-        {scan === null ? t("compare.same.about") : inNames(errors, text)}{" "}
+        {result.same === "all" ? t("compare.same.about") : inNames(errors, text)}{" "}
         <span className="faint">{t("compare.compared", range)}</span>
       </p>
       {scan !== null && <Why result={result} scan={scan} b={b} nameB={names.B} />}
@@ -45,7 +45,25 @@ export function Divergence({ result, b, names }: Props) {
           />
         </>
       )}
+      {result.left.length > 0 && <Left left={result.left} count={result.left_count} />}
       <Entries title={t("compare.entries")} entries={entries} names={names} onGo={(at) => void travel(at)} />
+    </>
+  );
+}
+
+/** What was not compared, and why. */
+function Left({ left, count }: { left: RunDivergence["left"]; count: number }) {
+  return (
+    <>
+      <h3>{t("compare.left", { count: grouped(count) })}</h3>
+      <ul>
+        {left.map(({ path, reason }) => (
+          <li key={path}>
+            {path !== "" && <span className="mono">{path}</span>} {reason}
+          </li>
+        ))}
+        {count > left.length && <li className="faint">+{grouped(count - left.length)}</li>}
+      </ul>
     </>
   );
 }
