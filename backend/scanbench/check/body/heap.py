@@ -10,8 +10,9 @@ from scanbench.check.body.references import reference_type
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
 from scanbench.check.declare.creations import FB_EXIT
+from scanbench.check.declare.start_references import own_references
 from scanbench.check.dialect import Allowance
-from scanbench.check.life.start import Writer
+from scanbench.check.life.start import Writer, referring
 from scanbench.problems import Span
 from scanbench.program.program import (
     Assign,
@@ -79,7 +80,8 @@ def _initialised(body: Body, type: Type, kept: Place, span: Span, one: bool) -> 
     """What is new starts as a variable of the type does; its memory is all zero."""
     data, life = initial_of(type), body.pous.life
     lives = life is not None and life.needs.of(type)
-    if not any(data) and not lives:
+    references = own_references(body.declarations, type)
+    if not any(data) and not references and not lives:
         return []
     if not one:
         raise body.report.reject(
@@ -88,6 +90,9 @@ def _initialised(body: Body, type: Type, kept: Place, span: Span, one: bool) -> 
     trap = body.trap(TrapKind.NULL, span, "there is no room in the memory for __NEW")
     place = Place(type, Base.IMAGE, 0, null_trap=trap, reference=Load(kept))
     made: list[Stmt] = [SetBytes(place, data, span)] if any(data) else []
+    for at, (value, base) in references.items():
+        target = replace(place, type=value.type, offset=at)
+        made.append(Assign(target, referring(place, value, base), span))
     if life is not None and lives:
         made += Writer(body, life, lambda member: place, passed_on=False).whole(place, type, span)
     return made

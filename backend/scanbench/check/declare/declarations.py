@@ -47,12 +47,21 @@ class StartReference:
 
 
 @dataclass(frozen=True, slots=True)
+class Afresh:
+    """What a start value writes as a whole: the references in it begin with NULL, or with what this type itself gives them."""
+
+    offset: int
+    """In bytes, from the beginning of the variable."""
+    type: Type
+
+
+@dataclass(frozen=True, slots=True)
 class Start:
-    """Such a reference, and the variable of which record it is in."""
+    """One of both, and the variable of which record it is in."""
 
     owner: Record
     member: Member
-    given: StartReference
+    given: StartReference | Afresh
 
 
 @dataclass(slots=True)
@@ -87,8 +96,8 @@ class Declarations:
     incomplete: bool = False
     """Whether any variable waits for its address."""
     start_references: list[Start] = field(default_factory=list)
-    """References that start with REF(variable)."""
-    given: list[StartReference] = field(default_factory=list)
+    """References that start with REF(variable), and what starts without them, in the order in which they apply."""
+    given: list[StartReference | Afresh] = field(default_factory=list)
     """Those in the initial value that is being read, counted from its beginning."""
     reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
     symbols: Record = field(default_factory=lambda: Record("", Kind.STRUCT))

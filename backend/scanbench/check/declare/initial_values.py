@@ -6,8 +6,8 @@ from contextlib import suppress
 from dataclasses import replace
 
 from scanbench.check.context import Rejected
-from scanbench.check.declare.declarations import Declarations, StartReference
-from scanbench.check.declare.start_references import refers
+from scanbench.check.declare.declarations import Afresh, Declarations, StartReference
+from scanbench.check.declare.start_references import Held, refers
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
@@ -29,11 +29,15 @@ from scanbench.program.types import (
 from scanbench.syntax import tree
 
 
-def with_references(declared: Declarations, value: tree.Initial, type: Type) -> tuple[bytes, list[StartReference]]:
-    """The bytes of a variable of this type that starts with the value, and the references in it that are bound later."""
+def with_references(
+    declared: Declarations, value: tree.Initial, type: Type
+) -> tuple[bytes, list[StartReference | Afresh]]:
+    """The bytes of a variable of this type that starts with the value, the references in it that are bound later, and those that it
+    gives up of what the type has."""
     around, declared.given = declared.given, []
     try:
-        return _image(declared, value, type), declared.given
+        made = _image(declared, value, type)
+        return made, Held(declared.start_references).changed(type, declared.given)
     finally:
         declared.given = around
 
@@ -41,9 +45,14 @@ def with_references(declared: Declarations, value: tree.Initial, type: Type) -> 
 def initial_image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
     """The same of what starts with no references."""
     made, given = with_references(declared, value, type)
+    for each in given:
+        if isinstance(each, StartReference):
+            raise declared.report.reject(
+                "D004", "This starts with NULL; assign the reference in the body.", each.node.span
+            )
     if given:
         raise declared.report.reject(
-            "D004", "This starts with NULL; assign the reference in the body.", given[0].node.span
+            "D004", f"References in {type} have start values of their own; only a variable says others.", value.span
         )
     return made
 
@@ -94,8 +103,11 @@ def _array(declared: Declarations, value: tree.ArrayInit, type: Type) -> bytes:
 def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes:
     if not isinstance(type, Record):
         raise declared.report.reject("D004", f"Values by member initialise a structure, not {type}.", value.span)
-    image = bytearray(type.initial())
+    image, named = bytearray(type.initial()), set[str]()
     for name, item, span in value.members:
+        if name.upper() in named:
+            raise declared.report.reject("D004", f"`{name}` is given twice.", span)
+        named.add(name.upper())
         member = _member(declared, type, name, span, (Section.IN_OUT,))
         _put(image, member.offset, member.bit, _inside(declared, item, member.type, member.offset, name))
     return bytes(image)
@@ -105,8 +117,16 @@ def _inside(declared: Declarations, item: tree.Initial, type: Type, offset: int,
     """What is there in something larger, from this offset on."""
     first = len(declared.given)
     made = _image(declared, item, type)
-    moved = [replace(each, offset=each.offset + offset, name=each.name or name) for each in declared.given[first:]]
-    declared.given[first:] = moved
+    afresh: list[StartReference | Afresh] = []
+    if declared.start_references and isinstance(type, Reference | ArrayType | Record):
+        afresh = [Afresh(offset, type)]
+    moved = [
+        replace(each, offset=each.offset + offset, name=each.name or name)
+        if isinstance(each, StartReference)
+        else replace(each, offset=each.offset + offset)
+        for each in declared.given[first:]
+    ]
+    declared.given[first:] = [*afresh, *moved]
     return made
 
 

@@ -1,9 +1,10 @@
 """Start values of references: `p : REF_TO INT := REF(x)`. Known when every instance has its place in the image."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 
 from scanbench.check.context import Rejected
-from scanbench.check.declare.declarations import Declarations, Start, StartReference
+from scanbench.check.declare.declarations import Afresh, Declarations, Start, StartReference
 from scanbench.check.dialect import Allowance, said
 from scanbench.problems import Span
 from scanbench.program.program import Base, Expr, Place, RefOf
@@ -31,23 +32,122 @@ def bind_start_references(
     """Writes the references that declarations ask for into every instance."""
     if not declarations.start_references:
         return
-    bases: dict[str, list[int]] = {}
-    for record, base in _records(variables, 0):
-        bases.setdefault(record.name.upper(), []).append(base)
-    for instance in instances:
-        for record, base in _records(instance.pou.instance, instance.offset):
-            bases.setdefault(record.name.upper(), []).append(base)
+    places: dict[int, Place] = {}
     for start in declarations.start_references:
-        owner, node = start.owner, start.given.node
-        try:
-            place = _lasting(declarations, declarations.reference_of(owner, node, start.given.type), node.span)
-        except Rejected:
-            continue
-        for base in bases.get(owner.name.upper(), []):
-            offset = place.offset + (base if place.base is Base.SELF else 0)
-            reference = offset | (place.bit or 0) << 32
-            at = base + start.member.offset + start.given.offset
-            image[at : at + SLOT_BYTES] = reference.to_bytes(SLOT_BYTES, "little")
+        given = start.given
+        if isinstance(given, StartReference):
+            with suppress(Rejected):
+                found = declarations.reference_of(start.owner, given.node, given.type)
+                places[id(given)] = _lasting(declarations, found, given.node.span)
+    held = Held(declarations.start_references)
+    for record, begin in [(variables, 0), *((each.pou.instance, each.offset) for each in instances)]:
+        for at, (start, base) in held.of(record).items():
+            place = places.get(id(start.given))
+            if place is not None:
+                offset = place.offset + (begin + base if place.base is Base.SELF else 0)
+                reference = offset | (place.bit or 0) << 32
+                image[begin + at : begin + at + SLOT_BYTES] = reference.to_bytes(SLOT_BYTES, "little")
+
+
+Bound = dict[int, tuple[Start, int]]
+"""By the place of a reference within a variable: what gives it a start value, and where in the variable the owner of that begins."""
+
+
+class Held:
+    """Which references within a variable have start values, by its type."""
+
+    def __init__(self, starts: Sequence[Start]) -> None:
+        self._starts: dict[str, list[Start]] = {}
+        for start in starts:
+            self._starts.setdefault(start.owner.name.upper(), []).append(start)
+        self._known: dict[int, tuple[Record, Bound]] = {}
+
+    def of(self, type: Type) -> Bound:
+        """Those of a variable whose declaration gives no value."""
+        if not self._starts:
+            return {}
+        if isinstance(type, ArrayType):
+            within, made = self.of(type.element), dict[int, tuple[Start, int]]()
+            for number in range(type.count if within else 0):
+                made |= _moved(within, number * type.element.size)
+            return made
+        if not isinstance(type, Record):
+            return {}
+        known = self._known.get(id(type))
+        if known is None:
+            known = self._known[id(type)] = type, self._record(type)
+        return known[1]
+
+    def _record(self, record: Record) -> Bound:
+        found: Bound = {}
+        for member in _inside(record):
+            found |= _moved(self.of(member.type), member.offset)
+        for owner in _chain(record):
+            for start in self._starts.get(owner.name.upper(), []):
+                at = start.member.offset + start.given.offset
+                if isinstance(start.given, StartReference):
+                    found[at] = start, 0
+                else:
+                    for slot in slots(start.given.type):
+                        found.pop(at + slot, None)
+                    found |= _moved(self.of(start.given.type), at)
+        return found
+
+    def changed(self, type: Type, given: Sequence[StartReference | Afresh]) -> list[StartReference | Afresh]:
+        """The same without each `Afresh` that changes no reference of a variable of this type."""
+        if all(isinstance(each, StartReference) for each in given):
+            return [*given]
+        found = self.of(type)
+        return [
+            each
+            for each in given
+            if isinstance(each, StartReference) or any(each.offset + slot in found for slot in slots(each.type))
+        ]
+
+
+def slots(type: Type) -> list[int]:
+    """Where in a variable of this type its references are."""
+    if isinstance(type, Reference):
+        return [0]
+    if isinstance(type, ArrayType):
+        within = slots(type.element)
+        return [number * type.element.size + at for number in range(type.count if within else 0) for at in within]
+    if not isinstance(type, Record):
+        return []
+    return [member.offset + at for member in _inside(type) for at in slots(member.type)]
+
+
+def _inside(record: Record) -> Iterator[Member]:
+    """What is in the memory of the record itself."""
+    for member in record.members.values():
+        if not (member.located or member.bound or member.storage == 0 or member.storage != member.type.size):
+            yield member
+
+
+def _chain(record: Record | None) -> list[Record]:
+    """The record and what it extends, the farthest first."""
+    found: list[Record] = []
+    while record is not None:
+        found.append(record)
+        record = record.base
+    return found[::-1]
+
+
+def _moved(bound: Bound, by: int) -> Bound:
+    return {at + by: (start, base + by) for at, (start, base) in bound.items()}
+
+
+def own_references(declared: Declarations, type: Type) -> dict[int, tuple[RefOf, int]]:
+    """The references that a fresh variable of this type has, by their places in it; with each, where in the variable the block begins
+    that a place of Base.SELF counts from. What is wrong with them is told elsewhere."""
+    made: dict[int, tuple[RefOf, int]] = {}
+    for at, (start, base) in Held(declared.start_references).of(type).items():
+        if isinstance(start.given, StartReference):
+            with suppress(Rejected), declared.report.apart():
+                value = declared.reference_of(start.owner, start.given.node, start.given.type)
+                if isinstance(value, RefOf):
+                    made[at] = value, base
+    return made
 
 
 def refers(declared: Declarations, type: Reference, initial: tree.Initial) -> bool:
@@ -62,9 +162,12 @@ def _is_interface(type: Type) -> bool:
     return isinstance(type, Reference) and isinstance(type.target, Record) and type.target.kind is Kind.INTERFACE
 
 
-def start_with(declared: Declarations, owner: Record, member: Member, given: Sequence[StartReference]) -> None:
+def start_with(declared: Declarations, owner: Record, member: Member, given: Sequence[StartReference | Afresh]) -> None:
     """Notes the references that the variable, or what is in it, starts with."""
     for each in given:
+        if isinstance(each, Afresh):
+            declared.start_references.append(Start(owner, member, each))
+            continue
         node, name = each.node, each.name or member.name
         if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
             raise declared.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
@@ -113,24 +216,3 @@ def _lasting(declarations: Declarations, expr: object, span: Span) -> Place:
         if place.slot is None and place.reference is None and not place.indices:
             return place
     raise declarations.report.reject("D004", STARTS_WITH, span)
-
-
-def _records(record: Record, base: int) -> Iterator[tuple[Record, int]]:
-    """The record itself, what it extends, and all that is inside of it."""
-    ancestor: Record | None = record
-    while ancestor is not None:
-        yield ancestor, base
-        ancestor = ancestor.base
-    for member in record.members.values():
-        if member.located or member.bound or member.storage == 0 or member.storage != member.type.size:
-            continue
-        inner, offset = member.type, base + member.offset
-        if isinstance(inner, Record):
-            yield from _records(inner, offset)
-        elif isinstance(inner, ArrayType):
-            element = inner.element
-            while isinstance(element, ArrayType):
-                element = element.element
-            if isinstance(element, Record):
-                for index in range(inner.size // element.size if element.size else 0):
-                    yield from _records(element, offset + index * element.size)

@@ -11,13 +11,14 @@ from scanbench.check.declare.classes import Class
 from scanbench.check.declare.creations import FB_REINIT, MADE, Arguments, Creation, is_called
 from scanbench.check.declare.life_rules import extra_inputs, init_of, is_whole
 from scanbench.check.declare.scopes import decode
-from scanbench.check.declare.start_references import refers
+from scanbench.check.declare.start_references import own_references, refers
 from scanbench.check.life.code import Code
 from scanbench.check.life.explicit import Explicit, explicit
 from scanbench.check.life.needs import has_made
 from scanbench.problems import Span
 from scanbench.program.program import (
     Assign,
+    Base,
     Compare,
     Const,
     Expr,
@@ -27,6 +28,7 @@ from scanbench.program.program import (
     Load,
     Place,
     Pou,
+    RefOf,
     SetBytes,
     Stmt,
 )
@@ -80,8 +82,9 @@ class Writer:
         place = self.place_of(member)
         values = list(explicit(creation.initial, member.type, member.retain, self._count))
         # what is given from outside is not there yet when FB_init runs
-        before = self._values(place, values, initial_of(member.type), creation.span, False)
-        after = self._values(place, values, member.initial or initial_of(member.type), creation.span, True)
+        own = own_references(self.body.declarations, member.type) if values else {}
+        before = self._values(place, values, initial_of(member.type), creation.span, own)
+        after = self._values(place, values, member.initial or initial_of(member.type), creation.span, None)
         if not fresh:
             before, after = [], []
         elements = list(creation.elements)
@@ -104,13 +107,19 @@ class Writer:
         value = self.body.declarations.constant_of(node, None).value
         return value if isinstance(value, int) else 1
 
-    def _values(self, place: Place, values: list[Explicit], data: bytes, span: Span, refer: bool) -> list[Stmt]:
+    def _values(
+        self, place: Place, values: list[Explicit], data: bytes, span: Span, own: dict[int, tuple[RefOf, int]] | None
+    ) -> list[Stmt]:
+        """Assigns them: what the declaration says, or with `own` what a fresh variable has."""
         made: list[Stmt] = []
         for each in values:
             target = replace(place, type=each.type, offset=place.offset + each.offset, variable="")
             part = data[each.offset : each.offset + each.type.size]
             value: Expr | None = decode(each.type, part) if isinstance(each.type, Elementary) else None
-            bound = self._bound(each) if refer else None
+            if own is None:
+                bound = self._bound(each)
+            else:
+                bound = referring(place, *own[each.offset]) if each.offset in own else None
             value = bound or value
             one: Stmt = SetBytes(target, part, span) if value is None else Assign(target, value, span)
             made.append(
@@ -265,6 +274,14 @@ class Writer:
                 inner = self.body.lookup.inside(self.body, place, type, member, span)
                 made += self._after(inner, member.type, span)
         return made
+
+
+def referring(place: Place, value: RefOf, base: int) -> RefOf:
+    """A reference that `own_references` found, for the variable at this place."""
+    if value.place.base is not Base.SELF:
+        return value
+    to = replace(place, type=value.place.type, offset=place.offset + base + value.place.offset, variable="")
+    return RefOf(to, value.type)
 
 
 def after_init(body: Body, type: object) -> list[Pou]:
