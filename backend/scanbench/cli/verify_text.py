@@ -61,6 +61,7 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
         ("not compared, columns that are mapped to nothing", coverage.ignored),
         ("not compared, as the file has no column of them", coverage.unrecorded),
         ("remembered by the program, and not in the file: the first rows told", coverage.assumed),
+        ("read by the program, and not in the file: the reference took the start values of", coverage.ungiven),
         ("remembered by the program, and not in the file: they began as after a cold start", coverage.remembered),
     )
     for what, names in kinds:
@@ -70,6 +71,8 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
 
 def _summary(head: ReportHead) -> str:
     same = "no difference in what was compared" if head.skipped else "no difference"
+    if head.coverage is not None and head.coverage.ungiven:
+        same += f", if {count(len(head.coverage.ungiven), 'input')} without a column had the start value"
     came = f"{count(head.differing, 'row')} differ" if head.differing else same
     if not head.compared and not head.differing:
         came = "nothing was compared"

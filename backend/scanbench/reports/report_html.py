@@ -61,6 +61,8 @@ class _Document:
         items = "".join(f"<li><b>{count:,}</b>{self._word(name)}</li>" for name, count in numbers)
         skipped = ", ".join(str(first) if first == last else f"{first} – {last}" for first, last in head.stretches)
         notes = [self._word("skipped_text", stretches=skipped) if skipped else ""]
+        if head.coverage is not None and head.coverage.ungiven:
+            notes.append(self._word("ungiven_text"))
         if head.compared and not head.skipped:
             notes.append(self._word("all_compared"))
         if head.forgotten:
@@ -124,6 +126,7 @@ class _Document:
         kinds = (
             ("given", coverage.inputs), ("ignored", coverage.ignored), ("unrecorded", coverage.unrecorded),
             ("assumed", coverage.assumed), ("remembered", coverage.remembered),
+            ("ungiven", coverage.ungiven),
         )  # fmt: skip
         told = [(word, f'<span class="mono">{escape(", ".join(names))}</span>') for word, names in kinds if names]
         return f"<h2>{self._word('coverage')}</h2>\n{self._page.table(heads, rows)}<dl>{self._page.pairs(told)}</dl>\n"

@@ -56,7 +56,7 @@ def _coverage(coverage: VerifyCoverage | None) -> Json:
         ],
         "inputs": list(coverage.inputs), "ignored_columns": list(coverage.ignored),
         "not_recorded": list(coverage.unrecorded), "remembered_not_recorded": list(coverage.remembered),
-        "assumed": list(coverage.assumed), "more": coverage.more,
+        "assumed": list(coverage.assumed), "read_not_recorded": list(coverage.ungiven), "more": coverage.more,
     }  # fmt: skip
 
 

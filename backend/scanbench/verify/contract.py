@@ -221,9 +221,12 @@ class VerifyCoverage(Public):
     remembered: tuple[str, ...]
     """What the program remembers and the file has no column of: the monitor began with the values of a cold start."""
     more: int = 0
-    """Variables of `unrecorded` and `remembered` that are not named."""
+    """Variables of `unrecorded`, `remembered` and `ungiven` that are not named."""
     assumed: tuple[str, ...] = ()
     """Remembered variables of which the first rows told what they were: `Main.belt.on = TRUE`."""
+    ungiven: tuple[str, ...] = ()
+    """What the range read, the program never writes and the file has no column of: the monitor took the start value, and the controller
+    may have had another one."""
 
 
 @dataclass(frozen=True, slots=True)

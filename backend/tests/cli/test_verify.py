@@ -142,6 +142,23 @@ def test_a_trace_is_taken_by_the_names_of_its_columns(project: Path, tmp_path: P
     assert (first["scan"], first["variable"], first["was"], first["is"]) == (3, "Main.out", "151", "150")
 
 
+def test_an_input_without_a_column_is_named_and_the_verdict_depends_on_it(tmp_path: Path) -> None:
+    source, trace, page = tmp_path / "main.st", tmp_path / "x.csv", tmp_path / "x.html"
+    source.write_text(
+        "PROGRAM Main VAR start AT %IX0.0 : BOOL; raw AT %IW2 : INT; motor AT %QX0.0 : BOOL; n, r : INT; END_VAR "
+        "VAR CONSTANT k : INT := 3; END_VAR n := n + k; motor := start; r := raw * k; END_PROGRAM"
+    )
+    trace.write_text("scan,motor\n0,0\n1,0\n")
+    result = scanbench("verify", str(source), "--trace", str(trace), "--html", str(page))
+    assert result.returncode == 0, result
+    took = "read by the program, and not in the file: the reference took the start values of: Main.start, Main.raw\n"
+    assert took in result.stdout
+    assert "2 compared: no difference, if 2 inputs without a column had the start value" in result.stdout
+    assert "This holds if the inputs that are not in the file had their start values." in page.read_text("utf-8")
+    trace.write_text("scan,motor,start,raw\n0,0,0,0\n1,0,0,0\n")
+    assert scanbench("verify", str(source), "--trace", str(trace)).stdout.endswith("2 compared: no difference\n")
+
+
 def test_what_a_trace_does_not_have_is_not_said_to_be_the_same(project: Path, tmp_path: Path) -> None:
     trace, mapping = tmp_path / "press.csv", tmp_path / "press.json"
     trace.write_text("scan,wanted,out\r\n4,100,50\r\n9,100,75\r\n20,100,\r\n21,100,\r\n")

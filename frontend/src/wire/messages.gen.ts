@@ -9868,7 +9868,7 @@ export interface components {
             inputs: string[];
             /**
              * More
-             * @description Variables of `unrecorded` and `remembered` that are not named.
+             * @description Variables of `unrecorded`, `remembered` and `ungiven` that are not named.
              */
             more: number;
             /** Outputs */
@@ -9878,6 +9878,12 @@ export interface components {
              * @description What the program remembers and the file has no column of: the monitor began with the values of a cold start.
              */
             remembered: string[];
+            /**
+             * Ungiven
+             * @description What the range read, the program never writes and the file has no column of: the monitor took the start value, and the controller
+             *     may have had another one.
+             */
+            ungiven: string[];
             /**
              * Unrecorded
              * @description What the range wrote and the file has no column of: of these nothing was compared.

@@ -68,9 +68,11 @@ class VerifyCoverage(TypedDict):
     remembered: list[str]
     """What the program remembers and the file has no column of: the monitor began with the values of a cold start."""
     more: int
-    """Variables of `unrecorded` and `remembered` that are not named."""
+    """Variables of `unrecorded`, `remembered` and `ungiven` that are not named."""
     assumed: list[str]
     """Remembered variables of which the first rows told what they were: `Main.belt.on = TRUE`."""
+    ungiven: list[str]
+    """What the range read, the program never writes and the file has no column of: the monitor took the start value, and the controller may have had another one."""
 
 
 class VerificationInfo(TypedDict):

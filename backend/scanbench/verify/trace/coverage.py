@@ -4,10 +4,11 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.symbols.leaves import Leaf
 from scanbench.symbols.sites import Sites
-from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.verify.contract import Compared, VerifyCoverage
 from scanbench.verify.trace.assume import Assumed
 from scanbench.verify.trace.bind import Signal, Trace
@@ -48,6 +49,8 @@ class Tally:
         self._scans = 0
         self._remembered: dict[str, Leaf] = {}
         self._assumed: tuple[Assumed, ...] = ()
+        self._ungiven: dict[str, bool] = {}
+        """What was read: whether nobody gives it a value."""
         self._mapped = {bit for each in (*trace.inputs, *trace.outputs) for bit in bits_of(each.symbol)}
 
     def remember(self, read: Mapping[str, Leaf]) -> Mapping[str, Leaf]:
@@ -79,6 +82,26 @@ class Tally:
             if each.recorded is not None and not ran.recorded.taken_over and id(each.signal) in wanted:
                 count.add(each.signal, each.recorded, each.found, each.agrees)
 
+    def read(self, read: Iterable[Leaf]) -> None:
+        """What the range read in a scan before it wrote it, by the names that it has in the program."""
+        for leaf in read:
+            if leaf.name not in self._ungiven:
+                self._ungiven[leaf.name] = self._is_ungiven(leaf)
+
+    def _is_ungiven(self, leaf: Leaf) -> bool:
+        """Whether it keeps its start value in the monitor, and may have another one in the controller."""
+        if leaf.offset < Layout.HEADER_SIZE:
+            return False
+        try:
+            symbol = resolve(self._program, leaf.name)
+        except UnknownPath:
+            symbol = Symbol(leaf.name, leaf.name, leaf.type, "", leaf.offset, leaf.bit)
+        if (
+            symbol.constant or symbol.slots or symbol.tool != "write"
+        ):  # what no tool writes is the business of the system
+            return False
+        return self._mapped.isdisjoint(bits_of(symbol)) and not written(self._program, self._sites, symbol)
+
     def _is_memory(self, name: str, leaf: Leaf) -> bool:
         """Whether the program has it from the scan before, and the trace does not."""
         symbol = Symbol(name, name, leaf.type, "", leaf.offset, leaf.bit)
@@ -94,8 +117,10 @@ class Tally:
             for each, count in zip(self._trace.outputs, self._counts, strict=True)
         )  # fmt: skip
         unrecorded, remembered = list(alone), self.remembered
-        more = max(0, len(unrecorded) - MOST_NAMES) + max(0, len(remembered) - MOST_NAMES)
+        ungiven = [name for name, nobody in self._ungiven.items() if nobody]
+        more = sum(max(0, len(each) - MOST_NAMES) for each in (unrecorded, remembered, ungiven))
         return VerifyCoverage(
             outputs, tuple(each.path for each in self._trace.inputs), self._trace.ignored, tuple(unrecorded[:MOST_NAMES]),
             tuple(remembered[:MOST_NAMES]), more, tuple(map(str, self._assumed)),
+            tuple(ungiven[:MOST_NAMES]),
         )  # fmt: skip

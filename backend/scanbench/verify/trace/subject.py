@@ -135,6 +135,9 @@ class TraceSubject:
             return (self._rows.skipped(scan),) if first else ()
         rows, recorder, ran = self._run(scan)
         self._last = recorder, ran
+        self._tally.read(
+            self._whole(leaf) for made in recorder.passes for leaf in leaves_read(self._reader, made).values()
+        )
         self._tally.add(ran, self._rows.shown(recorder.passes, ran, self._range))
         return rows
 
@@ -192,6 +195,11 @@ class TraceSubject:
         if not detail and any(row.differs for row in rows):  # who wrote it is asked for then only
             return self._run(scan, detail=True)
         return rows, recorder, ran
+
+    def _whole(self, leaf: Leaf) -> Leaf:
+        """With its name in the program, where it has another one inside of a range."""
+        path = self._reader.names.at(leaf.offset, leaf.type.size, 0xFF if leaf.bit is None else 1 << leaf.bit)
+        return next((each for each in path if each.bit == leaf.bit), leaf)
 
     def _recorder(self, detail: bool = False) -> Recorder:
         return Recorder(self._monitor.side.resource, self._reader.names, self._range, self._limit, detail)

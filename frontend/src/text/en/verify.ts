@@ -45,6 +45,7 @@ export const verify = {
   "verify.coverage.more": "{count} more variables are not in the log.",
   "verify.coverage.output": "Output",
   "verify.coverage.remembered": "Remembered by the program, not in the log: began as after a cold start",
+  "verify.coverage.ungiven": "Read by the program, not in the log: the start values were taken",
   "verify.coverage.unrecorded": "Written by the program, not in the log",
   "verify.columns": "Columns",
   "verify.column": "Column",
@@ -139,6 +140,8 @@ export const verify = {
   "verify.next.short": "Next",
   "verify.next.statement": "Next: {file}:{line} in {instance}",
   "verify.next": "Next difference",
+  "verify.nodifference.ungiven":
+    "No difference in {count} scans, if the inputs that are not in the log had their start values.",
   "verify.nodifference": "No difference in {count} scans.",
   "verify.none.about": "Runs the program twice and compares the results",
   "verify.none": "No verification",

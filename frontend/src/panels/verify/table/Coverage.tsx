@@ -54,6 +54,7 @@ export function Coverage({ coverage, trace, onClose }: Props) {
           <Names word={t("verify.coverage.inputs")} names={coverage.inputs} />
           <Names word={t("verify.coverage.ignored")} names={coverage.ignored} />
           <Names word={t("verify.coverage.assumed")} names={coverage.assumed} />
+          <Names word={t("verify.coverage.ungiven")} names={coverage.ungiven} />
           <Names word={t("verify.coverage.remembered")} names={coverage.remembered} />
           <Names word={t("verify.coverage.unrecorded")} names={coverage.unrecorded} />
         </dl>

@@ -214,7 +214,9 @@ function NoRows({ shown: { info }, only }: { shown: ShownVerification; only: boo
       ? info.message
       : only && info.rows > 0
         ? info.compared > 0
-          ? t("verify.nodifference", { count: info.compared })
+          ? t(info.coverage?.ungiven.length ? "verify.nodifference.ungiven" : "verify.nodifference", {
+              count: info.compared,
+            })
           : t("verify.hint.none")
         : t(isGoing(info) ? "verify.norows.yet" : "verify.norows");
   return (

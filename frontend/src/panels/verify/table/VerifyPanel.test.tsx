@@ -206,6 +206,7 @@ test("of a controller log it says what was compared, and what was not", async ()
     ignored: ["remark"],
     unrecorded: ["Main.belt.run"],
     remembered: [],
+    ungiven: ["Main.start"],
     assumed: ["Main.station.run = TRUE"],
     more: 7,
   };
