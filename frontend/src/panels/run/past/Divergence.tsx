@@ -53,18 +53,22 @@ export function Divergence({ result, b, names }: Props) {
 
 /** What was not compared, and why. */
 function Left({ left, count }: { left: RunDivergence["left"]; count: number }) {
+  const title = t("compare.left", { count: grouped(count) });
   return (
-    <>
-      <h3>{t("compare.left", { count: grouped(count) })}</h3>
+    <section className="entered" aria-label={title}>
+      <h3>{title}</h3>
       <ul>
         {left.map(({ path, reason }) => (
           <li key={path}>
-            {path !== "" && <span className="mono">{path}</span>} {reason}
+            {path !== "" && <span className="mono">{path}</span>}
+            <span className="grow cut" title={reason}>
+              {reason}
+            </span>
           </li>
         ))}
         {count > left.length && <li className="faint">+{grouped(count - left.length)}</li>}
       </ul>
-    </>
+    </section>
   );
 }
 
