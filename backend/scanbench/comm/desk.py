@@ -135,6 +135,12 @@ class Desk:
             del self._clients[name]
             self.on_clients()
 
+    def leave_all(self) -> None:
+        """The server is closed: nobody is there any more."""
+        if self._clients:
+            self._clients.clear()
+            self.on_clients()
+
     def note(self, name: str, text: str, outcome: str, request: bytes, answer: bytes) -> None:
         """A request was answered; `outcome` is empty where it was done."""
         self._answered.append(monotonic_ns())

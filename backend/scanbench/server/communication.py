@@ -248,7 +248,11 @@ class Communication:
             return
         closed, running.fault = running.fault.kind == "refused", fault
         if fault.kind == "refused":
+            desk = running.desk
             await _close(running)
+            running.desk = desk  # what was asked before is still told
+            if desk is not None:
+                desk.leave_all()
         elif closed:
             await self._turn(unit, kind)
         if running.desk is not None:
@@ -267,7 +271,7 @@ class Communication:
         wanted = running.wanted
         if not wanted.on or running.fault.kind == "refused":
             return
-        desk = Desk(
+        desk = running.desk or Desk(
             lambda name: SessionDoor(unit.session, name, unit.readers),
             lambda: _tell_clients(unit),
             wanted.access == "read",
@@ -343,7 +347,9 @@ def _seen(kind: ServerKind, running: _Running) -> ServerSeen:
     if desk is None:
         return ServerSeen(kind, running.wanted, False, "", running.trouble, running.fault, 0.0, (), ())
     away = running.server.trouble if isinstance(running.server, OpcUaServer) else ""
-    address, trouble = ("", f"It does not listen: {away}. It is tried again") if away else (_address(kind, running), "")
+    on = running.server is not None and not away
+    address = _address(kind, running) if on else ""
+    trouble = f"It does not listen: {away}. It is tried again" if away else running.trouble
     return ServerSeen(
-        kind, running.wanted, not away, address, trouble, running.fault, desk.per_second, desk.clients, desk.frames
+        kind, running.wanted, on, address, trouble, running.fault, desk.per_second, desk.clients, desk.frames
     )  # fmt: skip

@@ -267,6 +267,9 @@ def test_killed_in_the_past_of_a_changed_run(server: Server) -> None:
         assert browser.ask(type="travel", scan=2)["ok"]
         os.kill(server.state(instance)["pid"], signal.SIGKILL)
         browser.messages.clear()
+        state = browser.wait_state("past")
+        assert state["scan"] == 2, "it shows what it showed"
+        assert browser.ask(type="travel", scan=None)["ok"]
         state = browser.wait_state("paused")
         assert (state["scan"], state["past"]) == (scan, None)
         shown(browser, "Main.level", 5)

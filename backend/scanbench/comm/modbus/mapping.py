@@ -66,8 +66,8 @@ _GENERIC = (  # as OpenPLC v3 has it, so that its scenes and manuals fit (read f
 
 
 def default(model: Model) -> tuple[Mapped, ...]:
-    """The table of a model."""
-    return tuple(_mapped(model, wanted) for wanted in _wanted(model))
+    """The table of a model; of one that is missing it is empty."""
+    return tuple(_mapped(model, wanted) for wanted in _wanted(model) if model.area(wanted.area) is not None)
 
 
 def _wanted(model: Model) -> Sequence[Wanted]:

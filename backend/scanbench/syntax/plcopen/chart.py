@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from scanbench.syntax.plcopen import notes
 from scanbench.syntax.plcopen.elements import Thing, things_in
-from scanbench.syntax.xml_tree import Element, attribute, child, children, kind
+from scanbench.syntax.xml_tree import Element, attribute, child, children
 
 INDENT = "    "
 BodyText = Callable[[Element], str]
@@ -136,7 +136,3 @@ def expression(text: str) -> str:
 
 def listed(names: list[str]) -> str:
     return names[0] if len(names) == 1 else f"({', '.join(names)})"
-
-
-def is_chart(body: Element | None) -> bool:
-    return any(kind(each) == "SFC" for each in children(body))

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from scanbench.syntax.xml_tree import Element, attribute, child, children, kind, line_of, number_of, text_of
 
 SOURCES = ("leftPowerRail", "inVariable", "continuation")
-SINKS = ("coil", "outVariable", "jump", "return", "connector", "rightPowerRail")
 LAST = 1 << 60
 
 

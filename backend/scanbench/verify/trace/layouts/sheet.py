@@ -57,11 +57,6 @@ def sheet_of(text: str, name: str, note: str, delimiter: str) -> Sheet | None:
     return Sheet(name, note, delimiter, tuple(lines), tuple(numbers))
 
 
-def first_line(text: str) -> str:
-    """The first line that is not empty."""
-    return next((line for line in text.splitlines() if line.strip()), "")
-
-
 def is_value(text: str) -> bool:
     """Whether it looks like the value of a signal, and not like a name; an empty text does."""
     plain = text.strip()
