@@ -137,7 +137,7 @@ def test_a_plc_that_was_halted_comes_back_halted(tmp_path: Path, cache: Path) ->
         os.kill(child.process.pid, signal.SIGKILL)
     with Child(run, STATIONS, cache) as child:
         state = child.wait(protocol.PlcState)
-        assert (state.state, state.live_scan) == ("past", halt.scan), "what was shown, and where the PLC is"
+        assert state.live_scan == halt.scan, "whatever was shown: that may not have been kept yet"
         child.ask(lambda ref: protocol.Travel(ref, None, "Ann"), protocol.Ack)
         state = child.until(lambda state: state.state == "halted")
         assert state.message == "halted: it was halted in this scan when its process ended"
