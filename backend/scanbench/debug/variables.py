@@ -16,6 +16,7 @@ from scanbench.program.types import (
     Type,
 )
 from scanbench.symbols.names import names_of
+from scanbench.symbols.references import NOTHING, refers_to
 from scanbench.symbols.symbols import Symbol, target_of
 from scanbench.symbols.values import format_value
 
@@ -93,8 +94,8 @@ def _value(scene: Scene, symbol: Symbol, offset: int, bit: int | None) -> tuple[
     """The value as text, and the number of its parts."""
     type = symbol.type
     if isinstance(type, Reference):
-        target = _target(scene, symbol)
-        return ("NULL", 0) if target is None else (f"-> {target}", 1)
+        text = refers_to(scene.program, scene.memory, symbol)
+        return text, int(text != NOTHING)
     if isinstance(type, Elementary | StringType):
         if bit is not None:
             return ("TRUE" if scene.memory[offset] >> bit & 1 else "FALSE"), 0
@@ -116,8 +117,8 @@ def _alias(scene: Scene, shown: Shown) -> str:
     """`-> Main.tank[3].level (D120)`: of an in-out or REFERENCE TO, what it is bound to."""
     symbol = shown.actual or shown.symbol
     if isinstance(symbol.type, Reference) and symbol.type.automatic:
-        target = _target(scene, symbol)
-        return f"-> {target}" if target else ""
+        text = refers_to(scene.program, scene.memory, symbol)
+        return text if text != NOTHING else ""
     if symbol.section != Section.IN_OUT.value or symbol.name == "^" or not symbol.slots:
         return ""
     symbol = with_bounds(scene, symbol)
@@ -126,17 +127,6 @@ def _alias(scene: Scene, shown: Shown) -> str:
         return ""
     real = scene.program.layout.copies.actual(scene.memory, *spot) or spot
     return f"-> {names_of(scene.program).text(*real, symbol.type)}"
-
-
-def _target(scene: Scene, symbol: Symbol) -> str | None:
-    """What a reference refers to; None for nothing."""
-    type = symbol.type
-    assert isinstance(type, Reference)
-    if type.target is None:
-        return None
-    target = target_of(symbol)
-    spot = target.locate(scene.memory)
-    return None if spot is None else names_of(scene.program).text(*spot, target.type)
 
 
 def _writable(scene: Scene, symbol: Symbol, offset: int) -> bool:

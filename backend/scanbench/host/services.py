@@ -52,7 +52,7 @@ class Services:
         self._attended = False
         self._quick_since = 0
         self._watched: dict[int, str] = {}
-        self._plan = WatchPlan({}, len(self._resource.memory))
+        self._plan = WatchPlan(self._resource.program, {}, len(self._resource.memory))
         self._last_state: protocol.PlcState | None = None
         self._state_at = self._counted_at = self._info_at = 0
         self._diagnosed: Violations | None = None
@@ -272,7 +272,7 @@ class Services:
             items.append(item)
             if symbol is not None:
                 symbols[id] = symbol
-        plan = WatchPlan(symbols, len(self._resource.memory))
+        plan = WatchPlan(self._resource.program, symbols, len(self._resource.memory))
         plan.keep_last(self._plan, again)
         self._plan = plan
         return tuple(items)

@@ -1,18 +1,20 @@
 """The watch tap: thousands of values, twenty times a second, and only what changed.
 
 Every watched value of up to 8 bytes is a row of one gather: eight byte indices, a shift (bits of an area) and a mask.
-In-outs lead elsewhere at every call, so their rows are set again before each gather when their slots changed. The bytes
-of a frame are described in `web/socket/frames.py`.
+In-outs lead elsewhere at every call, so their rows are set again before each gather when their slots changed. Strings, and
+the names of what references refer to, are texts. The bytes of a frame are described in `web/socket/frames.py`.
 """
 
 import struct
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scanbench.program.program import Program
 from scanbench.program.strings import characters
-from scanbench.program.types import Elementary, StringType
+from scanbench.program.types import SLOT_BYTES, Elementary, Reference, StringType, Type
+from scanbench.symbols.references import refers_to
 from scanbench.symbols.symbols import Symbol
 
 VALUES = 1
@@ -25,8 +27,8 @@ _EIGHT = np.arange(8, dtype=np.int64)
 class WatchPlan:
     """Watched symbols by id, and what the last frame said about them."""
 
-    def __init__(self, symbols: Mapping[int, Symbol], image_size: int) -> None:
-        scalars = {id: symbol for id, symbol in symbols.items() if isinstance(symbol.type, Elementary)}
+    def __init__(self, program: Program, symbols: Mapping[int, Symbol], image_size: int) -> None:
+        scalars = {id: symbol for id, symbol in symbols.items() if _is_number(symbol.type)}
         self._ids = np.array(list(scalars), dtype=np.uint32)
         self._symbols = list(scalars.values())
         count = len(scalars)
@@ -47,9 +49,13 @@ class WatchPlan:
                 self._aim(row, symbol, symbol.offset, symbol.bit)
         self._texts = {id: symbol for id, symbol in symbols.items() if isinstance(symbol.type, StringType)}
         self._last_texts: dict[int, bytes] = {}
+        self._program = program
+        self._references = {id: symbol for id, symbol in symbols.items() if isinstance(symbol.type, Reference)}
+        self._referred: dict[int, tuple[bytes, bytes]] = {}
+        """By id of a reference: its bytes, and the text that they mean. Names are looked up only where it changed."""
 
     def __len__(self) -> int:
-        return len(self._ids) + len(self._texts)
+        return len(self._ids) + len(self._texts) + len(self._references)
 
     def keep_last(self, before: "WatchPlan", again: Iterable[int] = ()) -> None:
         """Takes over what the plan before this one has sent, but for the ids that are asked for `again`."""
@@ -59,7 +65,7 @@ class WatchPlan:
             old = known.get(id)
             if old is not None and id not in asked:
                 self._last[row], self._fresh[row] = before._last[old], False
-        for id in self._texts:
+        for id in (*self._texts, *self._references):
             if id in before._last_texts and id not in asked:
                 self._last_texts[id] = before._last_texts[id]
 
@@ -78,8 +84,7 @@ class WatchPlan:
         """A frame with every value. What the next `sample` compares with stays as it is: others have not seen this."""
         values = self._gather(memory)
         rows = np.flatnonzero(~self._lost)
-        texts = {id: text for id, symbol in self._texts.items() if (text := _text(memory, symbol)) is not None}
-        return self._frame(True, rows, values, texts, scan, time_ns)
+        return self._frame(True, rows, values, dict(self._all_texts(memory)), scan, time_ns)
 
     def _gather(self, memory: bytearray) -> NDArray[np.uint64]:
         if self._moving:
@@ -110,11 +115,24 @@ class WatchPlan:
 
     def _changed_texts(self, memory: bytearray) -> dict[int, bytes]:
         changed: dict[int, bytes] = {}
-        for id, symbol in self._texts.items():
-            text = _text(memory, symbol)
-            if text is not None and self._last_texts.get(id) != text:
+        for id, text in self._all_texts(memory):
+            if self._last_texts.get(id) != text:
                 changed[id] = self._last_texts[id] = text
         return changed
+
+    def _all_texts(self, memory: bytearray) -> Iterator[tuple[int, bytes]]:
+        for id, symbol in self._texts.items():
+            text = _text(memory, symbol)
+            if text is not None:
+                yield id, text
+        for id, symbol in self._references.items():
+            place = symbol.locate(memory)
+            if place is None:
+                continue
+            raw = bytes(memory[place[0] : place[0] + SLOT_BYTES])
+            if self._referred.get(id, (b"",))[0] != raw:
+                self._referred[id] = raw, refers_to(self._program, memory, symbol).encode()
+            yield id, self._referred[id][1]
 
     def _frame(
         self, full: bool, rows: NDArray[np.intp], values: NDArray[np.uint64], texts: Mapping[int, bytes],
@@ -131,6 +149,10 @@ class WatchPlan:
                 *(_TEXT.pack(id, len(text)) + text for id, text in texts.items()),
             )
         )
+
+
+def _is_number(type: Type) -> bool:
+    return isinstance(type, Elementary) and not isinstance(type, Reference)
 
 
 def _text(memory: bytearray, symbol: Symbol) -> bytes | None:

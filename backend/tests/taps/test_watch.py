@@ -60,7 +60,7 @@ def parse(data: bytes) -> Parsed:
 
 def plan_of(resource: Resource, *paths: str) -> WatchPlan:
     symbols = {number: resolve(resource.program, path) for number, path in enumerate(paths, 1)}
-    return WatchPlan(symbols, len(resource.memory))
+    return WatchPlan(resource.program, symbols, len(resource.memory))
 
 
 def sample(plan: WatchPlan, resource: Resource) -> Parsed | None:
@@ -135,7 +135,37 @@ def test_the_last_byte_of_the_image_can_be_watched() -> None:
     symbol = resolve(resource.program, "Main.b")
     last = len(resource.memory) - 1
     resource.memory[last] = 7
-    plan = WatchPlan({1: type(symbol)("x", "x", symbol.type, "VAR", last)}, len(resource.memory))
+    plan = WatchPlan(resource.program, {1: type(symbol)("x", "x", symbol.type, "VAR", last)}, len(resource.memory))
     frame = sample(plan, resource)
     assert frame is not None
     assert frame.values == {1: b"\7" + bytes(7)}
+
+
+REFERRING = """
+INTERFACE State METHOD Run END_METHOD END_INTERFACE
+FUNCTION_BLOCK Idle IMPLEMENTS State
+VAR scans : DINT; END_VAR
+METHOD PUBLIC Run scans := scans + 1; END_METHOD
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR first, second : Idle; now : State; near : REF_TO INT; list : ARRAY[1..3] OF INT; i : INT; END_VAR
+  i := i + 1;
+  IF i > 1 THEN now := second; near := REF(list[2]); END_IF;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_what_references_and_interfaces_refer_to_is_said_by_name(engine: EngineFactory) -> None:
+    resource = plc(REFERRING, engine)
+    plan = plan_of(resource, "Main.now", "Main.near")
+    frame = sample(plan, resource)
+    assert frame is not None
+    assert not frame.values
+    assert frame.texts == {1: b"NULL", 2: b"NULL"}
+    resource.run(1)
+    assert sample(plan, resource) is None
+    resource.run(1)
+    frame = sample(plan, resource)
+    assert frame is not None
+    assert frame.texts == {1: b"-> Main.second", 2: b"-> Main.list[2]"}

@@ -12,7 +12,7 @@ export interface Frame {
   ids: Uint32Array;
   /** Eight bytes for each id, in the order of `ids`: the raw little-endian bytes of the variable, zero padded. */
   values: Uint8Array;
-  /** Bytes of a STRING (Latin-1) or WSTRING (UTF-16, little endian). */
+  /** Bytes of a STRING (Latin-1) or WSTRING (UTF-16, little endian); of a reference what it refers to, by name (UTF-8). */
   strings: { id: number; bytes: Uint8Array }[];
 }
 

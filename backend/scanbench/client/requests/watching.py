@@ -27,7 +27,8 @@ class Frame:
     time_ns: int
     """When it begins, in the time of the PLC."""
     values: Mapping[str, Number | str | None]
-    """All that is watched, by its path: BOOL as bool, REAL as float, texts as str, times and dates as ns, other types as int. None: an in-out
+    """All that is watched, by its path: BOOL as bool, REAL as float, texts as str, references as what they refer to
+    (`-> Main.tank[3].level`, `NULL`), times and dates as ns, other types as int. None: an in-out
     that leads nowhere yet."""
     changed: frozenset[str]
     """The paths whose values came with this frame."""
@@ -92,9 +93,14 @@ class WatchRequests:
             at += _TEXT.size
             if id in self._symbols:
                 path, symbol = self._symbols[id]
-                wide = symbol["type"].upper().startswith("WSTRING")
-                yield path, data[at : at + length].decode("utf-16-le" if wide else "latin-1", "replace")
+                yield path, data[at : at + length].decode(_encoding(symbol), "replace")
             at += length
+
+
+def _encoding(symbol: Symbol) -> str:
+    if symbol["kind"] == "ref":
+        return "utf-8"
+    return "utf-16-le" if symbol["type"].upper().startswith("WSTRING") else "latin-1"
 
 
 def _placed(item: Watched) -> Iterator[tuple[int, tuple[str, Symbol]]]:

@@ -45,6 +45,7 @@ describe("formatValue", () => {
     expect(at("LTIME_OF_DAY", 45_000_500_000_000n)).toBe("LTOD#12:30:00.5");
     expect(text({ kind: "char", size: 1 }, (v) => v.setUint8(0, 39))).toBe("'$''");
     expect(text({ kind: "ref", size: 8 }, () => undefined)).toBe("NULL");
+    expect(text({ kind: "ref", size: 8 }, (v) => v.setBigUint64(0, 5000n, true))).toBe("-> image+5000");
   });
 
   it("shows BOOL as TRUE and FALSE", () => {

@@ -40,7 +40,7 @@ export function formatValue(shape: ValueShape, view: DataView, offset: number, f
       );
     case "ref": {
       const reference = view.getBigUint64(offset, true);
-      return reference === 0n ? "NULL" : `-> ${reference & 0xffffffffn}`;
+      return reference === 0n ? "NULL" : `-> image+${reference & 0xffffffffn}`;
     }
     default:
       return "";

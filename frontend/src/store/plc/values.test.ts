@@ -47,3 +47,10 @@ test("a variable that is watched again shows its value again", () => {
   apply(frame(9, 2));
   expect(currentText("Main.c")).toBe("2");
 });
+
+test("a reference shows the name of what it refers to", () => {
+  assign("Main.r", 10, { ...int, type: "REF_TO INT", kind: "ref", size: 8 });
+  bindCell("Main.r", "default", () => undefined);
+  apply({ ...frame(11, 0), strings: [{ id: 10, bytes: new TextEncoder().encode("-> Main.größe") }] });
+  expect(currentText("Main.r")).toBe("-> Main.größe");
+});

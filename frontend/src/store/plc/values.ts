@@ -28,6 +28,8 @@ interface Entry {
   cells: Set<Cell>;
 }
 
+const utf8 = new TextDecoder();
+
 /** Counts the frames. */
 let frames = 0;
 let bytes = new Uint8Array(8 * 256);
@@ -111,7 +113,8 @@ export function apply(frame: Frame): void {
   for (const { id, bytes: data } of frame.strings) {
     const entry = byId.get(id);
     if (!entry) continue;
-    const text = textOf(data, entry.symbol?.type.startsWith("WSTRING") ?? false);
+    const text =
+      entry.symbol?.kind === "ref" ? utf8.decode(data) : textOf(data, entry.symbol?.type.startsWith("WSTRING") ?? false);
     mark(entry, entry.known && entry.string !== text);
     entry.string = text;
   }
@@ -158,6 +161,7 @@ function read(entry: Entry, format: CellFormat): Reading {
   const { symbol } = entry;
   const offset = entry.slot * 8;
   if (!entry.known || !symbol) return { text: "", lamp: null, changed: false };
+  if (symbol.kind === "ref") return { text: entry.string ?? "", lamp: null, changed: entry.changed };
   if (symbol.kind === "string") {
     const quote = symbol.type.startsWith("WSTRING") ? '"' : "'";
     return { text: formatString(entry.string ?? "", quote), lamp: null, changed: entry.changed };
@@ -186,7 +190,7 @@ export const hasChangedSince = (path: string, mark: number) => (entries.get(path
 export function sortKey(path: string): SortKey {
   const entry = entries.get(path);
   if (!entry?.known || !entry.symbol) return null;
-  return entry.symbol.kind === "string" ? entry.string : sortKeyAt(entry.symbol, view, entry.slot * 8);
+  return entry.symbol.kind === "string" || entry.symbol.kind === "ref" ? entry.string : sortKeyAt(entry.symbol, view, entry.slot * 8);
 }
 
 /** The last known text of a value, for copying and for forcing the current value. */
