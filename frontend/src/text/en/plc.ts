@@ -251,7 +251,7 @@ export const plc = {
   "newproject.archive":
     "Program files (optional): a zip file of a project of Scanbench or TwinCAT or of plain files, or a file of PLCopen, IEC 61131-10 (XML) or Studio 5000 (L5X)",
   "newproject.archive.has": "{count} files",
-  "newproject.archive.left": "{count} files; {left} other files are left out: {names}",
+  "newproject.archive.left": "{count} files. Left out: {left} ({names})",
   "folderout.about":
     "The files of the project as they are saved on the server. Other files in the folder stay as they are.",
   "folderout.changed": "Replaced: the folder has other contents",

@@ -250,7 +250,7 @@ export const plc: Record<keyof typeof english, string> = {
   "newproject.archive":
     "プログラムファイル（任意）: Scanbench または TwinCAT のプロジェクト、ファイルの zip、PLCopen または IEC 61131-10 のファイル (XML)、または Studio 5000 のファイル (L5X)",
   "newproject.archive.has": "ファイル {count} 件",
-  "newproject.archive.left": "ファイル {count} 件。ほかの {left} 件は取り込みません: {names}",
+  "newproject.archive.left": "ファイル {count} 件。取り込まないもの: {left} 件（{names}）",
   "folderout.about": "サーバーに保存済みのプロジェクトのファイルです。フォルダ内のほかのファイルは変更しません。",
   "folderout.changed": "置き換え (フォルダの内容が異なります)",
   "folderout.comparing": "プロジェクトとフォルダを比較しています",
