@@ -114,7 +114,9 @@ export function apply(frame: Frame): void {
     const entry = byId.get(id);
     if (!entry) continue;
     const text =
-      entry.symbol?.kind === "ref" ? utf8.decode(data) : textOf(data, entry.symbol?.type.startsWith("WSTRING") ?? false);
+      entry.symbol?.kind === "ref"
+        ? utf8.decode(data)
+        : textOf(data, entry.symbol?.type.startsWith("WSTRING") ?? false);
     mark(entry, entry.known && entry.string !== text);
     entry.string = text;
   }
@@ -190,7 +192,9 @@ export const hasChangedSince = (path: string, mark: number) => (entries.get(path
 export function sortKey(path: string): SortKey {
   const entry = entries.get(path);
   if (!entry?.known || !entry.symbol) return null;
-  return entry.symbol.kind === "string" || entry.symbol.kind === "ref" ? entry.string : sortKeyAt(entry.symbol, view, entry.slot * 8);
+  return entry.symbol.kind === "string" || entry.symbol.kind === "ref"
+    ? entry.string
+    : sortKeyAt(entry.symbol, view, entry.slot * 8);
 }
 
 /** The last known text of a value, for copying and for forcing the current value. */
