@@ -138,6 +138,63 @@ test('a rung is drawn by keys, is text at once, and shows where power flows', as
     await expect(page.getByText('The clipboard has no rung, network or element that fits here.')).toBeVisible();
   });
 
+  await test.step('a name that is not declared is told at its contact, and declared from there', async () => {
+    await sheet.getByRole('option', { name: 'Contact go', exact: true }).click();
+    await keyboard.press('c');
+    await keyboard.type('nix');
+    await keyboard.press('Enter');
+    const wrong = sheet.getByRole('option', { name: 'Contact nix, `nix` is not declared.' });
+    await expect(wrong).toHaveAttribute('aria-selected', 'true');
+    await expect(sheet.getByTitle('`nix` is not declared.')).toBeVisible();
+    await page.getByRole('button', { name: 'Declare nix : BOOL' }).click();
+    await expect(sheet.getByRole('option', { name: 'Contact nix', exact: true })).toBeVisible();
+    for (let edits = 0; edits < 2; edits += 1) await keyboard.press('Control+Z');
+    await expect(sheet.getByRole('option', { name: 'Contact nix' })).toHaveCount(0);
+  });
+
+  await test.step('several elements are chosen, copied, deleted, and dragged into a different rung', async () => {
+    const chosen = sheet.getByRole('option', { selected: true });
+    await sheet.getByRole('option', { name: 'Contact go', exact: true }).click();
+    await keyboard.press('Shift+End');
+    await expect(chosen).toHaveCount(4);
+    await keyboard.press('Escape');
+    await expect(chosen).toHaveCount(1);
+    await sheet.getByRole('option', { name: 'Contact go', exact: true }).click();
+    await sheet.getByRole('option', { name: 'Coil on' }).click({ modifiers: ['Control'] });
+    await expect(chosen).toHaveCount(2);
+    await keyboard.press('Control+C');
+    await keyboard.press('Control+I');
+    await keyboard.press('Control+V');
+    const [first, second] = [sheet.getByRole('group').first(), sheet.getByRole('group').nth(1)];
+    await expect(second.getByRole('option')).toHaveCount(2);
+    await keyboard.press('Shift+ArrowLeft');
+    await keyboard.press('Delete');
+    await expect(second.getByRole('option')).toHaveCount(0);
+    await first.getByRole('option', { name: 'Contact go' }).hover();
+    await page.mouse.down();
+    await second.getByRole('presentation').first().hover();
+    await expect(sheet.locator('.drops .over')).toHaveCount(1);
+    await page.mouse.up();
+    await expect(second.getByRole('option', { name: 'Contact go' })).toBeVisible();
+    await expect(first.getByRole('option', { name: 'Contact go' })).toHaveCount(0);
+    await keyboard.press('Control+Shift+A');
+    await keyboard.press('Delete');
+    await expect(sheet.getByRole('group')).toHaveCount(1);
+    await expect(sheet.getByRole('option')).toHaveCount(0);
+    for (let edits = 0; edits < 5; edits += 1) await keyboard.press('Control+Z');
+    await expect(sheet.getByRole('group')).toHaveCount(1);
+    await expect(sheet.getByRole('option', { name: 'Coil on' })).toBeVisible();
+  });
+
+  await test.step('the only rung of a block is emptied, not taken away with its drawing', async () => {
+    await keyboard.press('Control+Delete');
+    await expect(sheet.getByRole('option')).toHaveCount(0);
+    await expect(sheet.getByRole('group')).toHaveCount(1);
+    await expect(page.getByRole('radio', { name: 'Ladder' })).toBeChecked();
+    await keyboard.press('Control+Z');
+    await expect(sheet.getByRole('option', { name: 'Coil on' })).toBeVisible();
+  });
+
   await test.step('it is the text of the file', async () => {
     await page.getByRole('radio', { name: 'Both' }).click();
     await expect(mika.editor('Latch.st').line('| [on]')).toBeVisible();

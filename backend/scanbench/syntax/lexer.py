@@ -77,7 +77,7 @@ PIECE = re.compile(
   | (?i:L?D|L?DATE|L?TOD|L?TIME_OF_DAY|L?DT|L?DATE_AND_TIME)\#\d[\d_]*(?:[-:]\d[\d_]*)*(?:\.\d[\d_]*)?
   | [^\W\d]\w*(?:\#(?:[+-]?\d[\d_]*(?:\#\w+|(?:\.\d[\d_]*)?(?:[Ee][+-]?\d+)?)
                      |[^\W\d]\w*|'(?:\$.|[^$'\n])*'|"(?:\$.|[^$"\n])*"))?
-  | =>|<=|>=|<>|\*\*|\.\.|\?=|[-=<>&.^\#]
+  | =>|<=|>=|<>|\*\*|\.\.|\?=|\?\?\?|[-=<>&.^\#]
   | //[^\n]*
   | \(\*[^*(]*+(?:(?:\*(?!\))|\((?!\*))[^*(]*+)*+\*\)
   | /\*[^*/]*+(?:(?:\*(?!/)|/(?!\*))[^*/]*+)*+\*/
@@ -131,12 +131,11 @@ def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[To
     all_starts = list(accumulate(map(len, pieces), initial=start))
     if Lex.UNREADABLE in found:
         for piece, at in zip(pieces, all_starts, strict=False):
-            # The second and third mark of `???` say nothing that the first does not.
-            if known[piece] is Lex.UNREADABLE and not (piece == "?" and text[at - 1 : at] == "?"):
+            if known[piece] is Lex.UNREADABLE:
                 problems.append(_unreadable(source, at, piece))
                 if len(problems) >= MAX_UNREADABLE:
                     break
-        known = {piece: Lex.BLANK if kind is Lex.UNREADABLE else kind for piece, kind in known.items()}
+        known = {piece: _readable(piece, kind) for piece, kind in known.items()}
     pragmas = []
     if "{" in text:
         pragmas = [(at, piece) for piece, at in zip(pieces, all_starts, strict=False) if piece[0] == "{"]
@@ -152,6 +151,8 @@ def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[To
 
 
 def _kind(piece: str) -> Lex:
+    if piece == NOTHING:
+        return Lex.UNREADABLE
     first = piece[0]
     if first.isspace() or first == "\ufeff":
         return Lex.BLANK
@@ -170,6 +171,13 @@ def _kind(piece: str) -> Lex:
     return Lex.OPEN if first == "{" else Lex.UNREADABLE
 
 
+def _readable(piece: str, kind: Lex) -> Lex:
+    """The kind of a token; what has no meaning is left out. What is not named yet is a name, so that only it is wrong and not what is around it."""
+    if kind is not Lex.UNREADABLE:
+        return kind
+    return Lex.NAME if piece == NOTHING else Lex.BLANK
+
+
 def _is_time(piece: str) -> bool:
     prefix, value = piece.split("#", 1)
     return prefix.upper() in TIME_TYPES and value[0] in "+-0123456789"
@@ -179,7 +187,7 @@ def _unreadable(source: Source, at: int, char: str) -> Problem:
     span = source.span(at, at + 1)
     if char in "'\"":
         return Problem("S002", "This string never ends; close it on the same line.", span)
-    if source.text.startswith(NOTHING, at):
+    if char == NOTHING:
         message = "`???` stands for what is not connected or named yet; write a variable, a wire or a value."
         return Problem("S001", message, source.span(at, at + len(NOTHING)))
     found = next((each for each in FOREIGN if source.text.startswith(each, at)), "")

@@ -68,10 +68,11 @@ def _wire(c: Cursor, start: int, wires: list[networks.Wire], read: set[str]) -> 
     span = c.span_from(start)
     type = parse_type.type_spec(c, named=False) if c.accept(":") else None
     c.expect("=", "after the wire")
-    value = _value(c)
-    read |= c.wires or set()
-    key = c.texts[name].upper()
-    wires.append(networks.Wire(f"#{c.texts[name]}", type, key in read, span))
+    try:
+        value = _value(c)
+    finally:  # it is a wire, whatever is wrong behind it
+        read |= c.wires or set()
+        wires.append(networks.Wire(f"#{c.texts[name]}", type, c.texts[name].upper() in read, span))
     return networks.Item(tree.Name(f"#{c.texts[name]}", span), "=", value, None, c.span_from(start))
 
 

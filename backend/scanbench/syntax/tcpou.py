@@ -197,7 +197,10 @@ class _Writer:
             if each.tag in ("ST", "IL"):
                 self._text(each)
             else:
-                message = f"A body written in {each.tag} is not supported; convert it to Structured Text."
+                message = (
+                    f"A body drawn in {each.tag} is not read from a file of TwinCAT; in TwinCAT export this POU as PLCopen XML "
+                    "and import that, or write the body as Structured Text."
+                )
                 self._refuse(message, each)
 
     def _refuse(self, message: str, element: Element) -> None:

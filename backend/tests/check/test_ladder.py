@@ -93,3 +93,34 @@ def test_a_loop_is_refused_where_nothing_is_kept() -> None:
     text = "FUNCTION F : INT\nNETWORK\nF := #n;\n#n : INT = 1;\nEND_NETWORK\nEND_FUNCTION\nPROGRAM Main\nEND_PROGRAM\n"
     found = check_sources({"a.st": text}, MODEL).problems
     assert {("T001", 3), ("T010", 4)} <= {(each.code, each.span.line) for each in found}
+
+
+OPEN = """RUNG
+[???] (b)
+END_RUNG
+RUNG
+[b] t(IN := ~, PT := ???).Q (???)
+END_RUNG
+NETWORK
+#one = AND(b, ???);
+#two = OR(#one, c);
+#three = ???(x, y);
+b := #two;
+x := #three;
+t(IN := #two, PT := ???, Q => #late);
+??? := #late;
+c := ???;
+END_NETWORK
+"""
+
+
+def test_a_pin_that_is_not_connected_is_told_once_and_nothing_that_follows_from_it() -> None:
+    found = problems(OPEN)
+    assert [(each.code, each.span.line) for each in found] == [
+        ("S001", line) for line in (4, 7, 7, 10, 12, 15, 16, 17)
+    ], "\n".join(map(str, found))
+
+
+def test_a_wire_whose_line_is_wrong_is_told_there_alone() -> None:
+    found = problems("NETWORK\n#one = AND(b, gone);\n#two = OR(#one c);\nb := #one;\nc := #two;\nb := #other;\nEND_NETWORK")
+    assert [(each.code, each.span.line) for each in found] == [("T001", 4), ("S003", 5), ("T001", 8)]

@@ -44,7 +44,7 @@ def test_a_program_goes_out_in_both_forms_of_xml_with_what_they_leave_out(server
 
     whole, part = written("tc6"), written("iec61131-10")
     assert (whole.name, whole.left_out) == ("Out.xml", [])
-    assert part.left_out == ["Chart: a chart, whose form in IEC 61131-10 is not known here"]
+    assert part.left_out == ["Chart, the whole of it: a chart, whose form in IEC 61131-10 is not known here"]
     assert server.http.post("/api/archives", content=whole.text.encode()).json()["files"] == ["Chart.st", "Main.st"]
     assert server.http.post("/api/archives", content=part.text.encode()).json()["files"] == ["Main.st"]
 

@@ -6,6 +6,7 @@ import { pageOf } from "../store/page/navigate";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
+import { fileOf } from "./layout";
 import { canPopOut, popOut } from "./popOut";
 
 /** The end of a tab strip: a window of its own for the tab in front; for a page the whole dock, or the other panels back. */
@@ -15,7 +16,8 @@ export function PageEnd({ activePanel, containerApi, panels, group }: IDockviewH
     const change = containerApi.onDidMaximizedGroupChange(() => setWide(group.api.isMaximized()));
     return () => change.dispose();
   }, [containerApi, group]);
-  const page = panels.some((panel) => pageOf(panel.id) && panel.id !== "help");
+  // A drawing, or a text, may need the room of the other panels, too.
+  const page = panels.some((panel) => (pageOf(panel.id) && panel.id !== "help") || fileOf(panel.id) !== undefined);
   return (
     <span className="pageend">
       {activePanel && activePanel.id !== "help" && (

@@ -22,6 +22,7 @@ from scanbench.program.origin import in_library
 from scanbench.program.program import Expr, Place, Pou
 from scanbench.program.types import ELEMENTARY, Record, Reference, Type
 from scanbench.syntax import tree
+from scanbench.syntax.lexer import NOTHING
 
 _TEXTS = {
     "STRING_TO_BOOL": Allowance.TRUE_TEXTS, "STRING_TO_ULINT": Allowance.TEXT_NUMBERS,
@@ -99,6 +100,8 @@ def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Pla
         )
     name = node.callee.name
     key = name.upper()
+    if name == NOTHING:  # reported
+        raise Rejected
     if hides(body, name):
         _no_value(body, node.callee)
     declared = body.declarations.block_trees.get(key)

@@ -107,6 +107,8 @@ class Body:
     """Blocks of statements that begin with a label, by its name in upper case."""
     block: int = 0
     """The number of the block that is being checked."""
+    unmade: set[str] = field(default_factory=set)
+    """Wires, in upper case, whose lines were refused: what reads them is not wrong by itself."""
     peeked: list[Span] = field(default_factory=list)
     """Variables of blocks that can be read from outside by the dialect only; nobody writes them there."""
     wide: dict[int, tuple[Expr, Expr]] = field(default_factory=dict)

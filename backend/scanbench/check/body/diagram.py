@@ -3,6 +3,7 @@
 A wire is a hidden temporary with the name that it is written with, `#low`; one that is read above its line is a variable that keeps its value.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from scanbench.check.body import fold
@@ -46,11 +47,13 @@ class FunctionBlocks:
                     f"move the line up.",
                     wire.span,
                 )
+        set_here = {each.target.name.upper() for each in diagram.items if isinstance(each.target, tree.Name)}
+        self._body.unmade.update(self._wires.keys() - set_here)
         for item in diagram.items:
             try:
                 self._item(item)
             except Rejected:
-                continue
+                self._body.unmade.update(_wires_of(item))
 
     def _item(self, item: networks.Item) -> None:
         if item.leave is not None:
@@ -129,3 +132,12 @@ class FunctionBlocks:
             raise self._report.reject("T002", "This gives no value, so a wire cannot have it.", item.span)
         hidden(self._body, wire.name, found.type, wire.span)
         self._code.store(tree.Name(wire.name, item.span), found, item.span)
+
+
+def _wires_of(item: networks.Item) -> Iterator[str]:
+    """The wires that a line sets, in upper case."""
+    outputs = item.value.arguments if isinstance(item.value, networks.Function) else ()
+    targets = (each.value for each in outputs if isinstance(each, tree.Argument) and each.output)
+    for target in (item.target, *targets):
+        if isinstance(target, tree.Name) and target.name.startswith(networks.WIRE):
+            yield target.name.upper()

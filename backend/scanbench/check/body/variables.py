@@ -12,6 +12,7 @@ from scanbench.program.program import Base, Place
 from scanbench.program.sites import TrapKind
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
+from scanbench.syntax.lexer import NOTHING
 
 INSTANCE = ("THIS", "SUPER")
 
@@ -49,6 +50,8 @@ def _edge(member: Member, base: Base, owner: Record) -> Place | None:
 def undeclared(body: Body, name: str, span: Span) -> Rejected:
     """Reports a name that means nothing here."""
     upper = name.upper()
+    if name == NOTHING or upper in body.unmade:  # reported
+        return Rejected()
     if {(owner, upper) for owner in (body.scope.pou.upper(), "GLOBAL")} & body.declarations.broken:
         return Rejected()
     if upper in body.pous.functions:

@@ -62,7 +62,7 @@ def write_project(name: str, files: Mapping[str, str], form: Form = Form.TC6) ->
             continue
         file, problems = parse_file(Source(path, content))
         if problems:
-            left.append(f"{path}: it has problems: {problems[0].message}")
+            left.append(f"{path}, the whole of it: it has problems: {problems[0].message}")
         else:
             read.append(file)
     inputs = {pou.name.upper(): _inputs(pou) for file in read for pou in file.pous if pou.kind == "function"}
@@ -116,7 +116,7 @@ def _tried(parent: Element, name: str, left: list[str], make: Callable[[], None]
         make()
     except CannotWrite as why:
         del parent[before:]
-        left.append(f"{name}: {why}")
+        left.append(f"{name}, the whole of it: {why}")
 
 
 def _type(parent: Element, each: tree.TypeDeclaration) -> None:

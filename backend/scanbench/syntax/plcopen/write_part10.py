@@ -52,7 +52,7 @@ def _tried(parent: Element, node: Element, make: Callable[[Element, Element], No
         make(parent, node)
     except CannotWrite as why:
         del parent[before:]
-        left.append(f"{attribute(node, 'name')}: {why}")
+        left.append(f"{attribute(node, 'name')}, the whole of it: {why}")
 
 
 # ---- declarations -----------------------------------------------------------------------------------------------

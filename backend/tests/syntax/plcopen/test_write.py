@@ -165,7 +165,7 @@ def test_random_charts_go_the_same_way(made: tuple[test_random_charts.Machine, l
 def test_what_is_half_written_is_left_out_and_told(body: str, why: str, form: Form) -> None:
     source = f"PROGRAM Main\nVAR x : BOOL; END_VAR\n{body}END_PROGRAM\n"
     (said,) = write_project("Half", {"main.st": source}, form).left_out
-    assert said.startswith(f"Main: {why}, which ")
+    assert said.startswith(f"Main, the whole of it: {why}, which ")
 
 
 @pytest.mark.parametrize("path", ["plant/Machine.st", "line/Plant/Machine.st", "line\\plant\\tank\\Machine.st"])

@@ -36,7 +36,8 @@ function chartOf(found: Found, text: string): Written | null {
 }
 
 /** In the order of the text, as the places of a drawing count them. */
-const elementsOf = ({ steps, transitions }: Chart): ChartElement[] =>
+/** The order of places. */
+export const elementsOf = ({ steps, transitions }: Chart): ChartElement[] =>
   [...steps, ...steps.flatMap(({ actions }) => actions), ...transitions].sort((a, b) => a.span.at - b.span.at);
 
 /** The chart after a key; null where the key does nothing there. */

@@ -15,7 +15,7 @@ import { type DrawnPart, spotsOf } from "./sheet";
 const UNFIT: Refused = { refused: "graphic.refused.paste" };
 
 /** A network with its pragma, its first line without the blanks before it. */
-const wholeText = ({ text, indent, head }: Found) =>
+export const wholeText = ({ text, indent, head }: Found) =>
   (head.off ? "{off} " : "") +
   text
     .split("\n")

@@ -51,6 +51,20 @@ export function networksIn(text: string): Found[] {
   return found;
 }
 
+/** The networks of each body: between two of one body there are no words but that of `{off}`. */
+export function bodiesOf(text: string): Found[][] {
+  const bodies: Found[][] = [];
+  let end = 0;
+  for (const found of networksIn(text)) {
+    const beside = [...wordsIn(text, end, found.from)].every(({ word }) => word === "OFF");
+    const last = bodies.at(-1);
+    if (last && beside) last.push(found);
+    else bodies.push([found]);
+    end = found.to;
+  }
+  return bodies;
+}
+
 /** The network that begins in the line at this offset; null when none does. */
 function networkAt(text: string, at: number, line: number): Found | null {
   const begin = BEGIN.exec(text.slice(at, at + 2000));

@@ -3,6 +3,7 @@
 import { keyOf } from "./chart";
 import type { Place } from "./ladderLayout";
 import { type DrawnPart, spotsOf } from "./sheet";
+import type { Span } from "./tree";
 
 interface InText {
   /** From 1, as in an editor. */
@@ -21,13 +22,30 @@ export function holds({ found: { text, line } }: DrawnPart, wanted: number): boo
   return wanted >= line && wanted < line + text.split("\n").length;
 }
 
+/** Where a place of the file is in the text of a part. */
+function offsetIn({ found: { text, indent, line: first } }: DrawnPart, { line, column }: InText): number {
+  const above = text.split("\n").slice(0, line - first);
+  return above.reduce((sum, each) => sum + each.length + 1, 0) + column - 1 - (line === first ? indent.length : 0);
+}
+
+/** The pin of a network whose text holds this place, else the element. Null where neither does. */
+export function stopIn(part: DrawnPart, at: InText): Place | null {
+  const offset = offsetIn(part, at);
+  const holds = ({ span }: { span: Span }) => offset >= span.at && offset < span.end;
+  if (part.kind === "network" && part.readable) {
+    for (const { element, place } of part.drawing?.elements ?? []) {
+      const { inputs, outputs } = element.item;
+      const pin = [...inputs, ...outputs].findIndex(holds);
+      if (pin >= 0) return [...place, pin];
+    }
+  }
+  return elementIn(part, at);
+}
+
 /** The element whose text holds this place, the innermost one; of the statements of an action its first use. Null where none does. */
 export function elementIn(part: DrawnPart, { line, column }: InText): Place | null {
-  const { text, indent, line: first } = part.found;
   if (!holds(part, line) || !part.readable) return null;
-  const above = text.split("\n").slice(0, line - first);
-  const offset =
-    above.reduce((sum, each) => sum + each.length + 1, 0) + column - 1 - (line === first ? indent.length : 0);
+  const offset = offsetIn(part, { line, column });
   const spots = spotsOf(part);
   const found = spots.findLast(({ element: { span } }) => offset >= span.at && offset < span.end);
   if (found || part.kind !== "chart") return found?.place ?? null;

@@ -57,3 +57,15 @@ export function fitDrawings(fitted: boolean): void {
   useFitted.setState({ fitted });
   keep(FIT, fitted);
 }
+
+const TOOLS = "drawingkeys";
+
+/** Whether the keys of a drawing are shown as buttons below it. */
+const useTools = create<{ shown: boolean }>(() => ({ shown: recall(TOOLS, true) }));
+
+export const useShowsTools = () => useTools(({ shown }) => shown);
+
+export function showTools(shown: boolean): void {
+  useTools.setState({ shown });
+  keep(TOOLS, shown);
+}

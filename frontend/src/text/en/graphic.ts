@@ -98,6 +98,11 @@ export const graphic = {
   "graphic.field.take": "Take this (Enter)",
   "graphic.fit": "Fit",
   "graphic.fit.hint": "Makes drawings that are wider than the editor smaller, down to half their size",
+  "graphic.noinstance": "No instance",
+  "graphic.noinstance.hint":
+    "The running program has no instance of this block, so there are no values and no power to show.",
+  "graphic.tools.short": "Keys",
+  "graphic.tools.hint": "Shows the keys of the drawing as buttons below it",
   "graphic.print": "Print",
   "graphic.print.hint":
     "Prints the drawing of this file on pages, without values and marks; the browser saves it as PDF, too",
@@ -115,6 +120,11 @@ export const graphic = {
   "graphic.head.label": "Label",
   "graphic.head.title": "Title",
   "graphic.head.comment": "Comment; // begins a new line",
+  "graphic.refused.move": "These elements cannot be put there.",
+  "graphic.rename": "Rename {name}",
+  "graphic.rename.about": "The name is changed in all files of the project; they are not saved yet.",
+  "graphic.rename.label": "New name",
+  "graphic.rename.do": "Rename",
   "graphic.refused.paste": "The clipboard has no rung, network or element that fits here.",
   "graphic.refused.paste.chart": "Networks are put below a rung or network: choose one first.",
   "graphic.refused.output": "The result of a box stays: delete the box, or choose a different variable.",

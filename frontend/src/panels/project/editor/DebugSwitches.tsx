@@ -6,7 +6,7 @@ import { useBench } from "../../../store/plc/bench";
 import { useOnline } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
-import { MenuButton } from "../../../ui/Menu";
+import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { Switch } from "../../../ui/Switch";
 
 /** Switches above the text: values at the ends of lines (private), coverage (for everybody at the PLC). */
@@ -23,6 +23,17 @@ export function DebugSwitches({ path }: { path: string }) {
       {online && <CoverageSwitch path={path} />}
     </>
   );
+}
+
+/** The same as entries of a menu, where there is no room for them. */
+export function useSwitches(): MenuItem[] {
+  const inline = usePrefs((prefs) => prefs.inline);
+  const online = useOnline();
+  const coverage = useCoverage((state) => state.coverage?.on ?? false);
+  return [
+    { label: t("debug.inline"), checked: inline, onSelect: toggleInline },
+    ...(online ? [{ label: t("coverage.label"), checked: coverage, onSelect: () => void setCoverage(!coverage) }] : []),
+  ];
 }
 
 function CoverageSwitch({ path }: { path: string }) {

@@ -16,7 +16,7 @@ import { MenuButton, type MenuItem } from "../../../ui/Menu";
 import { Segments } from "../../../ui/Segments";
 import { StateWord } from "../../../ui/StateWord";
 import type { Pou } from "../../../wire/types";
-import { DebugSwitches } from "./DebugSwitches";
+import { DebugSwitches, useSwitches } from "./DebugSwitches";
 import { shownLine, useHaltedLine } from "./halt";
 import { SeenAs } from "./SeenAs";
 import { canVerify, VerifyButton } from "./VerifyButton";
@@ -128,10 +128,12 @@ function More({ path, pou }: { path: string; pou: Pou | undefined }) {
   const forbidden = useForbidden("change");
   const { checks, formatOnType, lenses } = usePrefs();
   const running = useBench((bench) => bench.instance !== null);
+  const switches = useSwitches();
   const items = (): MenuItem[] => [
     ...(running && pou && canVerify(pou)
       ? [{ label: t("verify.range.menu"), icon: "differs" as const, onSelect: () => verifyHere(path) }]
       : []),
+    ...(drawnKind(shownText(path).text) ? switches : []),
     { label: t("checks.show"), checked: checks, onSelect: toggleChecks },
     { label: t("editor.lenses"), checked: lenses, onSelect: toggleLenses },
     { label: t("editor.formatontype"), checked: formatOnType, onSelect: toggleFormatOnType },

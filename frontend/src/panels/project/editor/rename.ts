@@ -5,6 +5,7 @@ import { messageOf } from "../../../logic/format/messageOf";
 import { openFile } from "../../../store/page/navigate";
 import { openDocument, useDocuments } from "../../../store/project/documents";
 import { demandAt, pathOf } from "../../../store/project/language";
+import { applyEdits } from "./graphic/write";
 import { modelOf } from "./models";
 import { editor, languages } from "./monaco";
 import { at, isPast, pathOfModel, rangeOf, signalOf } from "./serverShapes";
@@ -33,21 +34,8 @@ languages.registerRenameProvider(LANGUAGE, {
     }
   },
   provideRenameEdits: async (model, position, newName, token) => {
-    const here = pathOfModel(model);
-    const wanted = () =>
-      demandAt<WorkspaceEdit>("textDocument/rename", here, at(position), { newName }, signalOf(token));
     try {
-      let changes = changesOf(await wanted());
-      const closed = changes.filter(({ path }) => !useDocuments.getState().open[path]);
-      if (closed.length > 0) {
-        // This browser may have a text of a closed file that is not saved: the edits have to be those of that text.
-        for (const { path } of closed) {
-          await openDocument(path);
-          openFile(path);
-        }
-        openFile(here);
-        changes = changesOf(await wanted());
-      }
+      const changes = await renamed(pathOfModel(model), at(position), newName, signalOf(token));
       return {
         edits: changes.flatMap(({ path, edits }) => {
           const { uri } = modelOf(path, useDocuments.getState().open[path]?.text ?? "");
@@ -63,6 +51,26 @@ languages.registerRenameProvider(LANGUAGE, {
     }
   },
 });
+
+/** The edits of a different name, by file. Files that they are in are open then. */
+async function renamed(here: string, place: { line: number; column: number }, newName: string, signal?: AbortSignal) {
+  const wanted = () => demandAt<WorkspaceEdit>("textDocument/rename", here, place, { newName }, signal);
+  const changes = changesOf(await wanted());
+  const closed = changes.filter(({ path }) => !useDocuments.getState().open[path]);
+  if (closed.length === 0) return changes;
+  // This browser may have a text of a closed file that is not saved: the edits have to be those of that text.
+  for (const { path } of closed) {
+    await openDocument(path);
+    openFile(path);
+  }
+  openFile(here);
+  return changesOf(await wanted());
+}
+
+/** Gives what is at a place a different name, in all files. Rejects with why that is not possible. */
+export async function renameAt(path: string, place: { line: number; column: number }, newName: string): Promise<void> {
+  for (const { path: file, edits } of await renamed(path, place, newName)) applyEdits(file, edits);
+}
 
 const changesOf = (found: WorkspaceEdit | null) =>
   Object.entries(found?.changes ?? {}).map(([uri, edits]) => ({ path: pathOf(uri), edits }));

@@ -11,7 +11,7 @@ import {
 import { type PinSpot, pinsOf } from "../../../../logic/graphic/diagramPins";
 import { t } from "../../../../text";
 import { nameOfItem, nameOfPin } from "./names";
-import { type Marked, SpotGroup, sharp } from "./SpotGroup";
+import { isChosen, type Marked, SpotGroup, sharp, wrongAt } from "./SpotGroup";
 
 interface Props extends Marked {
   drawing: DiagramDrawing;
@@ -42,17 +42,20 @@ export const DiagramPicture = memo(function DiagramPicture({ drawing, ...marked 
 });
 
 /** Where a pin is selected: what is drawn there belongs to its item. */
-function Pin({ pin, id, cursor }: { pin: PinSpot } & Marked) {
+function Pin({ pin, id, cursor, chosen, wrong: all }: { pin: PinSpot } & Marked) {
   const key = pin.place.join(".");
+  const wrong = wrongAt(all, key);
   return (
     <g
       id={`${id}-${key}`}
       role="option"
-      aria-selected={key === cursor}
-      aria-label={nameOfPin(pin)}
+      aria-selected={chosen === "" ? key === cursor : isChosen(chosen, key)}
+      aria-label={[nameOfPin(pin), wrong].filter(Boolean).join(", ")}
       data-element={key}
       data-side={pin.side}
+      data-wrong={wrong === "" ? undefined : ""}
     >
+      {wrong !== "" && <title>{wrong}</title>}
       <rect className="hit" x={pin.x} y={pin.y - 9} width={pin.width - 2} height={18} rx={3} />
     </g>
   );

@@ -4,6 +4,7 @@ import { valueIn } from "../../../../logic/graphic/flow";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { type DrawnPart, spotsOf } from "../../../../logic/graphic/sheet";
 import { chooseCall, useFlow } from "../../../../store/debug/flow";
+import { useSeenAs } from "../../../../store/debug/seenAs";
 import { t } from "../../../../text";
 import { Icon } from "../../../../ui/Icon";
 import type { Flows, Pou } from "../../../../wire/types";
@@ -22,6 +23,14 @@ interface Props {
 export function FlowNote({ path, part, place, pou }: Props) {
   const flows = useFlow(({ of }) => (pou === undefined ? null : (of.get(pou.name) ?? null)));
   const flow = part ? flowOfPart(part, path, flows) : null;
+  const none = useSeenAs(({ instances }) => pou !== undefined && instances.get(pou.name.toUpperCase())?.length === 0);
+  if (!flow && none)
+    return (
+      <span className="row tight" title={t("graphic.noinstance.hint")}>
+        <Icon name="info" small />
+        {t("graphic.noinstance")}
+      </span>
+    );
   if (!flow)
     return (
       <span className="row tight" title={t("graphic.fromvalues.hint")}>

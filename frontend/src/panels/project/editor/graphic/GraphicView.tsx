@@ -3,7 +3,6 @@ import {
   type ClipboardEvent,
   type KeyboardEvent,
   type MouseEvent,
-  type PointerEvent,
   useEffect,
   useId,
   useMemo,
@@ -14,7 +13,6 @@ import { baseName } from "../../../../logic/format/paths";
 import { emptyIn } from "../../../../logic/graphic/chartKeys";
 import { NOTHING } from "../../../../logic/graphic/diagram";
 import { diagramOf } from "../../../../logic/graphic/diagramEdit";
-import { connected } from "../../../../logic/graphic/diagramKeys";
 import { type Around, instancesIn, namesIn } from "../../../../logic/graphic/edit";
 import { emptyInRung } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
@@ -36,31 +34,36 @@ import { type Twice, writtenTwice } from "../../../../logic/graphic/writers";
 import { pouAt } from "../../../../logic/plc/sourceLines";
 import { useDebug } from "../../../../store/debug/debug";
 import { boxesNow, loadBoxes } from "../../../../store/graphic/boxes";
-import { fitDrawings, showAs, useFit, useViewOf } from "../../../../store/graphic/views";
+import { showAs, useFit, useViewOf } from "../../../../store/graphic/views";
 import { saveFile } from "../../../../store/page/download";
 import { openFile, useNavigation } from "../../../../store/page/navigate";
 import { useDocuments } from "../../../../store/project/documents";
 import { shownText } from "../../../../store/project/shownProgram";
 import { useVerifyRows } from "../../../../store/verify/verifyRows";
 import { t } from "../../../../text";
-import { Icon } from "../../../../ui/Icon";
+import type { Problem } from "../../../../wire/types";
 import "./graphic.css";
 import { useHaltedLine } from "../halt";
 import { elementBeside, moved, sameElement } from "./cursor";
 import { differencesIn } from "./differences";
 import { ElementField } from "./ElementField";
-import { FlowNote } from "./FlowNote";
+import { Foot } from "./Foot";
 import { marksOf, togglePart } from "./marks";
+import { type Operand, operandAt, pressOperand } from "./operand";
 import { PartRow } from "./PartRow";
 import { layOnPaper, PAPER, usePrinted } from "./printed";
+import { Rename } from "./Rename";
 import { svgFile } from "./svgFile";
-import { Tools } from "./Tools";
-import { type Cursor, useEditing } from "./useEditing";
+import { useChosen } from "./useChosen";
+import { useDrag } from "./useDrag";
+import { type Cursor, keyOf, useEditing } from "./useEditing";
+import { wrongIn } from "./wrong";
 
 /** Marks, number and margins left and right of a drawing. */
 const BESIDE = 22 + 34 + 20 + 18;
 
 const NONE: readonly Twice[] = [];
+const NO_PROBLEMS: readonly Problem[] = [];
 
 interface Props {
   path: string;
@@ -75,9 +78,11 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   const parts = useRef(new Sheet());
   const [width, setWidth] = useState(640);
   const [wanted, setCursor] = useState<Cursor>({ rung: 0, place: [0] });
+  const [renaming, setRenaming] = useState<Operand | null>(null);
   const id = useId();
   const view = useViewOf(path, text);
   useDocuments(({ pous }) => pous);
+  const problems = useDocuments((documents) => (readOnly ? NO_PROBLEMS : documents.problems));
   const breakpoints = useDebug((debug) => debug.breakpoints);
   const halt = useHaltedLine(path);
   const verified = useVerifyRows(({ selected, byIndex }) =>
@@ -117,6 +122,10 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     if (network) void loadBoxes(path, inText(network, network.found.body.at));
   }, [path, network === undefined]);
   const editing = useEditing({ path, drawn, readOnly, go, around });
+  const { begin } = editing;
+  const choosing = useChosen({ path, drawn, readOnly, go, begin, around });
+  const { chosen } = choosing;
+  const drag = useDrag({ path, drawn, readOnly, chosen, go, begin, around });
   const { named } = editing;
   /** The part whose element is being named, as it will be. */
   const preview = useMemo(() => {
@@ -204,17 +213,26 @@ export default function GraphicView({ path, text, readOnly }: Props) {
   }
 
   function onKeyDown(event: KeyboardEvent): void {
-    if (event.metaKey) return;
+    if (!event.metaKey && doesKey(event)) event.preventDefault();
+  }
+
+  function doesKey(event: KeyboardEvent): boolean {
+    if (choosing.byKey(event, cursor)) return true;
     const to = moved(event, cursor, drawn);
-    if (to) go(to);
-    else if (!editing.onKey(event, cursor)) return;
-    event.preventDefault();
+    const key = keyOf(event);
+    if (!to && key === "Ctrl+F2") setRenaming(readOnly ? null : operandAt(cursorPart, cursor.place));
+    else if (!to)
+      return pressOperand(key, path, cursorPart, cursor.place) || choosing.press(key) || editing.press(key, cursor);
+    if (!to) return true;
+    choosing.clear();
+    go(to);
+    return true;
   }
 
   /** What is copied in a field is its text, and no business of the drawing. */
-  function onClipboard(event: ClipboardEvent, copy: (at: Cursor) => string | null): void {
+  function onClipboard(event: ClipboardEvent, what: "copy" | "cut"): void {
     if (event.target instanceof HTMLInputElement) return;
-    const text = copy(cursor);
+    const text = chosen ? choosing[what]() : editing[what](cursor);
     if (text === null) return;
     event.clipboardData.setData("text/plain", text);
     event.preventDefault();
@@ -248,32 +266,6 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     return true;
   }
 
-  /** An output, or an item, that is being dragged to an input. */
-  const dragged = useRef<Cursor | null>(null);
-
-  function onPointerDown({ target: on, button }: PointerEvent): void {
-    const from = on instanceof Element ? on.closest<SVGElement>(".el.item, [data-side='output']") : null;
-    const index = Number(from?.closest<HTMLElement>("[data-index]")?.dataset.index);
-    dragged.current =
-      button === 0 && from?.dataset.element !== undefined && drawn[index]?.kind === "network"
-        ? { rung: index, place: from.dataset.element.split(".").map(Number) }
-        : null;
-  }
-
-  function onPointerUp({ target: on }: PointerEvent): void {
-    const from = dragged.current;
-    dragged.current = null;
-    const to = on instanceof Element ? on.closest<SVGElement>("[data-side='input']") : null;
-    const part = from && drawn[from.rung];
-    if (!part || !to?.dataset.element || Number(to.closest<HTMLElement>("[data-index]")?.dataset.index) !== from.rung)
-      return;
-    if (readOnly) return;
-    const place = to.dataset.element.split(".").map(Number);
-    editing.begin(from.rung, connected(part.found.text, from.place, place, around()));
-    // The click that ends the drag means nothing.
-    window.addEventListener("click", (event) => event.stopPropagation(), { capture: true, once: true });
-  }
-
   function onClick(event: MouseEvent): void {
     const { target: on } = event;
     if (!(on instanceof Element)) return;
@@ -289,7 +281,13 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     const goal = on.closest<SVGElement>("[data-goal]")?.dataset.goal;
     const step = goal === undefined ? undefined : stepIn(clicked, goal);
     const onWire = hit === undefined && clicked ? wireAt(clicked, event) : null;
-    setCursor({ rung: index, place: step ?? onWire ?? (hit === undefined ? [] : hit.split(".").map(Number)) });
+    const to = { rung: index, place: step ?? onWire ?? (hit === undefined ? [] : hit.split(".").map(Number)) };
+    if (event.shiftKey) choosing.extend(chosen?.anchor ?? cursor, to);
+    else if (event.ctrlKey || event.metaKey) choosing.toggle(cursor, to);
+    else {
+      choosing.clear();
+      setCursor(to);
+    }
   }
 
   function leave(): void {
@@ -302,10 +300,12 @@ export default function GraphicView({ path, text, readOnly }: Props) {
     cursorPart && pouAt(pous, path, (actionOf(drawn, cursorPart)?.chart ?? cursorPart).found.line, text);
   function tool(key: string): void {
     if (!named) sheet.current?.focus();
-    editing.press(key, cursor);
+    if (!choosing.press(key)) editing.press(key, cursor);
   }
 
-  const kind = drawn[cursor.rung]?.kind ?? "rung";
+  const kind = cursorPart?.kind ?? "rung";
+  const wrongHere = cursorPart ? wrongIn(cursorPart, path, problems) : [];
+  const wrongAtCursor = wrongHere.find(({ place }) => place === cursor.place.join(".")) ?? null;
   const active = stopsOf(shownAt(cursor.rung)).find((each) => sameElement(each.place, cursor.place));
   return (
     <div className="graphicview">
@@ -314,16 +314,19 @@ export default function GraphicView({ path, text, readOnly }: Props) {
         className="sheet"
         role="listbox"
         tabIndex={0}
+        aria-multiselectable
         aria-label={t("graphic.of", { path })}
         aria-activedescendant={active ? `${id}${cursor.rung}-${active.place.join(".")}` : undefined}
         onKeyDown={onKeyDown}
-        onCopy={(event) => onClipboard(event, editing.copy)}
-        onCut={(event) => onClipboard(event, editing.cut)}
+        onCopy={(event) => onClipboard(event, "copy")}
+        onCut={(event) => onClipboard(event, "cut")}
         onPaste={onPaste}
         onFocus={look}
         onClick={onClick}
-        onPointerDown={onPointerDown}
-        onPointerUp={onPointerUp}
+        onPointerDown={drag.onPointerDown}
+        onPointerMove={drag.onPointerMove}
+        onPointerUp={drag.onPointerUp}
+        onPointerLeave={drag.onPointerLeave}
         onDoubleClick={onDoubleClick}
         data-pane="ladder"
       >
@@ -370,6 +373,9 @@ export default function GraphicView({ path, text, readOnly }: Props) {
                   twice={twice[item.index] ?? NONE}
                   differences={differencesIn(rung, path, verified)}
                   scan={verified?.scan ?? 0}
+                  wrong={wrongIn(rung, path, problems)}
+                  chosen={chosen?.parts.includes(item.index) ? chosen.places : null}
+                  drop={drag.dragged && (drag.dragged.over?.rung === item.index ? drag.dragged.over.drop : "elsewhere")}
                   marks={marksOf(rung, path, breakpoints, halt)}
                 />
               </div>
@@ -377,36 +383,19 @@ export default function GraphicView({ path, text, readOnly }: Props) {
           })}
         </div>
       </div>
-      {!readOnly && <Tools kind={kind} onPress={tool} />}
-      <div className="netnote faint">
-        <FlowNote
-          path={path}
-          part={cursorPart}
-          place={cursorPart?.kind === "network" ? cursor.place.slice(0, 1) : cursor.place}
-          pou={cursorPou}
-        />
-        <span className="cut grow" role="status">
-          {editing.refused ? t(editing.refused) : t(readOnly ? "graphic.readonly" : "graphic.keys")}
-        </span>
-        <button
-          type="button"
-          className="btn quiet sm"
-          title={t("graphic.fit.hint")}
-          aria-pressed={fit}
-          onClick={() => fitDrawings(!fit)}
-        >
-          <Icon name="fit" small />
-          {t("graphic.fit")}
-        </button>
-        <button type="button" className="btn quiet sm" title={t("graphic.print.hint")} onClick={() => print()}>
-          <Icon name="printer" small />
-          {t("graphic.print")}
-        </button>
-        <button type="button" className="btn quiet sm" title={t("graphic.svg.hint")} onClick={toFile}>
-          <Icon name="export" small />
-          {t("graphic.svg")}
-        </button>
-      </div>
+      {renaming && <Rename path={path} operand={renaming} onClose={() => setRenaming(null)} />}
+      <Foot
+        path={path}
+        kind={kind}
+        readOnly={readOnly}
+        part={cursorPart}
+        place={cursor.place}
+        pou={cursorPou}
+        refused={editing.refused}
+        wrong={wrongAtCursor}
+        onPress={tool}
+        onFile={toFile}
+      />
     </div>
   );
 }

@@ -1,4 +1,5 @@
 import { type ReactNode, useEffect, useRef, useState } from "react";
+import { type Drop, dropsOf } from "../../../../logic/graphic/drops";
 import type { PartFlow } from "../../../../logic/graphic/flow";
 import type { Heading } from "../../../../logic/graphic/heading";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
@@ -20,6 +21,7 @@ import { showChart } from "./liveChart";
 import { showDiagram } from "./liveDiagram";
 import type { PartMarks } from "./marks";
 import { RungDrawing } from "./RungDrawing";
+import { type Wrong, wrongText } from "./wrong";
 
 interface Props {
   path: string;
@@ -44,6 +46,12 @@ interface Props {
   /** Of the verification row that is selected, and its scan. */
   differences: readonly ElementDifference[];
   scan: number;
+  /** Its elements that are chosen together; empty: all of it is. Null where nothing is. */
+  chosen: readonly Place[] | null;
+  /** Where what is dragged would come; null where nothing is dragged. */
+  drop: Drop | "elsewhere" | null;
+  /** What the compiler says about it. */
+  wrong: readonly Wrong[];
 }
 
 /** One rung, network or chart: its number, label, title and comment, and its drawing; a text that cannot be read below the last drawing. */
@@ -63,6 +71,9 @@ export function PartRow({
   twice,
   differences,
   scan,
+  wrong,
+  chosen,
+  drop,
 }: Props) {
   const { found, readable } = part;
   const { label, title, off } = found.head;
@@ -71,7 +82,7 @@ export function PartRow({
   const lines = part.kind === "chart" ? [headline] : head.title;
   return (
     <div
-      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${marks.halt ? ` ${marks.halt.look}` : ""}`}
+      className={`net${cursor === null ? "" : " cur"}${off ? " off" : ""}${marks.halt ? ` ${marks.halt.look}` : ""}${chosen?.length === 0 ? " whole" : ""}`}
       role="group"
       aria-label={t(`graphic.${part.kind}`, { number, title: headline || label })}
     >
@@ -100,6 +111,13 @@ export function PartRow({
           )}
           {said !== "" && <span className="st faint">{said}</span>}
           {!readable && <span className="st bad">{t("graphic.unread")}</span>}
+          {wrong[0] && (
+            <span className="st bad cut" title={wrong.map(({ problem }) => problem.message).join("\n")}>
+              <Icon name="error" small />
+              {wrong[0].problem.message}
+              {wrong.length > 1 && ` (+${wrong.length - 1})`}
+            </span>
+          )}
         </div>
         {!head.beside && (
           <div className="cm below">
@@ -120,6 +138,9 @@ export function PartRow({
           marks={marks}
           onSaid={setSaid}
           differences={differences}
+          wrong={wrongText(wrong)}
+          chosen={chosen?.map((place) => place.join(".")).join(" ") ?? ""}
+          drop={drop}
         />
         {!readable && <pre className="nettext">{found.text}</pre>}
       </div>
@@ -138,8 +159,14 @@ function Picture({
   marks,
   onSaid,
   differences,
+  wrong,
+  chosen,
+  drop,
 }: Pick<Props, "path" | "part" | "scale" | "pou" | "id" | "cursor" | "field" | "marks" | "differences"> & {
   onSaid: (said: string) => void;
+  wrong: string;
+  chosen: string;
+  drop: Props["drop"];
 }) {
   const picture = useRef<HTMLDivElement>(null);
   const instance = useSeenAs((seen) => (pou === undefined ? undefined : seenAs(seen, pou.name)));
@@ -173,7 +200,7 @@ function Picture({
     };
   }, [rung, diagram, chart, pou, live, instance, members, forces]);
 
-  const marked = { id, cursor: cursor?.join(".") ?? null, next: marks.next, points: marks.points };
+  const marked = { id, cursor: cursor?.join(".") ?? null, next: marks.next, points: marks.points, wrong, chosen };
   return (
     <div ref={picture} className={`netdraw${part.readable ? "" : " netold"}`}>
       <div style={{ zoom: scale }}>
@@ -181,6 +208,19 @@ function Picture({
         {diagram && <DiagramPicture drawing={diagram} {...marked} />}
         {chart && <ChartPicture drawing={chart} {...marked} />}
       </div>
+      {drop && rung && part.readable && (
+        <svg className="drops" width={rung.width * scale} height={rung.height * scale} role="presentation">
+          {dropsOf(rung).map(({ place, x, y }) => (
+            <circle
+              key={`${place.join(".")} ${x}`}
+              className={drop !== "elsewhere" && drop.x === x && drop.y === y ? "over" : ""}
+              cx={x * scale}
+              cy={y * scale}
+              r={4}
+            />
+          ))}
+        </svg>
+      )}
       {field}
       {differences.map(({ x, y, control, monitor, message }) => (
         <span

@@ -13,6 +13,10 @@ export interface Marked {
   /** The element at which the program is halted, and those with breakpoints: see `PartMarks`. */
   next: string;
   points: string;
+  /** The places of elements that are chosen together, each joined by points. */
+  chosen: string;
+  /** Elements that are wrong, one a line, each with what the compiler says: see `wrongText`. */
+  wrong: string;
 }
 
 interface Props extends Marked {
@@ -28,25 +32,40 @@ interface Props extends Marked {
 /** An element of a drawing, with the frame of the cursor and of a halt, and its breakpoint. */
 export function SpotGroup({ place, name, kind = "", box, dot, children, ...marked }: Props) {
   const key = place.join(".");
-  const [selected, halted] = [key === marked.cursor, key === marked.next];
+  const selected = marked.chosen === "" ? key === marked.cursor : isChosen(marked.chosen, key);
+  const halted = key === marked.next;
   const point = pointsIn(marked.points).get(key);
+  const wrong = wrongAt(marked.wrong, key);
   return (
     <g
       id={`${marked.id}-${key}`}
       // Classes are what is live: to select an element must not take them away.
       className={`el ${kind}`}
+      data-wrong={wrong === "" ? undefined : ""}
       data-next={halted || undefined}
       role="option"
       aria-selected={selected}
-      aria-label={[name, halted && t("graphic.next"), point && t("graphic.point")].filter(Boolean).join(", ")}
+      aria-label={[name, halted && t("graphic.next"), point && t("graphic.point"), wrong].filter(Boolean).join(", ")}
       data-element={key}
     >
+      {wrong !== "" && <title>{wrong}</title>}
       {children}
       <rect className="hit" x={box.x} y={box.y} width={box.width} height={box.height} rx={3} />
       {point && <circle className={`dot ${point}`} cx={dot.x} cy={dot.y} r={3.5} />}
     </g>
   );
 }
+
+/** What is wrong at a place; empty where nothing is. */
+export function wrongAt(wrong: string, key: string): string {
+  if (wrong === "") return "";
+  const line = wrong.split("\n").find((each) => each.startsWith(`${key} `));
+  return line?.slice(key.length + 1) ?? "";
+}
+
+/** Whether an element is chosen, or the branches that it is in. */
+export const isChosen = (chosen: string, key: string) =>
+  chosen.split(" ").some((each) => key === each || key.startsWith(`${each}.`));
 
 const pointsIn = (points: string) =>
   new Map(

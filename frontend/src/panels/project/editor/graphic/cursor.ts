@@ -19,7 +19,11 @@ export function elementBeside({ elements }: { elements: readonly Spot[] }, place
 }
 
 /** Where a key moves the cursor to; null where it is no key for that. */
-export function moved(event: KeyboardEvent, { rung, place }: Cursor, drawn: readonly DrawnPart[]): Cursor | null {
+export function moved(
+  event: Pick<KeyboardEvent, "key" | "altKey" | "ctrlKey">,
+  { rung, place }: Cursor,
+  drawn: readonly DrawnPart[],
+): Cursor | null {
   const elements = stopsOf(drawn[rung]);
   const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
   const other = step === undefined ? rung : Math.max(0, Math.min(drawn.length - 1, rung + step));

@@ -1,11 +1,13 @@
 /** What the code saw in one part of a drawing, followed while it is in sight. */
 
 import { type PartFlow, partFlow } from "../../../../logic/graphic/flow";
+import { holds } from "../../../../logic/graphic/places";
 import type { DrawnPart } from "../../../../logic/graphic/sheet";
 import { isBuilt } from "../../../../logic/plc/sourceLines";
 import { lookAtFlow, useFlow } from "../../../../store/debug/flow";
 import { useBench } from "../../../../store/plc/bench";
 import { usePlc } from "../../../../store/plc/plc";
+import { useDocuments } from "../../../../store/project/documents";
 import { shownText, showsRan } from "../../../../store/project/shownProgram";
 import type { Flows, Pou } from "../../../../wire/types";
 import { builtLine, shownLine } from "../halt";
@@ -15,10 +17,17 @@ export function flowOfPart(part: DrawnPart, path: string, flows: Flows | null): 
   if (!flows || flows.file !== path) return null;
   const current = showsRan(path) || flows.program_version === useBench.getState().project?.version;
   const { built, text } = shownText(path);
+  if (!showsRan(path) && isWrong(part, path)) return null;
   if (!current || !isBuilt(text, built, part.found.line, part.found.text)) return null;
   const { first, last } = linesOf(part, path);
   if (first < flows.first || last > flows.last) return null; // It has just come into sight.
   return partFlow(part, flows.flows, built === text ? (line) => line : (line) => shownLine(path, line));
+}
+
+/** A text with an error was never built, also where it was saved. */
+function isWrong(part: DrawnPart, path: string): boolean {
+  const { problems } = useDocuments.getState();
+  return problems.some((each) => each.severity === "error" && each.file === path && holds(part, each.line));
 }
 
 /** Where the part is in the text that was built. */

@@ -4,9 +4,10 @@ import { type Condition, conditionOf, holdsBy, variablesOf } from "../../../../l
 import { type PartFlow, seenPower, valueIn } from "../../../../logic/graphic/flow";
 import type { Drawing } from "../../../../logic/graphic/ladderLayout";
 import { closedBy, type Power, powerOf } from "../../../../logic/graphic/power";
+import { seenAsNow } from "../../../../store/debug/seenAs";
 import { t } from "../../../../text";
 import type { Pou } from "../../../../wire/types";
-import { type Shown, showWith, type Values } from "./follow";
+import { clear, type Shown, showWith, type Values } from "./follow";
 import { isStill } from "./followFlow";
 
 /** The variables whose values a rung shows. */
@@ -33,6 +34,8 @@ export function showRung(svg: SVGSVGElement, drawing: Drawing, pou: Pou): Shown 
   return showWith(pou, variablesIn(drawing), (values, flow) => {
     const { text, forced } = values;
     if (flow) paintSeen(svg, drawing, flow, conditionAt, values);
+    // Without an instance nothing has a value, and no rail has power.
+    else if (seenAsNow(pou.name) === undefined) clear(svg);
     else paintPower(svg, drawing, (operand) => holdsBy(conditionAt(operand), text), forced);
   });
 }

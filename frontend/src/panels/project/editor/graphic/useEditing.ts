@@ -8,7 +8,7 @@ import { rungEdit } from "../../../../logic/graphic/keys";
 import type { Place } from "../../../../logic/graphic/ladderLayout";
 import { type DrawnPart, stopsOf } from "../../../../logic/graphic/sheet";
 import type { TextKey } from "../../../../text";
-import { addPart, putParts, removePart, switchPart, takeBack, writePart } from "./write";
+import { addPart, putParts, removeParts, switchParts, takeBack, writePart } from "./write";
 
 export interface Cursor {
   rung: number;
@@ -58,13 +58,15 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     if (!known || readOnly) return false;
     const part = text === undefined ? known : { ...known, found: { ...known.found, text } };
     const lower = key.toLowerCase();
+    const alias = ALIASES[part.kind][lower];
+    if (alias) return press(alias, { rung: at, place }, text);
     if (lower === "ctrl+z" || lower === "ctrl+y") takeBack(path, lower === "ctrl+y");
     else if (part.kind !== "chart" && lower === "ctrl+i") return added(at, part, false);
     else if (part.kind !== "chart" && lower === "ctrl+shift+i") return added(at, part, true);
     else if (part.kind !== "chart" && (lower === "ctrl+delete" || emptied(part, key))) return removed(at, part);
     else if (lower === "ctrl+l") go({ rung: at, place: [] });
     else if (lower === "ctrl+d") return put({ rung: at, place }, copied(part, place) ?? "");
-    else if (part.kind !== "chart" && lower === "ctrl+/") switchPart(path, part.found);
+    else if (part.kind !== "chart" && lower === "ctrl+/") switchParts(path, [part.found]);
     else return !lower.startsWith("ctrl+") && begin(at, madeOf(part, key, place, around));
     setRefused(null);
     return true;
@@ -77,7 +79,7 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
   }
 
   function removed(at: number, part: DrawnPart): boolean {
-    removePart(path, part.found);
+    removeParts(path, [part.found]);
     go({ rung: Math.max(0, Math.min(at, drawn.length - 2)), place: [] });
     return true;
   }
@@ -110,14 +112,6 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     return text;
   }
 
-  function onKey(event: KeyboardEvent, cursor: Cursor): boolean {
-    const { key, ctrlKey, altKey, shiftKey } = event;
-    const shifted = shiftKey && (ctrlKey || /^[a-z]$/i.test(key));
-    // `#` needs Shift on many keyboards; where it has a key of its own, that key with Shift is another character.
-    if (altKey ? key === "#" : shiftKey && event.code === "Backslash" && key === "'") return press("Shift+#", cursor);
-    return press(`${ctrlKey ? "Ctrl+" : ""}${altKey ? "Alt+" : ""}${shifted ? "Shift+" : ""}${key}`, cursor);
-  }
-
   /** Takes what was typed into the field. Where the cursor is then; null where the text means nothing there. */
   function take(typed: string): Edit | null {
     const part = named && drawn[named.rung];
@@ -126,7 +120,24 @@ export function useEditing({ path, drawn, readOnly, go, around }: Editing) {
     return made;
   }
 
-  return { named, refused, press, onKey, begin, take, copy, cut, put, leave: () => setNamed(null) };
+  return { named, refused, press, begin, take, copy, cut, put, leave: () => setNamed(null) };
+}
+
+/** Keys of CODESYS that mean the same; those that a browser keeps to itself have none. */
+const ALIASES: Record<DrawnPart["kind"], Readonly<Record<string, string>>> = {
+  rung: {
+    ...{ "ctrl+a": "o", "ctrl+b": "f", "ctrl+shift+e": "Shift+F", "ctrl+e": "e", "ctrl+m": "s", "ctrl+r": "w" },
+  },
+  network: { "ctrl+a": "a", "ctrl+b": "f", "ctrl+shift+e": "Shift+F", "ctrl+e": "e", "ctrl+u": "+" },
+  chart: {},
+};
+
+/** A key with what is held, as `press` takes it. */
+export function keyOf({ key, ctrlKey, altKey, shiftKey, code }: KeyboardEvent): string {
+  const shifted = shiftKey && (ctrlKey || /^(?:[a-z]|F\d+)$/i.test(key));
+  // `#` needs Shift on many keyboards; where it has a key of its own, that key with Shift is another character.
+  if (altKey ? key === "#" : shiftKey && code === "Backslash" && key === "'") return "Shift+#";
+  return `${ctrlKey ? "Ctrl+" : ""}${altKey ? "Alt+" : ""}${shifted ? "Shift+" : ""}${key}`;
 }
 
 const emptied = (part: DrawnPart, key: string) =>

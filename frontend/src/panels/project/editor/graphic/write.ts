@@ -1,8 +1,9 @@
 /** Edits of drawings as edits of the text: with undo, the carets of others, and everything else that it has. */
 
+import type { TextEdit } from "vscode-languageserver-types";
 import { declarations } from "../../../../logic/graphic/declare";
 import type { Change, Declared } from "../../../../logic/graphic/edit";
-import type { Found } from "../../../../logic/graphic/networks";
+import { bodiesOf, type Found } from "../../../../logic/graphic/networks";
 import { useDocuments } from "../../../../store/project/documents";
 import { modelOf } from "../models";
 
@@ -43,6 +44,14 @@ export function writePart(path: string, { from, to }: Found, text: string, decla
   changeText(path, [...declarations(whole, from, declares), { at: from, end: to, text }]);
 }
 
+/** Different texts for several parts, taken back together. */
+export function writeParts(path: string, written: readonly { found: Found; text: string }[]): void {
+  changeText(
+    path,
+    written.map(({ found, text }) => ({ at: found.from, end: found.to, text })),
+  );
+}
+
 /** An empty rung or network below this one, or above. */
 export function addPart(path: string, found: Found, above: boolean): void {
   const { kind, to, indent } = found;
@@ -58,25 +67,56 @@ export function putParts(path: string, { to, indent }: Found, networks: readonly
   changeText(path, [{ at: to, end: to, text: lines.map((line) => `\n${line === "" ? "" : indent}${line}`).join("") }]);
 }
 
-/** Comments a network out with `{off}`, or in again. */
-export function switchPart(path: string, found: Found): void {
-  const at = beginOf(path, found);
-  changeText(path, [{ at, end: found.from, text: found.head.off ? "" : "{off} " }]);
+/** Comments networks out with `{off}`; those that all are so, in again. */
+export function switchParts(path: string, parts: readonly Found[]): void {
+  const off = parts.every(({ head }) => head.off);
+  const changing = parts.filter(({ head }) => head.off === off);
+  changeText(
+    path,
+    changing.map((found) => ({ at: beginOf(path, found), end: found.from, text: off ? "" : "{off} " })),
+  );
 }
 
 /** Where a part begins with its pragma. */
 const beginOf = (path: string, { from, head }: Found) =>
   head.off ? modelAt(path).getValue().lastIndexOf("{", from) : from;
 
-/** Without a part, and the line that is empty then. */
-export function removePart(path: string, found: Found): void {
+/** Without parts. Of a body that would have none left the first is emptied: a body without networks is no drawing. */
+export function removeParts(path: string, gone: readonly Found[]): void {
+  const whole = modelAt(path).getValue();
+  const isGone = ({ from }: Found) => gone.some((each) => each.from === from);
+  const emptied = bodiesOf(whole).flatMap((body) => (body.every(isGone) ? body.slice(0, 1) : []));
+  changeText(
+    path,
+    gone.map((found) => (emptied.some(({ from }) => from === found.from) ? emptying(found) : removal(path, found))),
+  );
+}
+
+function emptying({ kind, from, to, indent }: Found): Change {
+  const word = kind === "network" ? "NETWORK" : "RUNG";
+  return { at: from, end: to, text: `${word}\n${indent}END_${word}` };
+}
+
+/** The text of a part goes, and the line that is empty then. */
+function removal(path: string, found: Found): Change {
   const whole = modelAt(path).getValue();
   const { to } = found;
   const from = beginOf(path, found);
   const start = whole.lastIndexOf("\n", from - 1) + 1;
   const empty = whole.slice(start, from).trim() === "" && /^[ \t]*(?:\n|$)/.test(whole.slice(to));
   const end = empty ? whole.indexOf("\n", to) + 1 || whole.length : to;
-  changeText(path, [{ at: empty ? start : from, end, text: "" }]);
+  return { at: empty ? start : from, end, text: "" };
+}
+
+/** What the language server would change. */
+export function applyEdits(path: string, edits: readonly TextEdit[]): void {
+  const model = modelAt(path);
+  const offset = ({ line, character }: TextEdit["range"]["start"]) =>
+    model.getOffsetAt({ lineNumber: line + 1, column: character + 1 });
+  changeText(
+    path,
+    edits.map(({ range, newText }) => ({ at: offset(range.start), end: offset(range.end), text: newText })),
+  );
 }
 
 export function takeBack(path: string, again: boolean): void {

@@ -1,0 +1,33 @@
+import { describe, expect, it } from "vitest";
+import { bodiesOf } from "./networks";
+import { stopIn } from "./places";
+import { Sheet } from "./sheet";
+
+const rung = "RUNG\n    [a] (b)\nEND_RUNG\n";
+const block = (name: string, body: string) => `FUNCTION_BLOCK ${name}\n${body}END_FUNCTION_BLOCK\n`;
+
+describe("the networks of a body", () => {
+  it("are those beside each other, switched off or not, whatever other bodies have", () => {
+    const action = `ACTION Fill:\n${rung}END_ACTION\n`;
+    const text = block("One", rung) + block("Two", `${rung}{off} ${rung}// a note\n${rung}${action}`);
+    expect(bodiesOf(text).map((body) => body.length)).toEqual([1, 3, 1]);
+  });
+});
+
+describe("the stop at a place of the text", () => {
+  const text = "NETWORK\n    #w = AND(a, gone);\n    b := NOT #w;\nEND_NETWORK\n";
+  const [part] = new Sheet().of(text, 640);
+  const at = (written: string) => {
+    const before = text.slice(0, text.indexOf(written)).split("\n");
+    return { line: before.length, column: (before.at(-1)?.length ?? 0) + 1 };
+  };
+
+  it.each([
+    ["gone", [0, 1]],
+    ["AND", [0]],
+    ["b :=", [1, 1]],
+    ["#w;", [1, 0]],
+  ])("of %s is its pin, else its box", (written, place) => {
+    expect(part && stopIn(part, at(written))).toEqual(place);
+  });
+});
