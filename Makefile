@@ -77,6 +77,7 @@ bench: $(VENV)/.stamp-runtime
 
 bench-ui: setup-test frontend/dist/.stamp
 	@cd e2e && node bench/load.mjs
+	@cd e2e && node bench/drawing.mjs
 
 N ?= 10000
 SEED ?=

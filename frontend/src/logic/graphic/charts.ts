@@ -24,7 +24,15 @@ interface FoundChart {
 }
 
 /** The networks and charts of a file, in the order of the text. A chart is before the networks of its actions. */
-export function partsIn(text: string): Found[] {
+export function partsIn(text: string): readonly Found[] {
+  if (last?.text !== text) last = { text, parts: read(text) };
+  return last.parts;
+}
+
+/** Several ask about the text that was edited last. */
+let last: { text: string; parts: readonly Found[] } | null = null;
+
+function read(text: string): Found[] {
   const charts = chartsIn(text);
   const networks = networksIn(text).filter(
     ({ from }) => !charts.some(({ parts }) => parts.some(({ at, end }) => from >= at && from < end)),

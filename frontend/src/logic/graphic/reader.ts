@@ -99,18 +99,26 @@ export class Reader {
   }
 }
 
+/** What may begin a word, a string or a comment: everything else is passed over at once. */
+const BEGINS = /[A-Za-z_'"/(\u0080-\uffff]/g;
+const DIGIT = /\p{N}/u;
+
 /** The words of a text in capitals, without those in comments and strings. */
 export function* wordsIn(text: string, from = 0, end = text.length): Generator<{ word: string; at: number }> {
   let at = from;
-  while (at < end) {
-    const here = text[at] ?? "";
+  for (;;) {
+    BEGINS.lastIndex = at;
+    const found = BEGINS.exec(text);
+    if (!found || found.index >= end) return;
+    at = found.index;
+    const here = found[0];
     const comment = commentEnd(text, at, end);
     WORD.lastIndex = at;
     if (comment !== at) at = comment;
     else if (here === "'" || here === '"') at = stringEnd(text, at, end);
     else if (WORD.test(text)) {
       const next = WORD.lastIndex;
-      if (!/[\p{N}]/u.test(text[at - 1] ?? " ")) yield { word: text.slice(at, next).toUpperCase(), at };
+      if (at === 0 || !DIGIT.test(text[at - 1] ?? "")) yield { word: text.slice(at, next).toUpperCase(), at };
       at = next;
     } else at += 1;
   }

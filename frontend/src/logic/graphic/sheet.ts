@@ -71,10 +71,20 @@ export function placeOnWire(part: DrawnPart, x: number, y: number): Place | null
   return part.path?.length === 0 ? [] : null;
 }
 
+/** The charts of each file that was drawn: in a file with many rungs this is asked for each of them. */
+const charts = new WeakMap<readonly DrawnPart[], readonly DrawnChart[]>();
+
+function chartsOf(parts: readonly DrawnPart[]): readonly DrawnChart[] {
+  const known = charts.get(parts);
+  if (known) return known;
+  const found = parts.filter((part) => part.kind === "chart");
+  charts.set(parts, found);
+  return found;
+}
+
 /** The action of a chart that a rung or network is written in, and the chart; null elsewhere. */
 export function actionOf(parts: readonly DrawnPart[], { found }: DrawnPart): { name: string; chart: DrawnPart } | null {
-  for (const chart of parts) {
-    if (chart.kind !== "chart") continue;
+  for (const chart of chartsOf(parts)) {
     const at = found.from - chart.found.from;
     const body = chart.bodies.find(({ span }) => at >= span.at && at < span.end);
     if (body) return { name: body.name, chart };
@@ -92,10 +102,21 @@ export function stepIn(part: DrawnPart | undefined, name: string): Place | undef
 }
 
 /** The lines above a part in this width: the action it is written in, its label, title and comment. */
-export function headOf({ found: { head } }: DrawnPart, width: number, action: string | null): Heading {
+export function headOf(
+  { found: { head }, drawing, readable }: DrawnPart,
+  width: number,
+  action: string | null,
+): Heading {
   const before = [action ?? "", head.label && `${head.label}:`].filter(Boolean).join("  ");
-  return headingOf(head.title, head.comment, width, before);
+  const known = drawing && readable ? headings.get(drawing) : undefined;
+  if (known?.width === width && known.before === before) return known.heading;
+  const heading = headingOf(head.title, head.comment, width, before);
+  if (drawing && readable) headings.set(drawing, { width, before, heading });
+  return heading;
 }
+
+/** By drawing: a text that is read has its own, so its title is the same as long as that is. */
+const headings = new WeakMap<object, { width: number; before: string; heading: Heading }>();
 
 const LEAST_SCALE = 0.5;
 

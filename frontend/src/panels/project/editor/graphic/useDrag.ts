@@ -81,8 +81,10 @@ export function useDrag({ path, drawn, readOnly, chosen, go, begin, around }: Dr
       begin(begun.rung, connected(part.found.text, begun.place, place, around()));
     } else if (!moving) return;
     else if (over) drop(begun, over);
-    // The click that ends the drag means nothing.
-    window.addEventListener("click", (event) => event.stopPropagation(), { capture: true, once: true });
+    // The click that ends the drag means nothing. There is none where the element is not there any more.
+    const ignore = (event: Event) => event.stopPropagation();
+    window.addEventListener("click", ignore, { capture: true, once: true });
+    setTimeout(() => window.removeEventListener("click", ignore, true));
   }
 
   function drop(begun: From, { rung, drop }: NonNullable<Dragged["over"]>): void {

@@ -1,0 +1,193 @@
+/**
+ * Measures the drawing of a large ladder: 500 rungs of 12 elements, at 1440 x 900. Prints the main thread's own time (other work on the
+ * machine does not count) until it is drawn for the first time, of a second of live power, of an edit and of a second of scrolling, and
+ * frames a second, which depend on the machine. Nothing here is a test. `make bench-ui`, or `node bench/drawing.mjs`.
+ */
+import { spawn } from 'node:child_process';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { chromium } from '@playwright/test';
+
+const COMMAND = process.env.SCANBENCH ?? resolve(import.meta.dirname, '../../.venv/bin/scanbench');
+const [RUNGS, CONTACTS, SECONDS, ROUNDS] = [500, 11, 5, 5];
+const NAMES = Array.from({ length: 300 }, (_, index) => `x${index}`);
+const data = await mkdtemp(join(tmpdir(), 'scanbench-drawing-'));
+const server = spawn(COMMAND, ['serve', '--port', '0', '--data', data], { detached: true });
+
+/** The same numbers each time. */
+let seed = 18;
+const chance = (below) => {
+  seed = (seed * 1103515245 + 12345) % 2147483648;
+  return seed % below;
+};
+const contact = () => `[${chance(10) < 3 ? '/' : ''}${NAMES[chance(NAMES.length)]}]`;
+const contacts = (count) => Array.from({ length: count }, contact).join(' ');
+const rung = (index) =>
+  `RUNG "Rung ${index}"\n    < ${contacts(3)}\n    | ${contacts(3)}\n    > ${contacts(CONTACTS - 6)} (q${index})\nEND_RUNG\n`;
+const coils = Array.from({ length: RUNGS }, (_, index) => `q${index}`);
+const FILES = {
+  'Ladder.st':
+    `FUNCTION_BLOCK Ladder\nVAR_INPUT n : UDINT; END_VAR\nVAR ${NAMES.join(', ')} : BOOL; ${coils.join(', ')} : BOOL; END_VAR\n` +
+    // A tenth of the contacts changes from scan to scan.
+    `RUNG "Changes"\n    [n MOD 2 = 0] ${NAMES.slice(0, 30)
+      .map((name) => `(${name})`)
+      .join(' ')}\nEND_RUNG\n` +
+    `${Array.from({ length: RUNGS - 1 }, (_, index) => rung(index)).join('')}END_FUNCTION_BLOCK\n`,
+  'Main.st': `PROGRAM Main
+VAR ladder : Ladder; n : UDINT; END_VAR
+n := n + 1;
+ladder(n := n);
+END_PROGRAM
+CONFIGURATION Plc RESOURCE Cpu ON CJ1M
+TASK Cyclic(INTERVAL := T#50ms, PRIORITY := 1); PROGRAM Main WITH Cyclic : Main;
+END_RESOURCE END_CONFIGURATION
+`,
+};
+
+async function main() {
+  const address = await printed();
+  const instance = await begin(new URL(address));
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium' });
+  const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+  await page.addInitScript((id) => localStorage.setItem('scanbench.instance', JSON.stringify(id)), instance);
+  await page.goto(address);
+  const cdp = await page.context().newCDPSession(page);
+  await cdp.send('Performance.setTimeDomain', { timeDomain: 'threadTicks' }).catch(() => undefined);
+  await cdp.send('Performance.enable');
+  const busy = async () => {
+    const { metrics } = await cdp.send('Performance.getMetrics');
+    const of = (name) => metrics.find((each) => each.name === name)?.value ?? 0;
+    return 1000 * of('TaskDuration');
+  };
+  const spent = async (work) => {
+    const before = await busy();
+    await work();
+    return (await busy()) - before;
+  };
+  const item = page.getByRole('treeitem', { name: /^Ladder/ }).first();
+  await item.waitFor();
+  // Without the drawing the page is busy, too: that is taken off.
+  await page.waitForTimeout(3000);
+  const sheet = page.getByRole('listbox', { name: 'Drawing of Ladder.st' });
+  const idle = await perSecond(page, spent);
+  const first = await spent(async () => {
+    await item.dblclick();
+    await sheet.getByRole('group').nth(1).waitFor();
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  });
+  await page.locator('.el.on').first().waitFor();
+  await page.waitForTimeout(3000);
+  await page.getByRole('radio', { name: 'Text' }).click();
+  await page.waitForTimeout(2000);
+  const again = await spent(async () => {
+    await page.getByRole('radio', { name: 'Ladder' }).click();
+    await sheet.getByRole('group').nth(1).waitFor();
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  });
+  await page.waitForTimeout(2000);
+  const live = await perSecond(page, spent);
+  const scrolled = await scroll(page, sheet, spent);
+  const edit = await edits(page, sheet);
+  const say = (what, value, unit, most = '') =>
+    console.log(`${what.padEnd(46)}${value.toFixed(1).padStart(8)} ${unit.padEnd(5)}${most}`);
+  say('first drawing, with all that it loads', first, 'ms');
+  say('drawn once more, from text to ladder', again, 'ms', 'at most 150');
+  say('a second of the page without a drawing', idle / 10, '%');
+  say('a second live, above that', (live - idle) / 10, '%', 'at most 10');
+  say('a second of scrolling, live', scrolled.busy / 10, '%');
+  say('frames while scrolling', scrolled.rate, '/s', '60 on a quiet machine');
+  say('an edit, until its rung is drawn', edit, 'ms', 'at most 5');
+  await browser.close();
+}
+
+/** ms of the main thread in a second. */
+async function perSecond(page, spent) {
+  return (await spent(() => page.waitForTimeout(SECONDS * 1000))) / SECONDS;
+}
+
+async function scroll(page, sheet, spent) {
+  const box = await sheet.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  let rate = 0;
+  const all = await spent(async () => {
+    const frames = page.evaluate(
+      (seconds) =>
+        new Promise((done) => {
+          let count = 0;
+          const begin = performance.now();
+          const tick = (now) => {
+            count += 1;
+            if (now - begin < seconds * 1000) requestAnimationFrame(tick);
+            else done((1000 * count) / (now - begin));
+          };
+          requestAnimationFrame(tick);
+        }),
+      SECONDS,
+    );
+    const end = Date.now() + SECONDS * 1000;
+    while (Date.now() < end) await page.mouse.wheel(0, 60);
+    rate = await frames;
+  });
+  return { busy: all / SECONDS, rate };
+}
+
+/** ms of scripts and layout from a key that negates a contact to the frame with its rung; the median. */
+async function edits(page, sheet) {
+  await page.mouse.wheel(0, -1e6);
+  const option = sheet.getByRole('option', { name: /contact/i }).first();
+  await option.click();
+  const times = [];
+  for (let round = 0; round < 2 * ROUNDS; round += 1) {
+    times.push(
+      await sheet.evaluate(async (element) => {
+        const begin = performance.now();
+        element.dispatchEvent(new KeyboardEvent('keydown', { key: '!', bubbles: true, cancelable: true }));
+        // React draws what a key did in a microtask.
+        await null;
+        element.getBoundingClientRect();
+        return performance.now() - begin;
+      }),
+    );
+    await page.waitForTimeout(300);
+  }
+  return times.sort((one, other) => one - other)[ROUNDS];
+}
+
+/** A project with the ladder, and a PLC that runs it: its number. */
+async function begin({ origin, searchParams }) {
+  const ask = async (method, path, body) => {
+    const headers = { Authorization: `Bearer ${searchParams.get('token')}`, 'Content-Type': 'application/json' };
+    const answer = await fetch(`${origin}/api${path}`, { method, headers, body: body && JSON.stringify(body) });
+    if (!answer.ok) throw new Error(`${method} ${path}: ${answer.status} ${await answer.text()}`);
+    return answer.json();
+  };
+  const project = await ask('POST', '/projects', { name: 'Drawing', model: 'CJ1M-CPU63' });
+  for (const [path, text] of Object.entries(FILES))
+    await ask('PUT', `/projects/${project.id}/files/${path}`, { text, version: 0 });
+  const built = await ask('POST', `/projects/${project.id}/build`, { agreed: true });
+  if (!built.ok) throw new Error(JSON.stringify(built.problems));
+  const { id } = await ask('POST', '/instances', { project: project.id, name: 'Drawing' });
+  return id;
+}
+
+function printed() {
+  return new Promise((ready, failed) => {
+    let said = '';
+    const hear = (chunk) => {
+      said += chunk;
+      const found = /Scanbench is ready: (http:\/\/\S+)/.exec(said)?.[1];
+      if (found) ready(found);
+    };
+    server.stdout.on('data', hear);
+    server.stderr.on('data', hear);
+    server.once('exit', () => failed(new Error(`the server ended: ${said}`)));
+  });
+}
+
+try {
+  await main();
+} finally {
+  process.kill(-server.pid, 'SIGKILL');
+  await rm(data, { recursive: true, force: true });
+}
