@@ -70,7 +70,7 @@ def _wire(c: Cursor, start: int, wires: list[networks.Wire], read: set[str]) -> 
     c.expect("=", "after the wire")
     try:
         value = _value(c)
-    finally:  # it is a wire, whatever is wrong behind it
+    finally:  # it is a wire, whatever is wrong after it
         read |= c.wires or set()
         wires.append(networks.Wire(f"#{c.texts[name]}", type, c.texts[name].upper() in read, span))
     return networks.Item(tree.Name(f"#{c.texts[name]}", span), "=", value, None, c.span_from(start))

@@ -28,7 +28,7 @@ interface From extends Cursor {
 }
 
 /** What is under way, as it is drawn. */
-export interface Dragged {
+interface Dragged {
   /** Where elements would be dropped; null where nothing is near. */
   over: { rung: number; drop: Drop } | null;
 }
