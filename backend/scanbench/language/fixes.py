@@ -88,7 +88,9 @@ def _wanted(reading: Reading, file: str, around: Around, name: str, at: int) -> 
     if found is None:
         condition = re.search(rf"\b(IF|ELSIF|WHILE|UNTIL|AND|OR|NOT)\s+{name}\b", line, re.IGNORECASE)
         # a contact or coil of a rung; an index of an array follows a name
-        drawn = re.search(rf"(?:^|[^\w\s])\s*(?:\[\s*(?:/|[PN]\s)?\s*{name}\s*\]|\(\s*(?:/|[SRPN]\s)?\s*{name}\s*\))", line)
+        drawn = re.search(
+            rf"(?:^|[^\w\s])\s*(?:\[\s*(?:/|[PN]\s)?\s*{name}\s*\]|\(\s*(?:/|[SRPN]\s)?\s*{name}\s*\))", line
+        )
         return "BOOL" if condition or drawn else "INT"
     body, node = reading.body(around), parsed(found.group(1))
     if body is None or node is None:

@@ -122,5 +122,7 @@ def test_a_pin_that_is_not_connected_is_told_once_and_nothing_that_follows_from_
 
 
 def test_a_wire_whose_line_is_wrong_is_told_there_alone() -> None:
-    found = problems("NETWORK\n#one = AND(b, gone);\n#two = OR(#one c);\nb := #one;\nc := #two;\nb := #other;\nEND_NETWORK")
+    found = problems(
+        "NETWORK\n#one = AND(b, gone);\n#two = OR(#one c);\nb := #one;\nc := #two;\nb := #other;\nEND_NETWORK"
+    )
     assert [(each.code, each.span.line) for each in found] == [("T001", 4), ("S003", 5), ("T001", 8)]

@@ -35,7 +35,9 @@ def test_a_folder_becomes_a_plcopen_file_and_what_has_no_place_there_is_told(tmp
     (tmp_path / "line" / "Own.st").write_text("FUNCTION_BLOCK Own EXTENDS Latch\nEND_FUNCTION_BLOCK\n")
     told = scanbench("export", str(tmp_path / "line"), str(tmp_path / "more.xml"))
     assert told.returncode == 1
-    assert told.stdout == "left out: Own, the whole of it: a function_block with EXTENDS, IMPLEMENTS or in a NAMESPACE\n"
+    assert (
+        told.stdout == "left out: Own, the whole of it: a function_block with EXTENDS, IMPLEMENTS or in a NAMESPACE\n"
+    )
 
 
 def test_a_file_of_iec_61131_10_goes_in_and_out(tmp_path: Path) -> None:
