@@ -10,6 +10,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
+from scanbench.cli.device import clear, log, present
 from scanbench.cli.inputs import (
     DIALECT_HELP,
     below,
@@ -374,3 +375,7 @@ def _read_outcomes(path: Path) -> list[Outcome]:
         return outcomes_in(told)
     except ValueError as error:
         usage(f"{path}: {error}")
+
+
+for command in (present, log, clear):
+    errors.command()(command)

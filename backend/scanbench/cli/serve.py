@@ -6,6 +6,7 @@ import typer
 
 from scanbench.cli.inputs import usage
 from scanbench.cli.settings import settings
+from scanbench.garbage import without_collection
 
 
 def serve(
@@ -29,9 +30,10 @@ def serve(
 
     The options --host, --port and --data may be set in ~/.config/scanbench/config.toml too.
     """
-    from scanbench.web.public_url import BadPublicUrl, parse_public_url
-    from scanbench.web.serve import CannotServe
-    from scanbench.web.serve import serve as serve_web
+    with without_collection():
+        from scanbench.web.public_url import BadPublicUrl, parse_public_url
+        from scanbench.web.serve import CannotServe
+        from scanbench.web.serve import serve as serve_web
 
     chosen = settings(host, port, data)
     folder = chosen.data.absolute()

@@ -7,7 +7,6 @@ A host is forked twice, so that the server, which adopts orphans, becomes its pa
 never start a second one, because a fork would lose it.
 """
 
-import gc
 import logging
 import os
 import socket
@@ -20,6 +19,7 @@ import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.incremental import Checks
 from scanbench.engines.lifeline import end_with_parent, ignore_interrupts
+from scanbench.garbage import keep_what_is_there, without_collection
 from scanbench.host.build import Builder, all_models
 from scanbench.host.entry import Serve, entry
 from scanbench.host.program_cache import key_of
@@ -38,10 +38,10 @@ def main() -> int:
     end_with_parent(server)  # also when it is stopped, and so does not see that the socket is closed
     with socket.socket(fileno=int(sys.argv[1])) as channel:
         channel.set_inheritable(False)
-        entries = {name: entry(name) for name in sys.argv[2:]}
-        _warm()
-        gc.collect()
-        gc.freeze()  # a collection in a host would touch every object, and so copy every page
+        with without_collection():
+            entries = {name: entry(name) for name in sys.argv[2:]}
+            _warm()
+        keep_what_is_there()  # a collection in a host would touch every object, and so copy every page
         while True:
             request, fds, _, _ = socket.recv_fds(channel, _LARGEST_REQUEST, 1)
             if not request:

@@ -5,11 +5,11 @@ import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 from scanbench.comm.controller.contract import Connection, Source, Unreachable
 from scanbench.comm.controller.sampling import Read, Sampler, Settling, taken
-from scanbench.comm.opcua.reading import open_opcua
 from scanbench.jobs.client import FAULT
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.session.session import Session
@@ -179,4 +179,7 @@ class ControllerVerification(Verification):
 async def open_source(connection: Connection) -> Source:
     """By the protocol of its address; `Unreachable`."""
     assert connection.protocol == "opc.tcp"
-    return await open_opcua(connection)
+    # not with the server, which would start a third of a second later, and beside the loop
+    reading = await asyncio.to_thread(import_module, "scanbench.comm.opcua.reading")
+    source: Source = await reading.open_opcua(connection)
+    return source

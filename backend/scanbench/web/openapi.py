@@ -5,6 +5,7 @@ The frontend's types are generated from it.
 
 import json
 import sys
+from functools import cache
 from pathlib import Path
 from typing import cast
 
@@ -16,8 +17,9 @@ from scanbench.web.app import bare_app
 from scanbench.web.component_names import REFERENCE, by_title
 
 
+@cache
 def document() -> dict[str, object]:
-    """The REST API's description with the two message unions and everything they hold as components."""
+    """The REST API's description with the two message unions and everything they hold as components; nobody changes it."""
     api = bare_app().openapi()
     schemas = cast(dict[str, object], api["components"]["schemas"])
     unions = {

@@ -1,5 +1,6 @@
 """Starts the server: binds, prints the address with its token when it is ready, serves until Ctrl-C."""
 
+import gc
 import os
 import socket
 from collections.abc import Callable
@@ -111,6 +112,7 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         """As uvicorn does; then tells."""
         await super().startup(sockets)
+        gc.freeze()  # what was imported stays: no search for garbage holds the loop up for it
         if self.started and not self.should_exit:
             self._ready()
 
