@@ -9,7 +9,7 @@ from typing import Literal
 from scanbench.check.build import check_sources
 from scanbench.check.libraries.catalogue import used_libraries
 from scanbench.engines.engine import Engine, Reason, Stop
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.host.build import all_models
 from scanbench.plcmodel.model import Model
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
@@ -28,7 +28,7 @@ PAIR = re.compile(
     r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|\"(?:\$.|[^\"])*\"|[^,]+)\s*(?:,|$)"
 )
 
-MODELS: dict[str, Model] = {model.name: model for model in load_all(model_directory())[0]}
+MODELS: dict[str, Model] = {model.name: model for model in all_models()[0]}
 
 
 @dataclass(slots=True)

@@ -17,6 +17,7 @@ from scanbench.taps import trace_buffer
 from tests.amounts import slow
 
 
+@slow
 def test_a_program_beside_its_twin() -> None:
     result = run_bench(["noop", "mavg"])
     assert result["building"] == {}

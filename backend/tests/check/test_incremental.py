@@ -3,6 +3,7 @@
 import random
 import re
 from collections.abc import Mapping
+from functools import cache
 
 import pytest
 
@@ -12,6 +13,7 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.program.program import Program
 from scanbench.syntax import tree
+from tests.amounts import nightly, some
 from tests.caseformat import MODELS
 
 MODEL = MODELS["GENERIC-IEC"]
@@ -53,11 +55,18 @@ def code(program: Program | None) -> str:
     return emit_program(program) if program is not None else ""
 
 
+@cache
+def fresh(files: tuple[tuple[str, str], ...]) -> tuple[Checked, str]:
+    """A check of the whole, and its code: of the files before the edit, once for all tests."""
+    checked = check_sources(dict(files), MODEL, INTERVAL_NS)
+    return checked, code(checked.program)
+
+
 def agree(found: Checked, files: Mapping[str, str]) -> None:
-    expected = check_sources(files, MODEL, INTERVAL_NS)
+    expected, expected_code = fresh(tuple(files.items()))
     assert found.problems == expected.problems
     assert found.pous == expected.pous
-    assert code(found.program) == code(expected.program)
+    assert code(found.program) == expected_code
     if found.program is not None and expected.program is not None:
         assert found.program.traps == expected.program.traps
         assert found.program.checks == expected.program.checks
@@ -149,14 +158,15 @@ END_FUNCTION_BLOCK
 """
 
 
-@pytest.mark.parametrize(("old", "new"), DECLARATIONS + BODIES)
+@nightly
+@pytest.mark.parametrize(("old", "new"), some(DECLARATIONS + BODIES, 3))
 def test_problems_alone(old: str, new: str) -> None:
     checks = Checks()
     files = FILES | {"seen.st": SEEN}
     for more in (files, files | {"seen.st": SEEN.replace(" + unknown", "")}):
         edited = {name: text.replace(old, new, 1) for name, text in more.items()}
         for texts in (more, edited, more):
-            found, expected = checks.diagnose(texts, MODEL, INTERVAL_NS), check_sources(texts, MODEL, INTERVAL_NS)
+            found, (expected, _) = checks.diagnose(texts, MODEL, INTERVAL_NS), fresh(tuple(texts.items()))
             assert (found.problems, found.pous, found.checks) == (expected.problems, expected.pous, expected.checks)
         agree(checks.check(edited, MODEL, INTERVAL_NS), edited)
 

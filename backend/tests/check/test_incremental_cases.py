@@ -15,7 +15,9 @@ from tests.amounts import nightly, some
 from tests.caseformat import MODELS, Case, read_cases
 
 CASES = [
-    case for path in sorted((Path(__file__).parents[1] / "cases").glob("*.case")) for case in some(read_cases(path), 9)
+    case
+    for path in some(sorted((Path(__file__).parents[1] / "cases").glob("*.case")), 3)
+    for case in some(read_cases(path), 12)
 ]
 EDITS = 4
 INTERVAL_NS = 1_000_000

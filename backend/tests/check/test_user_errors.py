@@ -4,14 +4,14 @@ from pathlib import Path
 
 from scanbench.check.build import check_sources
 from scanbench.check.incremental import Checks
+from scanbench.host.build import all_models
 from scanbench.plcmodel.as_used import as_used
-from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.recording.fingerprints import program_digest
 
 GOOD = (Path(__file__).parents[1] / "plcmodel" / "broken_user_errors" / "GOOD.xml").read_text("utf-8")
 MAIN = "PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
 INTERVAL_NS = 10_000_000
-MODEL = next(each for each in load_all(model_directory())[0] if each.name == "CJ1M-CPU63")
+MODEL = next(each for each in all_models()[0] if each.name == "CJ1M-CPU63")
 
 
 def test_the_program_is_the_same_on_a_model_that_knows_more() -> None:

@@ -5,6 +5,7 @@ import io
 import re
 import tokenize
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -47,6 +48,7 @@ OF_PYTHON = ("frozen", "fork", "snapshot")
 FENCE = re.compile(r"```.*?```|`[^`\n]*`|^    [^\n]*$", re.DOTALL | re.MULTILINE)
 
 
+@cache
 def unwanted() -> dict[str, str]:
     """What is not to be written, and the term to write."""
     found: dict[str, str] = {}
@@ -57,8 +59,16 @@ def unwanted() -> dict[str, str]:
     return found
 
 
+@cache
+def any_of(words: tuple[str, ...]) -> re.Pattern[str]:
+    """Finds whether there is one at all: few texts have one."""
+    return re.compile(rf"\b(?:{'|'.join(map(re.escape, words))})(?:e?s)?\b", re.IGNORECASE)
+
+
 def said(words: tuple[str, ...], text: str) -> list[str]:
     """Which of the words the text has, one or several, at any place of a sentence."""
+    if not words or any_of(words).search(text) is None:
+        return []
     return [word for word in words if re.search(rf"\b{re.escape(word)}(e?s)?\b", text, re.IGNORECASE)]
 
 

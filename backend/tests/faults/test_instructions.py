@@ -8,7 +8,7 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.history import ErrorRow, History
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.host.build import all_models
 from scanbench.recording.replay import replay
 from scanbench.runtime.detect import Asked
 from scanbench.runtime.header import Halt, Mode
@@ -205,7 +205,7 @@ def test_the_log_reset_bit() -> None:
     assert (value(resource, "A300"), value(resource, "A100")) == (1, 0xF7)
 
 
-MODELS = {each.name: each for each in load_all(model_directory())[0]}
+MODELS = {each.name: each for each in all_models()[0]}
 INSTRUCTIONS = [(name, made.name) for name, each in MODELS.items() for made in each.instructions]
 
 

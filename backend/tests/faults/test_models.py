@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.host.build import all_models
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Location, Model
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry, Refusal, RestartKind
@@ -19,7 +19,7 @@ from scanbench.runtime.restart import Restart
 from tests.amounts import amount
 from tests.runtime.bench import model, plc
 
-MODELS = [each.name for each in load_all(model_directory())[0]]
+MODELS = [each.name for each in all_models()[0]]
 SOURCE = "PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
 
 

@@ -5,7 +5,7 @@ import pytest
 from scanbench.faults.inject import Generate
 from scanbench.faults.preview import PreviewedWrite, preview
 from scanbench.faults.reference import ErrorRef, parse_reference
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.host.build import all_models
 from scanbench.runtime.command import Entry
 from scanbench.runtime.resource import Resource
 from tests.runtime.bench import model, plc, value
@@ -75,7 +75,7 @@ def test_what_is_present_is_refused_or_changed() -> None:
     assert "Did you mean `battery-error`" in unknown.message
 
 
-@pytest.mark.parametrize("name", [each.name for each in load_all(model_directory())[0]])
+@pytest.mark.parametrize("name", [each.name for each in all_models()[0]])
 def test_every_error_of_every_model_writes_what_was_told(name: str) -> None:
     for error in model(name).errors():
         resource = at_three(PLAIN, name)

@@ -347,6 +347,7 @@ def test_a_sweep_that_cannot_be(job: Job, tmp_path: Path) -> None:
         assert answer.message.startswith(words), answer.message
 
 
+@slow
 def test_it_ends_with_its_parent(tmp_path: Path) -> None:
     """Also while it computes."""
     timeline, _ = raised(tmp_path / "1.run")

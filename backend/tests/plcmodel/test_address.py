@@ -2,10 +2,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.host.build import all_models
 from scanbench.plcmodel.model import Model
 
-MODELS = {model.name: model for model in load_all(model_directory())[0]}
+MODELS = {model.name: model for model in all_models()[0]}
 
 
 @pytest.mark.parametrize(

@@ -2,10 +2,11 @@
 
 import pytest
 
-from scanbench.plcmodel.load import NoSuchModel, load_all, model_directory, model_named
+from scanbench.host.build import all_models
+from scanbench.plcmodel.load import NoSuchModel, model_named
 from scanbench.plcmodel.model import Location, Model
 
-ALL = load_all(model_directory())[0]
+ALL = all_models()[0]
 every_model = pytest.mark.parametrize("model", ALL, ids=[model.name for model in ALL])
 
 

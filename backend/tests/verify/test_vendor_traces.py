@@ -16,7 +16,7 @@ from scanbench.verify.trace.read import read_trace
 from scanbench.verify.trace.subject import TraceSubject
 from scanbench.verify.trace.table import BadTraceFile, Table
 from scanbench.verify.verifier import Verifier
-from tests.amounts import amount
+from tests.amounts import amount, nightly
 from tests.verify.vendor_files import FILES, SCANS, SIGNALS, WRONG, Recorded, clean, faulty, lines, program
 
 NAMES = list(FILES)
@@ -67,9 +67,10 @@ def test_it_is_read_and_mapped_without_anybody(name: str) -> None:
     assert found <= wanted
 
 
+@nightly
 @pytest.mark.parametrize("name", NAMES)
 def test_a_clean_trace_with_jitter_and_rounding_has_no_difference(name: str) -> None:
-    scans = verified(table_of(name, clean()))
+    scans = verified(table_of(name, clean()), amount(SCANS, SCANS // 2))
     assert differences(scans) == []
     assert [scan for scan, rows in scans if not any(row.compared for row in rows)] == [0]  # it is taken over
 
@@ -101,8 +102,9 @@ def test_a_small_fault_that_adds_up_is_found_in_spite_of_rounding() -> None:
     assert found[0][0] < 30
 
 
+@nightly
 def test_several_seeds_of_jitter() -> None:
-    for seed in range(5, 7):
+    for seed in range(5, amount(7, 6)):
         assert differences(verified(table_of("melsec.csv", clean(seed)))) == []
 
 
@@ -215,10 +217,11 @@ def spoiled(data: bytes, chance: random.Random) -> bytes:
     return b"\n".join(rows)
 
 
+@nightly
 @pytest.mark.parametrize("name", NAMES)
 def test_a_spoiled_file_is_read_or_refused(name: str) -> None:
     data, chance = FILES[name](clean()), random.Random(name)
-    for _ in range(amount(150, 12)):
+    for _ in range(amount(150, 4)):
         changed = spoiled(data, chance)
         try:
             table = read_trace(changed, name)

@@ -1,4 +1,4 @@
-"""Whatever is sent, the server answers with words, and the PLC goes on: odd values for every route of the API."""
+"""Whatever is sent, the server answers with words, and the PLC goes on: odd values for every route of the API, by day for a third of them."""
 
 import json
 from collections import Counter
@@ -10,7 +10,7 @@ from urllib.parse import quote
 import pytest
 
 from scanbench.web.openapi import document
-from tests.amounts import amount, nightly
+from tests.amounts import amount, nightly, some
 from tests.web.server import Server
 from tests.web.test_simulator import MODEL, PROGRAM
 from tests.web.test_sweeps import finished
@@ -59,7 +59,7 @@ class Api:
 
     def requests(self) -> Iterator[tuple[str, str, bytes]]:
         """Method, address and body; what is right in them does as little as possible."""
-        for path, operations in cast(dict[str, dict[str, Json]], self._document["paths"]).items():
+        for path, operations in some([*cast(dict[str, dict[str, Json]], self._document["paths"]).items()], 3):
             for method, operation in operations.items():
                 parameters = cast(list[Json], operation.get("parameters", []))
                 body = cast(Json | None, operation.get("requestBody"))
@@ -192,7 +192,7 @@ def test_no_request_makes_the_server_fail(alone: Server, named: Json) -> None:
         assert reply.status_code < 500, told
         if reply.status_code >= 400:
             assert reply.json()["message"], told
-    assert statuses[200] > amount(50, 30), f"nearly everything was refused, nothing was tried: {statuses}"
+    assert statuses[200] > amount(50, 10), f"nearly everything was refused, nothing was tried: {statuses}"
     now = alone.state(cast(int, named["instance"]))
     assert now["restarts"] == 0, now
     assert now["state"] not in ("failed", "restarting", "silent", "no_space"), (

@@ -380,6 +380,7 @@ def test_what_is_no_opc_ua_does_no_harm(server: Server) -> None:
     run(story())
 
 
+@slow
 def test_faults_of_the_line(server: Server) -> None:
     instance = server.instance("opc ua line", MODEL, main=SOURCE)
     address = switch_on(server, instance)

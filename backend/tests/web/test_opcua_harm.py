@@ -9,7 +9,7 @@ from typing import Any, cast
 import pytest
 from asyncua import Client, ua
 
-from tests.amounts import amount
+from tests.amounts import amount, slow
 from tests.web.server import Server
 from tests.web.test_communication import MODEL, seen, until
 from tests.web.test_opcua import SOURCE, Changes, at, client_at, run, switch_on, write
@@ -99,6 +99,7 @@ def deadband(width: float, kind: ua.DeadbandType = ua.DeadbandType.Absolute) -> 
     return ua.DataChangeFilter(ua.DataChangeTrigger.StatusValue, ua.UInt32(kind), width)
 
 
+@slow
 def test_a_deadband_is_for_numbers_and_ends_nothing(server: Server) -> None:
     instance = server.instance("opc ua deadband", MODEL, main=SOURCE)
     address = switch_on(server, instance)
@@ -146,6 +147,7 @@ def test_a_deadband_is_for_numbers_and_ends_nothing(server: Server) -> None:
     run(story())
 
 
+@slow
 def test_a_connection_has_one_session_and_the_log_short_names(server: Server) -> None:
     instance = server.instance("opc ua sessions", MODEL, main=SOURCE)
     address = switch_on(server, instance)
