@@ -1,8 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('a write to an in-out goes to the variable that was passed, or to that of a different call', async ({
-  openAs,
-}) => {
+test('a write to an in-out goes to the variable that was passed, or to that of a different call', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   await mika.runs();

@@ -63,7 +63,7 @@ test('at 1024 x 700 everything is in reach', async ({ openAs }) => {
   });
 });
 
-test('by keyboard alone', async ({ openAs }) => {
+test('by keyboard alone', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();

@@ -195,7 +195,9 @@ test('a colleague opens the address of a scan', { tag: '@nightly' }, async ({ op
   });
 });
 
-test('the past before a build shows the text, the values and the version of its scan', async ({ openAs }) => {
+test('the past before a build shows the text, the values and the version of its scan', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   await ann.runs();
   await expect.poll(() => ann.top.scan()).toBeGreaterThan(20);

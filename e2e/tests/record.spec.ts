@@ -4,7 +4,7 @@ import { History } from '../pages/history';
 
 const ERROR = 'Battery error';
 
-test('the test record is filtered, printed, saved and imported again', async ({ openAs }) => {
+test('the test record is filtered, printed, saved and imported again', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   const history = new History(mika.page);
   await mika.runs();

@@ -1,6 +1,6 @@
 import { expect, test } from '../fixtures/test';
 
-test('a warm restart keeps the retained memory, a cold one clears it', async ({ openAs }) => {
+test('a warm restart keeps the retained memory, a cold one clears it', { tag: '@nightly' }, async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();
   for (const address of ['D500', 'W500']) {

@@ -239,7 +239,7 @@ test('an error is found, raised and recovered by keyboard alone', { tag: '@night
   await expect(mika.simulator.box(MEMORY)).not.toBeChecked();
 });
 
-test('two people: the second sees the error, and may change its details', async ({ openAs }) => {
+test('two people: the second sees the error, and may change its details', { tag: '@nightly' }, async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const jo = await openAs('Jo');

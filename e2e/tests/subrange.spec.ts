@@ -28,9 +28,9 @@ END_VAR
 END_PROGRAM
 `;
 
-test('a value outside its subrange is limited, listed and marked, and the list leads to the source', async ({
-  openAs,
-}) => {
+test('a value outside its subrange is limited, listed and marked, and the list leads to the source', {
+  tag: '@nightly',
+}, async ({ openAs }) => {
   const jo = await openAs('Jo');
   await jo.runs();
   await jo.top.newProject('Subranges');

@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('everybody goes back in time, sees the old values, and returns to live', async ({ openAs }) => {
+test('everybody goes back in time, sees the old values, and returns to live', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
   const ann = await openAs('Ann');
   const bob = await openAs('Bob');
   await ann.runs();

@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('the tour: the sample is tried step by step, each step done at the real control', async ({ openAs }) => {
+test('the tour: the sample is tried step by step, each step done at the real control', { tag: '@nightly' }, async ({
+  openAs,
+}) => {
   const mika = await openAs('Mika');
   const { page } = mika;
   await mika.runs();

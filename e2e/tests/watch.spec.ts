@@ -1,7 +1,7 @@
 import { readFile, writeFile } from 'node:fs/promises';
 import { expect, test } from '../fixtures/test';
 
-test('a watch list is shared, and two people change it at once', async ({ openAs, server }) => {
+test('a watch list is shared, and two people change it at once', { tag: '@nightly' }, async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   await mika.runs();
 
