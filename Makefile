@@ -50,16 +50,17 @@ help:
 # ------------------------------------------------------------------------------------------------ run and test
 setup: $(VENV)/.stamp-runtime frontend/dist/.stamp
 
-setup-test: setup $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp) system-chromium system-postgresql system-git system-clients
+setup-test: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp) system-chromium system-postgresql system-git system-clients
 
 run: setup
 	@exec $(BIN)/scanbench serve $(ARGS)
 
+# Most of the first ones keep one core at work: together they keep all.
 test: setup-test
-	@.ci/steps lint layers types+adapter wire-check+frontend-check+frontend-unit unit frontend-build e2e
+	@.ci/steps lint+layers+types+adapter+wire-check+frontend-check+frontend-build frontend-unit unit e2e
 
 check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp)
-	@.ci/steps lint layers types+wire-check+frontend-check
+	@.ci/steps lint+layers+types+wire-check+frontend-check
 
 # Tracing lines makes the tests take two fifths longer, so this is no step of `make test`.
 coverage: $(VENV)/.stamp-dev system-postgresql system-git
@@ -87,7 +88,7 @@ fuzz: $(VENV)/.stamp-dev
 features: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page && $(BIN)/python -m tests.api_page && $(BIN)/python -m tests.client_shapes
 
-shots: setup-test system-fonts
+shots: setup-test frontend/dist/.stamp system-fonts
 	@cd e2e && $(NPM) run shots
 
 # ------------------------------------------------------------------------------------------------ the steps of a test
@@ -130,7 +131,7 @@ e2e: frontend/dist/.stamp
 	@cd e2e && $(NPM) run --silent test
 
 # What `make test` leaves out to stay quick: see backend/tests/amounts.py and e2e/README.md.
-nightly: setup-test
+nightly: setup-test frontend/dist/.stamp
 	@.ci/steps nightly-unit nightly-e2e
 
 nightly-unit:
