@@ -39,7 +39,7 @@ help:
 	@echo "make nightly what \`make test\` leaves out to stay quick: slow tests, the other browser stories, far more random programs"
 	@echo "make coverage  how much of the backend its tests run, and which files less than 80 %"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
-	@echo "make bench-ui  what opening the page costs: bytes, time to the first live value, frames"
+	@echo "make bench-ui  what opening the page costs: bytes, time to the first live value, frames; and a large ladder"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
 	@echo "make features  write the pages of docs/ that are generated (features, standard library, REST API), and the shapes of the client"
 	@echo "make shots   take the README's screenshots again"

@@ -3,6 +3,12 @@
 import subprocess
 import sys
 
+import pytest
+
+from bench import graphic
+from scanbench.engines.native import jit
+from scanbench.engines.native.emit_program import emit_program
+
 AT_ONCE = """
 import sys
 from threading import Barrier, Thread
@@ -30,3 +36,9 @@ print(ended)
 def test_several_threads_may_be_the_first() -> None:
     done = subprocess.run([sys.executable, "-c", AT_ONCE], capture_output=True, text=True, check=False)
     assert done.stdout.strip() == str(["DONE"] * 4), done.stderr
+
+
+def test_logic_of_bools_is_not_joined_into_vectors(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(graphic, "RUNGS", 40)
+    rungs, _ = graphic.programs()
+    assert " x i1>" not in jit.optimised_text(emit_program(graphic.checked(rungs)))

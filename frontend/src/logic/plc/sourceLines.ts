@@ -6,10 +6,11 @@ import type { Pou } from "../../wire/types";
  * end: the body of a block may come after its methods.
  */
 export function pouAt(pous: readonly Pou[], file: string, line: number, text = ""): Pou | undefined {
-  const lines = text.split("\n");
   const ended = (pou: Pou) =>
     (pou.kind === "method" || pou.kind === "property") &&
-    lines.slice(pou.line - 1, line - 1).some((each) => /\bEND_(METHOD|PROPERTY)\b/i.test(each));
+    linesOf(text)
+      .slice(pou.line - 1, line - 1)
+      .some((each) => /\bEND_(METHOD|PROPERTY)\b/i.test(each));
   return pous
     .filter((pou) => pou.file === file && pou.line <= line && !ended(pou))
     .sort((a, b) => b.line - a.line)
@@ -22,14 +23,45 @@ export function pouAt(pous: readonly Pou[], file: string, line: number, text = "
  */
 export function lineIn(from: string, to: string, line: number): number {
   if (from === to) return line;
-  const [a, b] = [from.split("\n"), to.split("\n")];
+  const { head, tail, before, after } = sameEnds(from, to);
+  if (line <= head) return line;
+  if (line > before - tail) return line - before + after;
+  return Math.max(1, Math.min(line, after - tail));
+}
+
+/** Lines that two texts begin and end with in common, and how many each has. */
+interface Ends {
+  head: number;
+  tail: number;
+  before: number;
+  after: number;
+}
+
+/** What was found out last, about texts that are shown and that were built: a drawing asks for each of its elements. */
+const MOST = 8;
+const split = new Map<string, readonly string[]>();
+let compared: { from: string; to: string; ends: Ends }[] = [];
+
+function linesOf(text: string): readonly string[] {
+  const known = split.get(text);
+  if (known) return known;
+  if (split.size >= MOST) split.clear();
+  const lines = text.split("\n");
+  split.set(text, lines);
+  return lines;
+}
+
+function sameEnds(from: string, to: string): Ends {
+  const known = compared.find((each) => each.from === from && each.to === to);
+  if (known) return known.ends;
+  const [a, b] = [linesOf(from), linesOf(to)];
   let head = 0;
   while (head < a.length && head < b.length && a[head] === b[head]) head += 1;
-  if (line <= head) return line;
   let tail = 0;
   while (tail < a.length - head && tail < b.length - head && a.at(-1 - tail) === b.at(-1 - tail)) tail += 1;
-  if (line > a.length - tail) return line - a.length + b.length;
-  return Math.max(1, Math.min(line, b.length - tail));
+  const ends = { head, tail, before: a.length, after: b.length };
+  compared = [{ from, to, ends }, ...compared.slice(0, MOST - 1)];
+  return ends;
 }
 
 /** Whether these lines of the shown text, from `line` on, are lines of the built one, and not only equal to some others of it. */
@@ -38,6 +70,6 @@ export function isBuilt(shown: string, built: string, line: number, text: string
   const from = lineIn(shown, built, line);
   if (lineIn(built, shown, from) !== line) return false;
   const lines = text.split("\n");
-  const found = built.split("\n").slice(from - 1, from - 1 + lines.length);
+  const found = linesOf(built).slice(from - 1, from - 1 + lines.length);
   return found.join("\n").includes(text);
 }
