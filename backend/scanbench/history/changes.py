@@ -10,6 +10,7 @@ from scanbench.faults.reaction.error_memory import code_bits, kept_bits, log_bit
 from scanbench.history.contract import MAX_CHANGES, BetweenEntry, Change, Changes
 from scanbench.program.program import Program
 from scanbench.program.types import Enumeration, StringType
+from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.gaps import gap_between
 from scanbench.recording.reader import RunReader, Unreadable
 from scanbench.runtime.command import Entry
@@ -32,15 +33,24 @@ class Moment:
 
     program: Program
     version: int
-    digest: str
+    kept: KeptProgram
+    """The program as the run has it."""
     state: bytes
+
+    def same_layout(self, other: "Moment") -> bool:
+        """Whether the same bytes are at the same places; the statements may still be different."""
+        return self.kept.digest == other.kept.digest
+
+    def same_program(self, other: "Moment") -> bool:
+        """Whether the same program runs, so that from the same state the same comes."""
+        return self.same_layout(other) and self.kept.sources == other.kept.sources
 
 
 def moment_of(reader: RunReader) -> Moment:
     """The present moment of the reader's timeline."""
     resource = reader.timeline.resource
-    digest = reader.timeline.recording.programs[resource.version].digest
-    return Moment(resource.program, resource.version, digest, resource.state)
+    kept = reader.timeline.recording.programs[resource.version]
+    return Moment(resource.program, resource.version, kept, resource.state)
 
 
 def find_changes(reader: RunReader, first: int, last: int, other: RunReader | None = None) -> Changes:
@@ -59,7 +69,7 @@ def find_changes(reader: RunReader, first: int, last: int, other: RunReader | No
     gap = gap_between(reader.recording.gaps, first, last) if other is None else None
     if gap is not None:
         note = f"not all that was entered in between is known: {gap}"
-    if before.digest != after.digest:
+    if not before.same_layout(after):
         note += (
             "; " * bool(note)
             + "the program is different: variables are compared by their names, and those that only one of them has are left out"
@@ -68,9 +78,7 @@ def find_changes(reader: RunReader, first: int, last: int, other: RunReader | No
         left = len(entries) - MAX_ENTRIES
         note += "; " * bool(note) + f"{left:,} more entries in between are not listed"
         entries = entries[:MAX_ENTRIES]
-    changes, count = Comparer(before.program, after.program, before.digest == after.digest).changes(
-        before.state, after.state
-    )
+    changes, count = Comparer(before, after).changes(before.state, after.state)
     if len(changes) < count:
         note += "; " * bool(note) + f"the first {len(changes):,} variables are listed"
     return Changes(first, last, changes, count, tuple(entries), note)
@@ -101,15 +109,16 @@ def _between(reader: RunReader, first: int, last: int) -> Iterator[BetweenEntry]
 class Comparer:
     """Compares states of two programs, which may be one: in what people count, not in the system's own."""
 
-    def __init__(self, one: Program, other: Program, same: bool) -> None:
-        self._one, self.same = one, same
+    def __init__(self, one: Moment, other: Moment) -> None:
+        """`one` and `other`: of any moments at which these programs run."""
+        self._one, self.same_layout, self.same = one.program, one.same_layout(other), one.same_program(other)
         """`same`: it is one program, so that equal states stay equal."""
-        self._mask = _counted(one)
+        self._mask = _counted(one.program)
         self._names: KeptNames | None = None
         self._here: NDArray[np.intp] | None = None
         self._there: NDArray[np.intp] | None = None
-        if not same:
-            self._here, self._there = _common(one, other)
+        if not self.same_layout:
+            self._here, self._there = _common(one.program, other.program)
 
     def equal(self, one: bytearray, other: bytearray) -> bool:
         """Whether two whole images are the same to the last byte, of one program, so that what comes of them is the same."""
@@ -118,7 +127,7 @@ class Comparer:
 
     def differ(self, one: bytearray, other: bytearray) -> bool:
         """Whether two whole images differ in anything but what every run has of its own, such as the clock."""
-        if not self.same:
+        if not self.same_layout:
             return bool(self._differing(one, other).any())
         mask = self._mask.view(np.uint64)
         here, there = (np.frombuffer(each, np.uint64, len(mask)) for each in (one, other))

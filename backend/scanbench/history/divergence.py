@@ -1,7 +1,7 @@
 """Where two runs first differ, and why: a command that only one of them has, a different program, a different beginning.
 
 Runs are determined by what was entered. So while two of one program have the same journal and the same state, they stay the
-same: only where their journals differ every scan is looked at.
+same: only where their journals or their programs differ every scan is looked at.
 """
 
 from bisect import bisect_left
@@ -44,14 +44,14 @@ def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = 
     if one is other:
         raise Unreadable("that is one and the same run: choose a different one to compare it with")
     first, end = max(one.first, other.first), min(one.over, other.over)
-    if first > end:
-        raise Unreadable(
-            f"the runs have no scan in common: {one.path.name} has scans {one.first} to {one.end}, "
-            f"{other.path.name} {other.first} to {other.end}"
-        )
+    if first >= end:
+        raise Unreadable(f"the runs have no scan in common: {_scans(one)}, {_scans(other)}")
     gaps = [each for reader in (one, other) for each in reader.recording.gaps if first < each.until <= end]
     last = max(gaps, key=lambda each: each.until, default=None)
-    first = max(first, last.until if last is not None else 0)
+    if last is not None:
+        first = max(first, last.until)
+        if first >= end:
+            raise Unreadable(f"no scan can be compared that both runs have: {last}")
     try:
         found = _Comparison(one, other, first, end, on_progress).run()
         if last is None:
@@ -59,6 +59,12 @@ def find_divergence(one: RunReader, other: RunReader, on_progress: OnProgress = 
         return replace(found, text=f"{found.text}. Nothing before scan {first} was compared: {last}")
     except (Diverged, *NOT_AS_RECORDED) as error:
         raise Unreadable(f"the runs cannot be compared: {error}") from error
+
+
+def _scans(reader: RunReader) -> str:
+    if reader.first >= reader.over:
+        return f"{reader.path.name} has none"
+    return f"{reader.path.name} has scans {reader.first} to {reader.over - 1}"
 
 
 class _Side:
@@ -144,7 +150,7 @@ class _Comparison:
         if key not in self._comparers:
             one, other = self._one.moment(), self._other.moment()
             self._left_out.add(one, other)
-            self._comparers[key] = Comparer(one.program, other.program, one.digest == other.digest)
+            self._comparers[key] = Comparer(one, other)
         return self._comparers[key]
 
     def _equal(self) -> bool:
@@ -158,7 +164,7 @@ class _Comparison:
     def _changes(self, first: int, last: int) -> Changes:
         comparer = self._comparer()
         changes, count = comparer.changes(self._one.state, self._other.state)
-        note = "" if comparer.same else "different programs run: variables are compared by their names"
+        note = "" if comparer.same_layout else "different programs run: variables are compared by their names"
         return Changes(first, last, changes, count, (), note)
 
     # ---- to where they part ---------------------------------------------------------------------------------------
@@ -239,7 +245,7 @@ class _Comparison:
 
     def _same(self) -> Divergence:
         count = self._end - self._first
-        last, left = max(self._first, self._end - 1), len(self._left_out.found())
+        last, left = self._end - 1, len(self._left_out.found())
         same: Literal["all", "partly", "nothing"] = "all"
         text = f"the same in all {count:,} scans that both have, {self._first} to {last}"
         if self._left_out.nothing:
@@ -257,7 +263,7 @@ class _Comparison:
         if self._only:
             text += f", although {len(self._only)} commands are only in one of them"
         told = tuple(each.told for each in self._only[:MAX_ENTRIES])
-        return Divergence(count, self._first, self._end, None, "", text, None, None, told, same=same)
+        return Divergence(count, self._first, last, None, "", text, None, None, told, same=same)
 
     def _told(self, scan: int, begun: bool, changes: Changes, marks: tuple[tuple[int, int], ...]) -> Divergence:
         before = [each for each in self._only if each.entry.scan <= scan and each.entry.command.author != "PLC"]
@@ -271,14 +277,14 @@ class _Comparison:
             place, change = self._first_write(scan, changes.changes)
         text = _sentence(scan, begun, before[-1:], differ, place, change)
         return Divergence(
-            self._end - self._first, self._first, self._end, scan, cause, text, place, _led_by(changes, change),
+            self._end - self._first, self._first, self._end - 1, scan, cause, text, place, _led_by(changes, change),
             tuple(told[-MAX_ENTRIES:]), marks,
         )  # fmt: skip
 
     def _programs_differ(self, scan: int) -> bool:
         for side in (self._one, self._other):
             side.reader.goto(scan)
-        return self._one.moment().digest != self._other.moment().digest
+        return not self._one.moment().same_program(self._other.moment())
 
     def _first_write(self, scan: int, changes: Sequence[Change]) -> tuple[Place | None, Change]:
         """The statement that first wrote one of these variables in the scan, in either of them; and which."""

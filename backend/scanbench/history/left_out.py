@@ -32,7 +32,7 @@ class LeftOut:
         change = changes(one.program, other.program)
         for each in change.lost:
             self._add(each.path, _reason(each.reason))
-        if one.digest == other.digest:  # every byte is compared, whatever it is called
+        if one.same_layout(other):  # every byte is compared, whatever it is called
             self.nothing = False
             return
         pointers = list(_pointers(one.program))

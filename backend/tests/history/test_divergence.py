@@ -172,6 +172,25 @@ def test_another_program_from_the_beginning(tmp_path: Path) -> None:
     assert "different where they begin" in found.text
 
 
+def test_another_program_that_acts_otherwise_only_later(tmp_path: Path) -> None:
+    late = SOURCE.replace("scratch := 0;", "IF n > 50 THEN level := 7; END_IF;")
+    one = begun(tmp_path / "one", late)
+    other = begun(tmp_path / "other", late.replace("n > 50", "n > 55"))
+    advance(one, 80)
+    advance(other, 80)
+    found = _compared(one, other)
+    assert (found.scan, found.cause) == (50, "program")
+    assert found.text.endswith("different programs run")
+    assert (found.compared, found.first, found.last) == (80, 0, 79)
+
+
+def test_runs_without_a_scan_in_common_are_not_the_same(tmp_path: Path) -> None:
+    one, other = _two(tmp_path)
+    advance(one, 10)
+    with pytest.raises(Unreadable, match="no scan in common"):
+        _compared(one, other)
+
+
 def test_a_run_time_error_in_one_of_them(tmp_path: Path) -> None:
     one, other = _two(tmp_path)
     advance(one, 20)
