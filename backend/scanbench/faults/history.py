@@ -234,11 +234,19 @@ class History:
                 changed += self._raised(raised.ref, at, raised.scan, raised.by, raised.origin, None)
         return changed
 
-    def as_of(self, present: Mapping[str, Active], at: datetime, version: int | None = None) -> list[ErrorRow]:
-        """Every row as it was when these errors and no others were present; nothing is changed."""
+    def as_of(self, present: Mapping[str, Active], scan: int, version: int | None = None) -> list[ErrorRow]:
+        """Every row as it was at the beginning of `scan`, when these errors and no others were present; nothing is changed.
+
+        Of each row the last time that it was raised is known. What is not known of an earlier time is None."""
+        shown = self._version if version is None else version
         known = [row for rows in self._raised_by_version.values() for row in rows.values()]
-        then = History(self._model, self._version if version is None else version, known)
-        then.reconcile(present, at)
+        then = History(self._model, shown, [earlier for row in known if (earlier := _before(row, scan)) is not None])
+        for key, raised in {self._key(each.ref): each for each in instances_in(present).values()}.items():
+            row = self._raised_by_version.get(shown, {}).get(key)
+            if row is not None and row.generated_scan == raised.scan:
+                then._now[key] = _uncleared(row)
+            else:
+                then._raised(raised.ref, None, raised.scan, raised.by, raised.origin, None)
         return then.rows
 
     def set_reaction(self, key: str, version: int, scan: int, found: Reaction | str) -> ErrorRow | None:
@@ -311,7 +319,7 @@ class History:
         return RowReaction("recording", scan=entry.scan)
 
     def _raised(
-        self, ref: ErrorRef, at: datetime, scan: int, by: str, origin: Origin, reaction: RowReaction | None
+        self, ref: ErrorRef, at: datetime | None, scan: int, by: str, origin: Origin, reaction: RowReaction | None
     ) -> list[ErrorRow]:
         error = self._model.error(ref.id)
         chosen = choose(error, dict(ref.details), self._layout) if error is not None else None
@@ -340,6 +348,21 @@ class History:
                 )  # fmt: skip
                 changed.append(self._now[key])
         return changed
+
+
+def _before(row: ErrorRow, scan: int) -> ErrorRow | None:
+    """The row at the beginning of `scan`, when its error was not present; None: it had not been raised yet."""
+    if row.generated_scan is None:
+        return row
+    if row.generated_scan < scan:
+        return replace(row, status="cleared")
+    if row.count == 1:
+        return None
+    return replace(_uncleared(row), status="cleared", generated_at=None, generated_scan=None, by=None, reaction=None)
+
+
+def _uncleared(row: ErrorRow) -> ErrorRow:
+    return replace(row, status="generated", recovered_at=None, recovered_scan=None, recovered_by="", recovered_way=None)
 
 
 def key_for(model: Model, text: str) -> str:

@@ -34,7 +34,8 @@ class Errors:
         self._present: Mapping[str, Active] = {}
         """Errors that are present in what is shown, live or past."""
         self._past_rows: list[ErrorRow] = []
-        self._past_version = 0
+        self._past_shown: tuple[int, int] | None = None
+        """The version and the scan of the past whose rows these are."""
         self._armed: tuple[ArmedInfo, ...] = ()
         self._disturbances: tuple[DisturbanceInfo, ...] = ()
         self._lines: tuple[BrokenLine, ...] = ()
@@ -110,10 +111,10 @@ class Errors:
         if not state.past_by:
             self._reacting.reached(state.scan, state.state)
         if state.past_by:
-            if not self._past_rows or state.version != self._past_version:
+            if (state.version, state.scan) != self._past_shown:
                 self._show_past(state)  # what is present may be the same then, and is not told again
         elif self._past_rows:
-            self._past_rows = []
+            self._past_rows, self._past_shown = [], None
             self._tell(self._history.rows, whole=True)
 
     def on_message(self, message: object) -> bool:
@@ -172,9 +173,11 @@ class Errors:
         self._publish_rows(self._history.reconcile(in_effect.errors, wall_time()))
 
     def _show_past(self, state: PlcState) -> None:
-        self._past_version = state.version
-        self._past_rows = self._history.as_of(self._present, wall_time(), state.version)
-        self._tell(self._past_rows, whole=True)
+        rows = self._history.as_of(self._present, state.scan, state.version)
+        self._past_shown = state.version, state.scan
+        if rows != self._past_rows:
+            self._past_rows = rows
+            self._tell(rows, whole=True)
 
     def _on_reaction(self, raised: Raised, found: Reaction | str) -> None:
         row = self._history.set_reaction(raised.error, raised.version, raised.scan, found)

@@ -157,9 +157,31 @@ def test_the_past_may_be_of_a_different_version() -> None:
     raise_(history, "battery-error")
     swap(history, 2)
     raise_(history, "fal")
-    then = {each.id: each for each in history.as_of({}, datetime(2026, 11, 21, 13, tzinfo=UTC), 1)}
+    then = {each.id: each for each in history.as_of({}, 1000, 1)}
     assert (then["battery-error"].status, then["fal"].status) == ("cleared", "never")
     assert row(history, "fal").status == "generated"  # nothing was changed
+
+
+def test_the_past_has_the_times_of_when_it_happened() -> None:
+    history = History(model(), 1)
+    raise_(history, "battery-error", scan=10)
+    once = row(history, "battery-error")
+    history.fold(entry(Recover("Ada", ("battery-error",)), 20))
+    present = {"battery-error": Active((Raised(ErrorRef("battery-error"), once.by or "", 10, "simulator"),))}
+    at = {
+        scan: {each.id: each for each in history.as_of(there, scan)}
+        for scan, there in ((5, {}), (15, present), (25, {}))
+    }
+    assert at[5]["battery-error"].status == "never", "it had not been raised"
+    assert at[15]["battery-error"] == once
+    assert at[25]["battery-error"] == row(history, "battery-error")
+    raise_(history, "battery-error", scan=30)
+    again = {each.id: each for each in history.as_of(present, 15)}["battery-error"]
+    assert (again.status, again.generated_scan, again.generated_at) == ("generated", 10, None), (
+        "when is not known any more"
+    )
+    between = {each.id: each for each in history.as_of({}, 25)}["battery-error"]
+    assert (between.status, between.generated_at, between.recovered_at) == ("cleared", None, None)
 
 
 def test_what_is_not_as_required_is_the_worst_that_a_sweep_found() -> None:

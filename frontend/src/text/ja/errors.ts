@@ -19,6 +19,7 @@ export const errors: Record<keyof typeof english, string> = {
   "errors.nonfatal": "運転継続異常",
   "errors.of": "{model} の異常",
   "errors.raisedby": "{by} が {at} に発生（スキャン {scan} の前）。",
+  "errors.raisedby.untimed": "{by} がスキャン {scan} の前に発生。",
   "errors.range": "{minimum} ～ {maximum}",
   "errors.recover": "解除",
   "errors.recover.many": "{count} 件解除",

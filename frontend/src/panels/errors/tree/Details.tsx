@@ -172,7 +172,7 @@ function Raised({ error, row }: { error: ErrorInfo; row: ErrorHistoryRow }) {
   const said = { by: row.by ?? "", at: wallTime(row.generated_at), scan: grouped(row.generated_scan ?? 0) };
   return (
     <p className="muted">
-      {t("errors.raisedby", said)}
+      {t(row.generated_at ? "errors.raisedby" : "errors.raisedby.untimed", said)}
       {row.details && ` ${detailsInWords(error, row.details)}`}
     </p>
   );
