@@ -20,7 +20,7 @@ test('an online change lists the reinitialized variables, waits for confirmation
 
   await test.step('one more variable: nothing is lost, so there is no question', async () => {
     await change('uptime : TIME;', 'uptime    : TIME; shift : INT := 3;');
-    await expect(main.outcome).toContainText(/Built for line-1: \d+ kept, 1 new/);
+    await expect(main.outcome).toContainText(/Built for line-1; variables: \d+ kept, 1 new/);
     await ann.watch.add('Main.shift');
     await ann.watch.set('Main.shift', '44');
     await ann.watch.shows('Main.shift', '44');
@@ -40,7 +40,7 @@ test('an online change lists the reinitialized variables, waits for confirmation
     const parts = await ann.watch.number('Main.parts.total');
     await main.build();
     await dialog.getByRole('button', { name: 'Change line-1' }).click();
-    await expect(main.outcome).toContainText(/Built for line-1: \d+ kept, 1 reinitialized/);
+    await expect(main.outcome).toContainText(/Built for line-1; variables: \d+ kept, 1 reinitialized/);
     await ann.watch.shows('Main.shift', 'T#5s');
     expect(await ann.watch.number('Main.parts.total')).toBeGreaterThanOrEqual(parts);
     await ann.runs();
@@ -81,7 +81,7 @@ test('with two PLCs the user chooses which to change, and sees which were change
   await test.step('nothing is lost: no question, and the result names both PLCs', async () => {
     await main.addBelow('uptime : TIME;', 'shift : INT;');
     await main.build();
-    await expect(main.outcome).toContainText(/Built for (line-1, What-If|What-If, line-1): \d+ kept, 1 new/);
+    await expect(main.outcome).toContainText(/Built for (line-1, What-If|What-If, line-1); variables: \d+ kept, 1 new/);
   });
 
   await test.step('each PLC can be left out', async () => {
@@ -96,7 +96,7 @@ test('with two PLCs the user chooses which to change, and sees which were change
     await expect(dialog.getByRole('button', { name: 'Change', exact: true })).toBeDisabled();
     await box('What-If').check();
     await dialog.getByRole('button', { name: 'Change What-If only' }).click();
-    await expect(main.outcome).toContainText(/Built for What-If: \d+ kept, 1 reinitialized/);
+    await expect(main.outcome).toContainText(/Built for What-If; variables: \d+ kept, 1 reinitialized/);
   });
 
   await test.step('one in RUN is not changed, the other is', async () => {

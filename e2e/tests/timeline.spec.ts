@@ -78,7 +78,7 @@ test('close marks can be enlarged, and the run shows where it was stopped', { ta
     const box = ann.timeline.region.getByRole('textbox', { name: 'Go to scan' });
     await box.fill('1.5');
     await box.press('Enter');
-    await expect(ann.timeline.region.getByRole('alert')).toContainText('Enter a scan from 0 to');
+    await expect(ann.timeline.region.getByRole('alert')).toContainText('Scan 0 to');
     await ann.top.press('Back one scan');
     await expect(ann.timeline.region.getByRole('alert')).toHaveCount(0);
     await box.fill('0:01');

@@ -39,8 +39,8 @@ describe("online change", () => {
   it("says in the result what was changed where", () => {
     const note = "58 kept, 1 reinitialized, 1 new, 1 removed";
     expect(builtNote([], 1)).toBe("Built");
-    expect(builtNote([one], 1)).toBe(`Built for line-1: ${note}`);
-    expect(builtNote([one, two], 2)).toBe(`Built for line-1, What-If: ${note}`);
+    expect(builtNote([one], 1)).toBe(`Built for line-1; variables: ${note}`);
+    expect(builtNote([one, two], 2)).toBe(`Built for line-1, What-If; variables: ${note}`);
     expect(builtNote([one, two], 7)).toBe("Built for line-1, What-If");
     expect(builtNote([refusing, two], 1)).toBe("Built for What-If; line-1 not changed: mode RUN");
   });

@@ -46,6 +46,14 @@ describe("explorer", () => {
     ]);
   });
 
+  it("shows a library by its file, not by all that it declares", () => {
+    const timer: Pou = { name: "TON", kind: "function_block", file: "libraries/Tc2_Standard.st", line: 1 };
+    const file = { path: "libraries/Tc2_Standard.st", version: 1, author: "Mika" };
+    expect(pouGroups([timer], [file])).toEqual([
+      { kind: "library", nodes: [{ kind: "file", name: "Tc2_Standard", file: file.path }] },
+    ]);
+  });
+
   it("shows the block around the cursor, not its method", () => {
     const method: Pou = { name: "FB_Belt.run", kind: "method", file: "belt.st", line: 8 };
     expect(shownAt([...pous, method], "belt.st", 9)?.name).toBe("FB_Belt");

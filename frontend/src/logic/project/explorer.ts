@@ -19,7 +19,7 @@ export interface FileNode {
 }
 
 export interface PouGroup {
-  kind: (typeof ORDER)[number] | "panel" | "plant" | "file";
+  kind: (typeof ORDER)[number] | "library" | "panel" | "plant" | "file";
   nodes: (PouNode | FileNode)[];
 }
 
@@ -29,26 +29,35 @@ const ORDER = ["program", "function_block", "class", "interface", "function", "t
 /** Files that drive the inputs: the folder `plant/`, of a project or of a folder in it. */
 const inPlant = (path: string) => /(^|\/)plant\//.test(path);
 
+/** Libraries declare dozens of blocks that nobody here wrote: the explorer shows their files. */
+const inLibraries = (path: string) => /^libraries\//.test(path);
+
+const isApart = (path: string) => inPlant(path) || inLibraries(path) || isPanelFile(path);
+
 /**
- * Groups in the order of the standard, then operator panels and the plant by their files; files without a declaration (new, or with errors) come last,
+ * Groups in the order of the standard, then libraries, operator panels and the plant by their files; files without a declaration (new, or with errors) come last,
  * by their names.
  */
 export function pouGroups(declarations: readonly Pou[], files: readonly FileInfo[]): PouGroup[] {
-  const pous = declarations.filter(({ file }) => !inPlant(file));
+  const pous = declarations.filter(({ file }) => !isApart(file));
   const perFile = new Map<string, number>();
   for (const pou of pous) perFile.set(pou.file, (perFile.get(pou.file) ?? 0) + 1);
   const groups: PouGroup[] = ORDER.map((kind) => {
     const declared = pous.filter((pou) => pou.kind === kind);
     return { kind, nodes: kind === "global" ? globalFiles(declared) : declared.map((pou) => pouNode(pou, perFile)) };
   });
+  const libraries = files.filter(({ path }) => inLibraries(path));
+  groups.push({ kind: "library", nodes: libraries.map(({ path }) => fileNode(path, libraryName(path))) });
   const panels = files.filter(({ path }) => isPanelFile(path));
   groups.push({ kind: "panel", nodes: panels.map(({ path }) => fileNode(path, panelName(path))) });
   const plant = files.filter(({ path }) => inPlant(path) && !isPanelFile(path));
   groups.push({ kind: "plant", nodes: plant.map(({ path }) => fileNode(path, path.replace(/^plant\//, ""))) });
-  const loose = files.filter(({ path }) => !perFile.has(path) && !inPlant(path) && !isPanelFile(path));
+  const loose = files.filter(({ path }) => !perFile.has(path) && !isApart(path));
   groups.push({ kind: "file", nodes: loose.map(({ path }) => fileNode(path, path)) });
   return groups.filter((group) => group.nodes.length > 0);
 }
+
+const libraryName = (path: string) => path.replace(/^libraries\//, "").replace(/\.st$/, "");
 
 const fileNode = (file: string, name: string): FileNode => ({ kind: "file", name, file });
 

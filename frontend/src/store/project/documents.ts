@@ -348,6 +348,13 @@ usePlc.subscribe(({ state }, { state: before }) => {
   if (older) set({ build: { phase: "idle" }, change: null });
 });
 
+/** Nor after a file was added or deleted, which was not built. */
+useDocuments.subscribe(({ build, files }, before) => {
+  if (build.phase !== "done" || !build.ok || files === before.files || before.build !== build) return;
+  const known = new Set(before.files.map(({ path }) => path));
+  if (known.size !== files.length || files.some(({ path }) => !known.has(path))) set({ build: { phase: "idle" } });
+});
+
 /** Somebody (perhaps this browser) saved: an unedited text follows; an edited one shows the conflict when it is saved. */
 export async function onSaved(file: FileInfo): Promise<void> {
   const { project, open, files } = get();

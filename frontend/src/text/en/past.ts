@@ -14,7 +14,7 @@ export const past = {
     "Size of the run file, and its limit. When the limit is reached, old checkpoints are thinned first, then the oldest scans are deleted.",
   "timeline.goto": "Go to scan",
   "timeline.goto.about": "Enter a scan or a PLC time: 4711, 1m2s, 1:02",
-  "timeline.goto.bad": "Enter a scan from {first} to {live}, or a time",
+  "timeline.goto.bad": "Scan {first} to {live}, or a time",
   "timeline.hint": "drag to go back",
   "timeline.hover": "Scan {scan} · {time}",
   "timeline.label": "Timeline",

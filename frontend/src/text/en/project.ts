@@ -130,6 +130,7 @@ export const project = {
   "explorer.search.none":
     "Nothing is called “{text}”. Variables are found where they were unfolded; Ctrl+P finds all names.",
   "explorer.label": "Explorer",
+  "explorer.library": "Libraries",
   "explorer.memory": "I/O memory",
   "explorer.model": "Model",
   "explorer.plant": "Plant",
@@ -225,7 +226,7 @@ export const project = {
     "The program is changed between two scans, so no scan is lost. Variables keep their values by name and type, except these.",
   "change.about.refused": "No PLC can take the new program now, so nothing was built. Your text is saved.",
   "change.built": "Built for {names}",
-  "change.built.note": "Built for {names}: {note}",
+  "change.built.note": "Built for {names}; variables: {note}",
   "change.choose": "Change {name}",
   "change.do.all": "Change all {count} PLCs",
   "change.do.none": "Change",

@@ -218,7 +218,8 @@ function BuildOutcome() {
   const state = useDocuments((documents) => documents.build);
   const here = useBench((bench) => bench.instance?.id);
   const corrected = useCorrected();
-  if (state.phase !== "done" || corrected) return <OtherVersion />;
+  const edited = useDocuments((documents) => Object.values(documents.open).some(isDirty));
+  if (state.phase !== "done" || corrected || (state.ok && edited)) return <OtherVersion />;
   const by = state.author ? t("build.by", { author: state.author }) : "";
   return (
     <button

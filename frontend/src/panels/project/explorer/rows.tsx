@@ -43,6 +43,7 @@ const POU_ICONS: Record<Exclude<PouGroup["kind"], "plant">, IconName> = {
   interface: "struct",
   type: "struct",
   global: "globe",
+  library: "stack",
   panel: "layout",
   file: "init",
 };
