@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Pou } from "../../wire/types";
-import { isBuilt, lineIn, pouAt } from "./sourceLines";
+import { isBuilt, lineIn, movedTo, pouAt } from "./sourceLines";
 
 const pous: Pou[] = [
   { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
@@ -50,5 +50,18 @@ describe("lines of the built text", () => {
     expect(isBuilt(twice, built, 5, rung)).toBe(false);
     expect(isBuilt(built.replace("RUNG", "RUNG // new\n\nRUNG"), built, 4, rung)).toBe(true);
     expect(isBuilt(built.replace("[run]", "[stop]"), built, 2, rung.replace("[run]", "[stop]"))).toBe(false);
+  });
+});
+
+describe("places of the built text", () => {
+  const built = "a := 1;\nb := 2;\nc := 3;";
+  const places = [2, 3].map((line) => ({ line, end_line: line }));
+
+  it("move with their lines", () => {
+    expect(movedTo(`(* new *)\n${built}`, built, places)).toEqual([3, 4].map((line) => ({ line, end_line: line })));
+  });
+
+  it("are left out where the line was edited", () => {
+    expect(movedTo(built.replace("b := 2", "b := 5"), built, places)).toEqual([{ line: 3, end_line: 3 }]);
   });
 });

@@ -73,3 +73,16 @@ export function isBuilt(shown: string, built: string, line: number, text: string
   const found = linesOf(built).slice(from - 1, from - 1 + lines.length);
   return found.join("\n").includes(text);
 }
+
+/** Places in the built text, as they are in the shown one; those whose first line was edited since are left out. */
+export function movedTo<Place extends { line: number; end_line: number }>(
+  shown: string,
+  built: string,
+  places: readonly Place[],
+): Place[] {
+  const [now, then] = [shown.split("\n"), built.split("\n")];
+  return places
+    .map((place) => ({ place, line: lineIn(built, shown, place.line), end_line: lineIn(built, shown, place.end_line) }))
+    .filter(({ place, line }) => now[line - 1] === then[place.line - 1])
+    .map(({ place, line, end_line }) => ({ ...place, line, end_line }));
+}

@@ -1,8 +1,10 @@
 /** One Monaco model for each open file, synchronised with the document store in both directions; diagnostics become markers. */
 
+import { movedTo } from "../../../logic/plc/sourceLines";
 import { isRequirements, isTable } from "../../../logic/project/explorer";
 import { usePlc } from "../../../store/plc/plc";
 import { useDocuments } from "../../../store/project/documents";
+import { shownText } from "../../../store/project/shownProgram";
 import { savedText } from "../../../store/project/sourceText";
 import type { Problem, Violation } from "../../../wire/types";
 import { bind, follow } from "./binding";
@@ -81,9 +83,10 @@ function markModel(path: string, model: editor.ITextModel): void {
   );
 }
 
-/** A marker where an embedded check found a value outside its subrange while the program ran. */
+/** A marker where an embedded check found a value outside its subrange while the program ran; none where the line was edited since. */
 function markViolations(path: string, model: editor.ITextModel): void {
-  const { violations } = usePlc.getState().diagnostics;
+  const here = usePlc.getState().diagnostics.violations.filter(({ file }) => file === path);
+  const { built, text } = shownText(path);
   const marker = (violation: Violation) => ({
     severity: MarkerSeverity.Warning,
     message: `${violation.text} (${violation.times}x)`,
@@ -92,7 +95,7 @@ function markViolations(path: string, model: editor.ITextModel): void {
     endLineNumber: violation.end_line,
     endColumn: violation.end_column,
   });
-  editor.setModelMarkers(model, RUNTIME, violations.filter((violation) => violation.file === path).map(marker));
+  editor.setModelMarkers(model, RUNTIME, movedTo(text, built, here).map(marker));
 }
 
 usePlc.subscribe((now, before) => {
