@@ -13,6 +13,7 @@ from scanbench.cli import INTERRUPTED
 from scanbench.cli.device import clear, log, present
 from scanbench.cli.inputs import (
     DIALECT_HELP,
+    PARTLY,
     below,
     find_model,
     find_model_named,
@@ -51,6 +52,7 @@ from scanbench.reports.sweep_report import (
     NO_SWEEP,
     SweepResult,
     compare_text,
+    conditions_apart,
     count,
     is_sweep,
     outcomes_in,
@@ -352,17 +354,25 @@ def compare_sweeps(
     after: Path = typer.Argument(metavar="AFTER", help="A later one: of a different version, or on a different model."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
-    """Compare two sweeps, by error and state. Exit 0; 1: something is worse or gone; 2: wrong usage."""
-    changes = compare(_read_outcomes(before), _read_outcomes(after))
+    """Compare two sweeps, by error and state.
+
+    Exit 0; 1: something is worse or gone; 2: wrong usage; 4: nothing is, but the sweeps were not made alike: on
+    different models, with different windows, or from states at other scans.
+    """
+    sweeps = _read_sweep(before), _read_sweep(after)
+    changes = compare(sweeps[0][1], sweeps[1][1])
+    apart = conditions_apart(sweeps[0][0], sweeps[1][0])
     if as_json:
         told = [asdict(each) for each in changes]
-        typer.echo(json.dumps({"changes": told}, ensure_ascii=False))
+        typer.echo(json.dumps({"changes": told, "apart": apart}, ensure_ascii=False))
     else:
-        typer.echo("\n".join(compare_text(changes)))
-    raise typer.Exit(1 if any(each.change in ("worse", "gone") for each in changes) else 0)
+        typer.echo("\n".join([*(f"not made alike: {each}" for each in apart), *compare_text(changes)]))
+    if any(each.change in ("worse", "gone") for each in changes):
+        raise typer.Exit(1)
+    raise typer.Exit(PARTLY if apart else 0)
 
 
-def _read_outcomes(path: Path) -> list[Outcome]:
+def _read_sweep(path: Path) -> tuple[dict[str, object], list[Outcome]]:
     try:
         told = json.loads(path.read_text("utf-8"))
     except OSError as error:
@@ -372,7 +382,7 @@ def _read_outcomes(path: Path) -> list[Outcome]:
     if not is_sweep(told):
         usage(f"{path} {NO_SWEEP}")
     try:
-        return outcomes_in(told)
+        return told, outcomes_in(told)
     except ValueError as error:
         usage(f"{path}: {error}")
 

@@ -232,6 +232,26 @@ def outcomes_in(told: object) -> list[Outcome]:
     return [_outcome_in(number, each) for number, each in enumerate(told["results"])]
 
 
+def conditions_apart(before: Mapping[str, object], after: Mapping[str, object]) -> list[str]:
+    """In what two sweeps, as `sweep_json` wrote them, were not made alike: what they say differs for that reason, too."""
+    found = []
+    if before.get("model") != after.get("model"):
+        found.append(f"they are of different models: {before.get('model')} and {after.get('model')}")
+    if before.get("window") != after.get("window"):
+        found.append(
+            f"each error was watched for {before.get('window')} scans before, and for {after.get('window')} after"
+        )
+    at = [_state_scans(each) for each in (before, after)]
+    for name in sorted(at[0].keys() & at[1].keys()):
+        if at[0][name] != at[1][name]:
+            found.append(f"the state {name} was at scan {at[0][name]} before, and at scan {at[1][name]} after")
+    return found
+
+
+def _state_scans(told: Mapping[str, object]) -> dict[str, object]:
+    return {str(each.get("name")): each.get("scan") for each in _objects(told.get("states"))}
+
+
 def _outcome_in(number: int, told: object) -> Outcome:
     where = f"results[{number}]"
     if not isinstance(told, dict):

@@ -423,6 +423,15 @@ def test_two_sweeps_compared(project: Path) -> None:
     changes = {each["error"]: each["change"] for each in json.loads(worse.stdout)["changes"]}
     assert changes["inner-board-error"] == "worse"
     assert changes["memory-error"] == "same"
+    told = json.loads(after.read_text("utf-8"))
+    assert json.loads(worse.stdout)["apart"] == []
+    told |= {"model": "CJ2M-CPU3x", "window": 7, "states": [{**each, "scan": 99} for each in told["states"]]}
+    after.write_text(json.dumps(told), "utf-8")
+    apart = scanbench("errors", "compare", str(before), str(after))
+    assert apart.returncode == 4
+    assert apart.stdout.count("not made alike: ") >= 3
+    assert "watched for" in apart.stdout
+    assert "the state Start was at scan" in apart.stdout
     page = project / "page.html"
     page.write_text("<!doctype html>")
     for other in (page, project / "project.json"):
