@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable
+from scanbench.cli.inputs import PARTLY, find_model_named, tell_damage, unreadable, unusable
 from scanbench.cli.interrupt import Leaving
 from scanbench.engines.available import flavours
 from scanbench.history.contract import Change, Divergence
@@ -53,7 +53,7 @@ def diff(
         raise typer.Exit(1)
     if found.same == "nothing":
         raise typer.Exit(2)
-    raise typer.Exit(DAMAGED if any(lost) or found.same == "partly" else 0)
+    raise typer.Exit(PARTLY if any(lost) or found.same == "partly" else 0)
 
 
 class _Checked:

@@ -23,8 +23,8 @@ from scanbench.wire.refused import Refused
 
 ARCHIVE = ".zip"
 DIALECT_HELP = f"Dialect of the programs: {', '.join(DIALECTS)}; else language.json's, else iec."
-DAMAGED = 4
-"""Exit code where a run file is damaged: what was looked at is right, but a part of the run is lost."""
+PARTLY = 4
+"""Exit code where what was looked at is right, but not all could be: a run file is damaged, say, and a part of the run is lost."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +50,9 @@ def unreadable(path: Path, error: OSError) -> NoReturn:
 
 
 def unusable(message: str, error: BaseException | None) -> NoReturn:
-    """The same of a run file that cannot be used; with `DAMAGED` where it is damaged."""
+    """The same of a run file that cannot be used; with `PARTLY` where it is damaged."""
     typer.echo(f"scanbench: {message}", err=True)
-    raise typer.Exit(DAMAGED if isinstance(error, Damaged) else 2)
+    raise typer.Exit(PARTLY if isinstance(error, Damaged) else 2)
 
 
 def unusable_run(path: Path, error: Unreadable) -> NoReturn:

@@ -9,7 +9,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.cli import INTERRUPTED
-from scanbench.cli.inputs import DAMAGED, find_model_named, unusable_run, usage
+from scanbench.cli.inputs import PARTLY, find_model_named, unusable_run, usage
 from scanbench.cli.progress import progress
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
@@ -54,7 +54,7 @@ def replay(
     typer.echo(json.dumps(asdict(result)) if as_json else _text(result))
     if result.damaged:
         typer.echo(f"scanbench: {path}: {result.damage}", err=True)
-        raise typer.Exit(DAMAGED)
+        raise typer.Exit(PARTLY)
 
 
 def load_kept(kept: KeptProgram, engine_factory: EngineFactory) -> Loaded:

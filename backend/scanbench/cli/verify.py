@@ -9,7 +9,7 @@ import typer
 
 from scanbench import __version__
 from scanbench.cli import INTERRUPTED
-from scanbench.cli.inputs import DAMAGED, usage
+from scanbench.cli.inputs import PARTLY, usage
 from scanbench.cli.interrupt import Leaving
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
@@ -65,8 +65,9 @@ def verify(
     """Run a program twice and compare: what ran (native code, or a real controller of which there is a log) and the
     reference interpreter, on the same inputs.
 
-    Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing could be compared; 4: no difference, but the run
-    file is damaged, and a part of the run is lost; 130: interrupted, no difference so far.
+    Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing could be compared; 4: no difference in what was
+    compared, but that is not all: scans could not be compared, an input has no column in the log, or the run file is
+    damaged, and a part of the run is lost; 130: interrupted, no difference so far.
     """
     options = Options(set, force, generate, clear, mode, restart)
     if html is not None:
@@ -99,7 +100,7 @@ def _end(report: Report, stopped: "_Stopped | None", lost: bool) -> NoReturn:
         raise typer.Exit(1)
     if stopped is None and not report.head.compared:
         usage("nothing of these scans could be compared")
-    raise typer.Exit(stopped.code if stopped is not None else DAMAGED if lost else 0)
+    raise typer.Exit(stopped.code if stopped is not None else PARTLY if lost or report.head.partly else 0)
 
 
 class _Stopped:

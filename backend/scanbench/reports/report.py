@@ -54,6 +54,14 @@ class ReportHead:
     full: int = 0
     """Scans of those skipped in which uses of variables found no room in the record."""
 
+    @property
+    def partly(self) -> bool:
+        """Whether something of what was asked was not compared, or the verdict depends on values that nobody recorded. The first scan of a
+        controller log is taken over in any case."""
+        taken_over = bool(self.trace and self.stretches and self.stretches[0][0] == self.first)
+        ungiven = self.coverage is not None and bool(self.coverage.ungiven)
+        return self.skipped > taken_over or ungiven
+
 
 @dataclass(frozen=True, slots=True)
 class Report:

@@ -56,7 +56,8 @@ class _Document:
         if head.differing:
             mark, word = "differs", "differences_found"
         else:
-            mark, word = ("same", "no_difference") if head.compared else ("none", "nothing_compared")
+            found = ("none", "no_difference_partly") if head.partly else ("same", "no_difference")
+            mark, word = found if head.compared else ("none", "nothing_compared")
         numbers = [("compared", head.compared), ("skipped", head.skipped), ("differing", head.differing)]
         items = "".join(f"<li><b>{count:,}</b>{self._word(name)}</li>" for name, count in numbers)
         skipped = ", ".join(str(first) if first == last else f"{first} – {last}" for first, last in head.stretches)

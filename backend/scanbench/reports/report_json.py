@@ -23,11 +23,18 @@ def report_object(report: Report) -> dict[str, Json]:
     return {
         "format": FORMAT,
         **_head(report.head),
-        "same": not report.head.differing if report.head.differing or report.head.compared else None,
+        "same": _same(report.head),
         "columns": [_column(each, report) for each in report.ordered()],
         "differences": [_difference(row, each, report.columns) for row, each in report.differences()],
         "rows": [_row(row, columns) for row in report.rows],
     }
+
+
+def _same(head: ReportHead) -> bool | None:
+    """None: there is no verdict, as nothing was compared, or not all that was asked."""
+    if head.differing:
+        return False
+    return None if head.partly or not head.compared else True
 
 
 def _head(head: ReportHead) -> dict[str, Json]:

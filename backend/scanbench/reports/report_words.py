@@ -9,7 +9,8 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "title": "Verification report", "range": "Range", "scans": "Scans",
         "source": "Control device", "live": "the PLC, while it ran", "past": "the recorded run, run again natively",
         "trace": "controller log: {name}", "interval": "Task interval",
-        "verdict": "Result", "no_difference": "No difference", "differences_found": "Differences found",
+        "verdict": "Result", "no_difference": "No difference", "no_difference_partly": "No difference in what was compared",
+        "differences_found": "Differences found",
         "nothing_compared": "Nothing was compared",
         "compared": "Scans compared", "skipped": "Scans not compared", "differing": "Rows that differ",
         "skipped_text": "Not compared: {stretches}.", "all_compared": "All scans were compared.",
@@ -46,7 +47,7 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
     "ja": {
         "title": "検証報告書", "range": "検証範囲", "scans": "スキャン", "source": "制御装置", "live": "運転中のPLC", "past": "記録された運転（ネイティブ再実行）",
         "trace": "実機のトレース：{name}", "interval": "タスク周期",
-        "verdict": "結果", "no_difference": "差異なし", "differences_found": "差異あり", "nothing_compared": "比較なし",
+        "verdict": "結果", "no_difference": "差異なし", "no_difference_partly": "比較した範囲では差異なし", "differences_found": "差異あり", "nothing_compared": "比較なし",
         "compared": "比較したスキャン", "skipped": "比較していないスキャン", "differing": "差異のある行",
         "skipped_text": "比較していないスキャン：{stretches}。", "all_compared": "すべてのスキャンを比較しました。",
         "forgotten": "{count}行はこの報告書に含まれていません。",

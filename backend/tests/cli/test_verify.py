@@ -150,13 +150,24 @@ def test_an_input_without_a_column_is_named_and_the_verdict_depends_on_it(tmp_pa
     )
     trace.write_text("scan,motor\n0,0\n1,0\n")
     result = scanbench("verify", str(source), "--trace", str(trace), "--html", str(page))
-    assert result.returncode == 0, result
+    assert result.returncode == 4, result  # a verdict with a condition is none that a script may rely on
+    assert json.loads(scanbench("verify", str(source), "--trace", str(trace), "--json").stdout)["same"] is None
+    assert "No difference in what was compared" in page.read_text("utf-8")
     took = "read by the program, and not in the file: the reference took the start values of: Main.start, Main.raw\n"
     assert took in result.stdout
     assert "2 compared: no difference, if 2 inputs without a column had the start value" in result.stdout
     assert "This holds if the inputs that are not in the file had their start values." in page.read_text("utf-8")
     trace.write_text("scan,motor,start,raw\n0,0,0,0\n1,0,0,0\n")
-    assert scanbench("verify", str(source), "--trace", str(trace)).stdout.endswith("2 compared: no difference\n")
+    result = scanbench("verify", str(source), "--trace", str(trace))
+    assert (result.returncode, result.stdout.endswith("2 compared: no difference\n")) == (0, True)
+
+
+def test_a_scan_that_could_not_be_compared_is_in_the_exit_code(project: Path) -> None:
+    stopped = ("verify", str(project), "--scans", "0..9", "--mode", "PROGRAM@4", "--mode", "MONITOR@6")
+    result = scanbench(*stopped)
+    assert (result.returncode, "8 compared, 2 not compared (4 to 5)" in result.stdout) == (4, True), result
+    assert json.loads(scanbench(*stopped, "--json").stdout)["same"] is None
+    assert scanbench("verify", str(project), "--scans", "0..9").returncode == 0
 
 
 def test_what_a_trace_does_not_have_is_not_said_to_be_the_same(project: Path, tmp_path: Path) -> None:
