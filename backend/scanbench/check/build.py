@@ -30,6 +30,7 @@ from scanbench.check.declare.frames import frame
 from scanbench.check.declare.generic_blocks import specialised
 from scanbench.check.declare.kept import declare_static, kept_of
 from scanbench.check.declare.names import Space, full_name
+from scanbench.check.declare.policies import check_policies, pou_policy
 from scanbench.check.declare.programs import placed_programs
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.declare.start_references import is_this, own_instance
@@ -239,6 +240,7 @@ class Checker:
         self._check_library(common)
         check_borrowed(self.report, self.pous.dispatchers.values())
         self.plant.check(self.parsed)
+        check_policies(self.report, self.declarations, self.parsed)
         tell_stubs(self.report, self.names.user)
         order = self._order([*common, *([] if whole is None else [whole.pou])])
         self.report.join(order)
@@ -386,7 +388,7 @@ class Checker:
         scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
         scope.system, scope.who = self._rights(declaration.span)
         around = self.pous.classes.of(instance)
-        scope.policy = declaration.policy or ("" if around is None else around.declaration.policy)
+        scope.policy = pou_policy(self.dialect, declaration, None if around is None else around.declaration)
         scope.kept = kept_of(declaration, None if around is None else around.declaration, instance, self.globals)
         return scope
 

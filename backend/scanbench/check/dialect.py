@@ -6,11 +6,11 @@ it is not known, the dialect does not allow it.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum, auto
 
 from scanbench.check.libraries.catalogue import library_of_file
-from scanbench.syntax.language_file import BYTES_SINCE, DialectName, defined_in, language_of
+from scanbench.syntax.language_file import BYTES_SINCE, DialectName, Policy, defined_in, language_of
 
 
 class Allowance(Enum):
@@ -351,6 +351,13 @@ class Dialect:
     """Names of libraries, in upper case, that mean nothing before a name: their texts are among the project's own."""
     defines: frozenset[str] = frozenset()
     """Names, in upper case, that the project defines for conditional pragmas."""
+    subranges: Mapping[str, Policy] = field(default_factory=dict, hash=False)
+    """What the project says of values outside of subranges; names are in upper case."""
+
+    def policy(self, name: str) -> str:
+        """What the project says under this name; '' where it says nothing."""
+        said = self.subranges.get(name.upper())
+        return "" if said is None else said.word
 
 
 _LOGIX = frozenset({Allowance.ROUNDING, Allowance.DINT_RESULTS})
@@ -403,6 +410,8 @@ def dialect_in(sources: Mapping[str, str]) -> Dialect:
         dialect = replace(dialect, allows=dialect.allows - {Allowance.STRING_BYTES})
     if language.defines:
         dialect = replace(dialect, defines=defined_in(sources))
+    if language.subranges:
+        dialect = replace(dialect, subranges={name.upper(): said for name, said in language.subranges.items()})
     named = {*language.namespaces, *(library for file in sources if (library := library_of_file(file)))}
     return replace(dialect, prefixes=dialect.prefixes | {each.upper() for each in named}) if named else dialect
 

@@ -1,5 +1,5 @@
-"""`language.json`: which dialect of Structured Text the programs of a project are written in, and which names of libraries they
-write before others; and a guess of the dialect for imported programs.
+"""`language.json`: which dialect of Structured Text the programs of a project are written in, which names of libraries they
+write before others, and what becomes of values outside of subranges; and a guess of the dialect for imported programs.
 
 It is one of the project's files, so each version, archive and run file has the dialect that its programs were checked in.
 """
@@ -8,25 +8,30 @@ import json
 import posixpath
 import re
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax.parse_file import XML_ENDINGS, is_program_file
+from scanbench.syntax.pragmas import POLICIES
 from scanbench.syntax.scl import is_scl
 
 LANGUAGE_FILE = "language.json"
 """The name of the file, at the top of a project."""
-FORMAT = 3
+FORMAT = 4
 """Version 1 had no `namespaces`. Before version 3 the strings of CODESYS and TwinCAT began with their length here, and a project
-keeps that: its programs were laid out so; nor were there `defines`. A file to which none of it matters is written in version 1."""
+keeps that: its programs were laid out so; nor were there `defines`. Version 4 has `subranges`. A file is written in the first version
+that says the same."""
 BYTES_SINCE = 3
 """The version since which a string is its bytes up to the first 0, where the dialect has that."""
 DialectName = Literal["iec", "codesys", "twincat", "siemens", "rockwell", "omron"]
 DIALECTS: tuple[DialectName, ...] = get_args(DialectName)
 STRICT: DialectName = "iec"
 """The dialect of a project that names none: IEC 61131-3 as it is."""
-_KEYS = ("version", "dialect", "namespaces", "defines")
+WHOLE_PROJECT = "*"
+"""The name in `subranges` of what is said of all that says nothing itself."""
+_KEYS = ("version", "dialect", "namespaces", "defines", "subranges")
+_PATH = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*")
 _TWINCAT_MARKS = re.compile(r"\bTc[23]_\w+|\bT_MaxString\b|\bT_AmsNetId\b")
 _CODESYS_MARKS = re.compile(
     r"^\s*\(\*\s*@(NESTEDCOMMENTS|PATH|OBJECTFLAGS|SYMFILEFLAGS)\b|^\s*\{attribute\s+'", re.MULTILINE
@@ -39,6 +44,14 @@ def is_language_file(path: str) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
+class Policy:
+    """What becomes of a value outside of its subrange, one of `POLICIES`, and where the file says so."""
+
+    word: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Language:
     """What the file says."""
 
@@ -48,19 +61,24 @@ class Language:
     version: int = FORMAT
     defines: tuple[str, ...] = ()
     """Names that are defined for conditional pragmas, as a TwinCAT project's compiler defines are."""
+    subranges: Mapping[str, Policy] = field(default_factory=dict, hash=False)
+    """By the name of a variable (`Main.speed`), a type or a POU, as it is written there, or `WHOLE_PROJECT`."""
 
 
 def language_text(
-    dialect: DialectName, namespaces: Collection[str] = (), version: int = FORMAT, defines: Collection[str] = ()
-) -> str:
+    dialect: DialectName, namespaces: Collection[str] = (), version: int = FORMAT, defines: Collection[str] = (),
+    subranges: Mapping[str, str] | None = None,
+) -> str:  # fmt: skip
     """The text of the file for a dialect, in this version or in the first one that says the same."""
-    least = 2 if namespaces else 1
-    written = FORMAT if defines else max(least, version) if dialect in ("codesys", "twincat") else least
+    least = FORMAT if subranges else BYTES_SINCE if defines else 2 if namespaces else 1
+    written = max(least, min(version, BYTES_SINCE)) if dialect in ("codesys", "twincat") else least
     said: dict[str, object] = {"version": written, "dialect": dialect}
     if namespaces:
         said["namespaces"] = sorted(namespaces)
     if defines:
         said["defines"] = sorted(defines)
+    if subranges:
+        said["subranges"] = dict(subranges)
     return json.dumps(said, indent=2) + "\n"
 
 
@@ -69,7 +87,7 @@ def with_dialect(sources: Mapping[str, str], dialect: DialectName, name: str = L
     own = next((each for each in sources if is_language_file(each)), name)
     said = language_of(sources)[0]
     version = said.version if said.dialect == dialect else FORMAT
-    return {**sources, own: language_text(dialect, said.namespaces, version, said.defines)}
+    return {**sources, own: language_text(dialect, said.namespaces, version, said.defines, _words(said))}
 
 
 def with_namespaces(
@@ -80,8 +98,13 @@ def with_namespaces(
         return dict(sources)
     own = next((each for each in sources if is_language_file(each)), name)
     said = language_of(sources)[0]
-    all_defines = {*said.defines, *(defines if said.version == FORMAT else ())}
-    return {**sources, own: language_text(said.dialect, {*said.namespaces, *namespaces}, said.version, all_defines)}
+    all_defines = {*said.defines, *(defines if said.version >= BYTES_SINCE else ())}
+    names = {*said.namespaces, *namespaces}
+    return {**sources, own: language_text(said.dialect, names, said.version, all_defines, _words(said))}
+
+
+def _words(said: Language) -> dict[str, str]:
+    return {name: policy.word for name, policy in said.subranges.items()}
 
 
 def dialect_named(name: str) -> DialectName | None:
@@ -114,7 +137,7 @@ def defined_in(sources: Mapping[str, str]) -> frozenset[str]:
 
 
 def _read(text: str, file: str) -> Language | Problem:
-    choice = f'Write {{"version": {FORMAT}, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
+    choice = f'Write {{"version": {BYTES_SINCE}, "dialect": "codesys"}}; the dialects are {", ".join(DIALECTS)}.'
     try:
         content = json.loads(text)
     except (ValueError, RecursionError) as error:
@@ -136,9 +159,32 @@ def _read(text: str, file: str) -> Language | Problem:
     for key, example in (("namespaces", "Tc2_Utilities"), ("defines", "WithHeater")):
         if not _names(content.get(key, [])):
             return _problem(file, f'`{key}` is a list of names, as ["{example}"].')
-    if version < FORMAT and "defines" in content:
-        return _problem(file, f'`defines` needs "version": {FORMAT}.')
-    return Language(dialect, tuple(content.get("namespaces", [])), version, tuple(content.get("defines", [])))
+    for key, since in (("defines", BYTES_SINCE), ("subranges", FORMAT)):
+        if version < since and key in content:
+            return _problem(file, f'`{key}` needs "version": {since}.')
+    policies = _policies(content.get("subranges", {}), text, file)
+    if isinstance(policies, Problem):
+        return policies
+    return Language(dialect, tuple(content.get("namespaces", [])), version, tuple(content.get("defines", [])), policies)
+
+
+def _policies(value: object, text: str, file: str) -> dict[str, Policy] | Problem:
+    """What the file says of values outside of subranges."""
+    words, example = "', '".join(POLICIES), '{"*": "report", "Main.speed": "trap"}'
+    if not isinstance(value, dict):
+        return _problem(file, f"`subranges` has names of variables, types and POUs, as {example}.")
+    made = dict[str, Policy]()
+    for name, word in value.items():
+        at = text.find(f'"{name}"')
+        line = text.count("\n", 0, max(at, 0)) + 1
+        if name != WHOLE_PROJECT and not _PATH.fullmatch(name):
+            return _problem(file, f"`{name}` is no name of a variable, a type or a POU. Write them as {example}.", line)
+        if word not in POLICIES:
+            return _problem(file, f"One of '{words}' expected for `{name}`, found `{word}`.", line)
+        if any(name.upper() == each.upper() for each in made):
+            return _problem(file, f"`{name}` is there twice; remove one.", line)
+        made[name] = Policy(word, Span(file, line, 1, line, 2))
+    return made
 
 
 def _names(value: object) -> bool:

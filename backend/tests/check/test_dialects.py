@@ -253,10 +253,12 @@ def test_the_library_is_strict_in_every_dialect() -> None:
         ("{", "This is no JSON"),
         ("[]", "This does not name a dialect"),
         ('{"version": 1, "dialect": "codesis"}', "There is no dialect `codesis`"),
-        ('{"version": 4, "dialect": "codesys"}', "which a newer Scanbench reads"),
+        ('{"version": 5, "dialect": "codesys"}', "which a newer Scanbench reads"),
         ('{"version": "3", "dialect": "codesys"}', "`version` is a number"),
         ('{"version": 3, "dialect": "codesys", "defines": "Fast"}', "`defines` is a list of names"),
         ('{"version": 2, "dialect": "codesys", "defines": ["Fast"]}', '`defines` needs "version": 3'),
+        ('{"version": 3, "dialect": "codesys", "subranges": {}}', '`subranges` needs "version": 4'),
+        ('{"version": 4, "subranges": ["off"]}', "`subranges` has names of variables"),
         ('{"dialekt": "codesys"}', "There is no setting `dialekt`"),
     ],
 )
@@ -390,6 +392,11 @@ def test_the_golden_file_is_read() -> None:
     assert language_of({LANGUAGE_FILE: second.read_text("utf-8")}) == (Language("twincat", ("MyLib",), 2), [])
     third = golden.parent / "3" / LANGUAGE_FILE
     assert language_of({LANGUAGE_FILE: third.read_text("utf-8")}) == (Language("codesys", ("MyLib",), 3), [])
+    text = (golden.parent / "4" / LANGUAGE_FILE).read_text("utf-8")
+    fourth, problems = language_of({LANGUAGE_FILE: text})
+    said = {name: policy.word for name, policy in fourth.subranges.items()}
+    assert (said, fourth.defines, problems) == ({"*": "report", "Main.speed": "trap"}, ("WithHeater",), [])
+    assert with_dialect({LANGUAGE_FILE: text}, "codesys") == {LANGUAGE_FILE: text}
 
 
 def test_the_first_uses_of_a_rule_in_a_file_are_told_and_the_others_counted() -> None:

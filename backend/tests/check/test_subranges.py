@@ -1,13 +1,17 @@
 """Where subrange checks are embedded, which are needless and why, and what the list of violations says."""
 
+import json
+
 import pytest
 
 from scanbench.check.build import check_sources
+from scanbench.check.incremental import Checks
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import resolve
 from scanbench.symbols.violations import read_violations
 from tests.caseformat import MODELS
 
@@ -30,6 +34,7 @@ SITES = [
     ("x := 3;", [("x", 6, "the constant is in range")]),
     ("x := s;", [("s", 6, ""), ("x", 6, "the value is brought to 0..5 already")]),
     ("x := y MOD 3 + 1;", [("x", 6, "")]),
+    ("x := y;\nx2 := y;", [("x", 6, ""), ("x2", 7, "")]),
     ("w := u;", [("w", 6, "the value is 0..255 at most")]),
     ("x := y;\ny := x;", [("x", 6, ""), ("x", 6, "assigned with a check in line 3")]),
     ("y := x;\nz := x;", [("x", 6, ""), ("x", 6, "checked already in line 3")]),
@@ -99,3 +104,105 @@ def test_a_check_that_is_off_is_not_listed_and_one_that_reports_proves_nothing()
     found = check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).program
     assert found is not None
     assert [(each.variable, each.span.line, each.needless) for each in found.checks] == [("r", 4, ""), ("r", 5, "")]
+
+
+PROJECT = """\
+TYPE Level : INT (0..9); Quiet : INT (0..9); Loud : INT (0..9); END_TYPE
+VAR_GLOBAL all : INT (0..9); END_VAR
+FUNCTION_BLOCK Tank
+VAR_INPUT raw : INT; END_VAR VAR own : INT (0..9); level : Level; END_VAR
+METHOD PUBLIC fill
+  own := raw;
+END_METHOD
+own := raw; level := raw;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR raw : INT := 20; tank : Tank; plain : INT (0..9); {subrange 'limit'} said : INT (0..9); set : INT (0..9); quiet : Quiet; loud : Loud; END_VAR
+plain := raw; said := raw; set := raw; quiet := raw; loud := raw; all := raw;
+tank(raw := raw);
+END_PROGRAM
+"""
+SAID = {
+    "*": "report",
+    "Level": "limit",
+    "quiet": "off",
+    "Main.set": "hold",
+    "Tank": "limit",
+    "tank.fill": "trap",
+    "all": "off",
+}
+
+
+def policies(said: dict[str, str], text: str = PROJECT) -> dict[str, str]:
+    return {"a.st": text, "language.json": json.dumps({"version": 4, "dialect": "iec", "subranges": said})}
+
+
+@pytest.mark.parametrize("make", [NativeEngine, ReferenceEngine])
+def test_the_project_says_what_becomes_of_values_outside(make: type[Engine]) -> None:
+    found = check_sources(policies(SAID), MODELS["GENERIC-IEC"])
+    assert found.program is not None, found.problems
+    memory = bytearray(found.program.initial_image)
+    make(found.program, memory).run(1)
+    values = {path: value_at(found.program, memory, path) for path in (
+        "Main.plain", "Main.said", "Main.set", "Main.quiet", "Main.loud", "all", "Main.tank.own", "Main.tank.level")}  # fmt: skip
+    assert values == {
+        "Main.plain": 20, "Main.said": 9, "Main.set": 0, "Main.quiet": 20, "Main.loud": 20, "all": 20, "Main.tank.own": 9,
+        "Main.tank.level": 9,
+    }  # fmt: skip
+    assert int.from_bytes(memory[Layout.SUBRANGE_COUNT : Layout.SUBRANGE_COUNT + 4], "little") == 6
+
+
+def value_at(program: Program, memory: bytearray, path: str) -> int:
+    at = resolve(program, path).locate(memory)
+    assert at is not None
+    return int.from_bytes(memory[at[0] : at[0] + 2], "little", signed=True)
+
+
+WRONG = [
+    ({"Main.sped": "trap"}, "There is no variable, type or POU `MAIN.SPED` in this project, of which `subranges` says 'trap'. "),
+    ({"Main.set": "stop"}, "One of 'limit', 'hold', 'trap', 'report', 'off' expected for `Main.set`, found `stop`."),
+    ({"1 2": "trap"}, "`1 2` is no name of a variable, a type or a POU."),
+    ({"all": "trap", "ALL": "off"}, "`ALL` is there twice; remove one."),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("said", "message"), WRONG, ids=("name", "word", "text", "twice"))
+def test_a_setting_that_means_nothing_is_an_error_in_its_line(said: dict[str, str], message: str) -> None:
+    sources = policies(said)
+    sources["language.json"] = json.dumps(json.loads(sources["language.json"]), indent=2)
+    (problem,) = check_sources(sources, MODELS["GENERIC-IEC"]).problems
+    assert problem.message.startswith(message)
+    assert (problem.span.file, problem.span.line > 3) == ("language.json", True)
+
+
+def test_a_setting_counts_as_the_project_is_edited() -> None:
+    checks, model = Checks(), MODELS["GENERIC-IEC"]
+
+    def kept(said: dict[str, str], text: str = PROJECT) -> list[str]:
+        found = checks.check(policies(said, text), model, 10_000_000)
+        return (
+            [each.variable for each in found.program.checks]
+            if found.program
+            else [each.message for each in found.problems]
+        )
+
+    def anew(said: dict[str, str], text: str) -> list[str]:
+        found = check_sources(policies(said, text), model)
+        return (
+            [each.variable for each in found.program.checks]
+            if found.program
+            else [each.message for each in found.problems]
+        )
+
+    edited = PROJECT.replace("plain := raw;", "plain := raw + 1;")
+    seen = []
+    for said, text in (
+        ({}, PROJECT),
+        ({"Main": "off"}, PROJECT),
+        ({"Main": "off"}, edited),
+        ({"Main.sped": "off"}, edited),
+        ({}, edited),
+    ):
+        seen.append(kept(said, text))
+        assert seen[-1] == anew(said, text)
+    assert ("plain" in seen[0], "plain" in seen[2], "plain" in seen[4]) == (True, False, True)

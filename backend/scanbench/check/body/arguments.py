@@ -10,7 +10,7 @@ from scanbench.check.body.direct import as_argument
 from scanbench.check.body.elements import array_bounds
 from scanbench.check.body.places import VARIABLES
 from scanbench.check.body.receivers import is_variable
-from scanbench.check.body.subrange_checks import keeping, noting, with_note
+from scanbench.check.body.subrange_checks import has_subranges, holding, keeping, noting, with_note
 from scanbench.check.body.targets import declared_target
 from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Borrowed, Rejected
@@ -205,12 +205,12 @@ def _bind(
         if not argument.negated and _takes(target.type, member.type):
             bound.places[key] = target
             return
-        taken = body.temporary(member.type, value.span)
+        plain = base_of(member.type) if isinstance(member.type, Subrange) else member.type
+        taken = body.temporary(plain, value.span)
         bound.places[key] = taken
         whole = _generic(member, Load(taken), target.type)
-        stored = keeping(
-            output_value(body, whole, target.type, argument), noting(body, target, variable), argument.span
-        )
+        given = holding(body, output_value(body, whole, target.type, argument), target, argument.span)
+        stored = keeping(given, noting(body, target, variable), argument.span)
         bound.after.append(Assign(target, stored, argument.span))
 
 
@@ -343,6 +343,8 @@ def _generic(output: Member, value: Expr, target: Type) -> Expr:
 
 def _takes(target: Type, output: Type) -> bool:
     """Whether an output can be stored there as it is."""
+    if has_subranges(target):  # what the callee makes of a value outside need not be what this variable does
+        return False
     return target == output or (
         isinstance(target, StringType) and isinstance(output, StringType) and target.width == output.width
     )

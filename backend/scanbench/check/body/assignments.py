@@ -13,6 +13,7 @@ from scanbench.check.body.methods import assign_property
 from scanbench.check.body.places import VARIABLES, raw_place
 from scanbench.check.body.referring import refer
 from scanbench.check.body.subrange_checks import holding, keeping, noting
+from scanbench.check.body.subrange_copies import landed
 from scanbench.check.body.targets import declared_target, note_written
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
@@ -70,8 +71,7 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
     what = f"`{shown(node.target)}`"
     note = noting(body, target, member)
     if isinstance(target.type, ArrayType | Record):
-        copied = Assign(target, _whole(body, node.value, target.type, what), node.span)
-        return copied if note is None else together([copied, Assign(note, Load(target), node.span)], node.span)
+        return _copy(body, node, target, note, what)
     value = holding(body, as_type(body, node.value, target.type, what), target, node.span)
     return Assign(target, keeping(value, note, node.span), node.span)
 
@@ -132,12 +132,20 @@ def _target(body: Body, node: tree.Assignment) -> Found:
     return target, member
 
 
-def _whole(body: Body, node: tree.Expression, type: Type, what: str) -> Expr:
-    """A whole array or structure: of this type, or an array of as many elements of the same type."""
-    value = body.expression(node, type)
+def _copy(body: Body, node: tree.Assignment, target: Place, note: Place | None, what: str) -> Stmt:
+    """A whole array or structure: of this type, or an array of as many elements of the same type. The note takes it as it comes."""
+    type, span = target.type, node.span
+    value = body.expression(node.value, type)
     if isinstance(value, Load) and value.type != type and alike(value.type, type):
-        return Load(replace(value.place, type=type))
-    return coerce(body, value, type, node.span, what)
+        value = Load(replace(value.place, type=type))
+    if value.type != type:
+        value = coerce(body, value, type, node.value.span, what)
+    before: list[Stmt] = []
+    if note is not None:
+        before = [Assign(note, value, span)]
+        value = Load(note)
+    copied = Assign(target, landed(body, value, type, node.value.span, what.strip("`"), target), span)
+    return together([*before, copied], span) if before else copied
 
 
 def latch(body: Body, node: tree.Assignment, decides: Expr) -> Stmt:

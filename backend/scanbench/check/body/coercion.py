@@ -6,6 +6,7 @@ from scanbench.check.body.lenient import coerced
 from scanbench.check.body.literals import as_text, literal_as
 from scanbench.check.body.references import as_reference
 from scanbench.check.body.subrange_checks import into, plain
+from scanbench.check.body.subrange_copies import landed
 from scanbench.check.context import Rejected
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
@@ -58,7 +59,7 @@ def coerce(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr:
         return text
     source = expr.type
     if source == type:
-        return expr
+        return landed(body, expr, type, span, what.strip("`"))
     if source is not None and widens(source, type):
         if isinstance(type, StringType):
             return expr

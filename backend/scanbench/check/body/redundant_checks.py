@@ -201,7 +201,9 @@ class _Needless:
 
     def limit(self, node: Limit) -> Expr:
         value = self.expr(node.value)
-        key = _key(value.place) if isinstance(value, Load) else None
+        # of a plain variable that is assigned to two with a subrange, each has a violation of its own
+        own = isinstance(value, Load) and isinstance(value.place.type, Subrange)
+        key = _key(value.place) if own and isinstance(value, Load) else None
         if key is None or not isinstance(value, Load):
             return replace(node, value=value)
         fact = self.facts.get(key)

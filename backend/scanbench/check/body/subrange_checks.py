@@ -31,7 +31,18 @@ from scanbench.program.program import (
     Violates,
 )
 from scanbench.program.sites import CheckSite, TrapKind
-from scanbench.program.types import BOOL, Elementary, Kind, Member, Subrange, base_of
+from scanbench.program.types import (
+    BOOL,
+    ArrayType,
+    Elementary,
+    Kind,
+    Member,
+    Record,
+    Subrange,
+    Type,
+    base_of,
+    has_instance,
+)
 from scanbench.program.untyped import bounds
 from scanbench.syntax import tree
 
@@ -46,7 +57,7 @@ def read(body: Body, place: Place, span: Span, variable: str) -> Expr:
         return Load(place)
     if not body.effects.checks:
         return Load(replace(place, type=base_of(place.type)))
-    return _limit(body, Load(place), place.type, span, variable)
+    return limit(body, Load(place), place.type, span, variable)
 
 
 def plain(body: Body, expr: Expr, span: Span, variable: str = "the value") -> Expr:
@@ -69,10 +80,11 @@ def into(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> E
         value = expr.value
         if isinstance(value, int) and not type.low <= value <= type.high:
             raise body.report.reject("S004", f"{value} is outside of {_named(type)}.", span)
-    return _limit(body, expr, type, span, variable)
+    return limit(body, expr, type, span, variable)
 
 
-def _limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
+def limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
+    """The value as its policy wants it, which is `expr` itself where it needs no check."""
     if body.pou is None:
         return expr  # among declarations everything is constant
     base, policy = base_of(type), policy_of(body, type)
@@ -96,25 +108,36 @@ def _limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) ->
     return Sequence((Assign(kept, expr, span), then), Load(kept))
 
 
+def has_subranges(type: Type) -> bool:
+    """Whether a value of the type is one with a subrange, or has such elements or members."""
+    match type:
+        case ArrayType(element=element):
+            return has_subranges(element)
+        case Record(kind=Kind.STRUCT):
+            inner = (each.type for each in type.members.values())
+            return not type.overlaps and not has_instance(type) and any(map(has_subranges, inner))
+    return isinstance(type, Subrange)
+
+
 def policy_of(body: Body, type: Subrange) -> str:
     """What becomes of a value outside: as the variable or its type says, else the POU, else it is limited."""
     return type.policy or body.scope.policy or "limit"
 
 
-def holding(body: Body, value: Expr, place: Place, span: Span) -> Expr:
-    """A value on its way into a variable that holds its last value where the new one is outside. Where the index of an element calls a
-    function, the new one is limited instead."""
+def holding(body: Body, value: Expr, place: Place, span: Span, last: Place | None = None) -> Expr:
+    """A value on its way into a variable that holds its last value where the new one is outside; `last` is where that is read, if not
+    at `place`. Where the index of an element calls a function, the new one is limited instead."""
     type = place.type
     if not (isinstance(type, Subrange) and isinstance(value, Limit) and policy_of(body, type) == "hold"):
         return value
-    same = again_at(place)
+    same = again_at(last or place)
     if same is None:
         return value
     base = base_of(type)
     kept = body.temporary(base, span)
     outside = Violates(BOOL, Load(kept), value.low, value.high, value.site)
-    last = Load(replace(same, type=base))
-    return Sequence((Assign(kept, value.value, span),), Intrinsic("SEL", base, (outside, Load(kept), last)))
+    before = Load(replace(same, type=base))
+    return Sequence((Assign(kept, value.value, span),), Intrinsic("SEL", base, (outside, Load(kept), before)))
 
 
 @contextmanager

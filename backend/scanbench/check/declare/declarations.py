@@ -93,6 +93,8 @@ class Declarations:
     """Names of variables that have a note, in upper case; see `notes`."""
     dialect: Dialect = IEC
     """What the programs may do beyond the standard."""
+    policed: set[str] = field(default_factory=set)
+    """Names of variables and types for which the project's word on subranges was asked, in upper case."""
     incomplete: bool = False
     """Whether any variable waits for its address."""
     start_references: list[Start] = field(default_factory=list)

@@ -6,6 +6,7 @@ from scanbench.check.declare.declarations import ConstantOf, Declarations
 from scanbench.check.declare.initial_values import initial_image
 from scanbench.check.declare.members import default_of, with_policy
 from scanbench.check.declare.names import qualified
+from scanbench.check.declare.policies import project_policy
 from scanbench.check.declare.specs import enumeration, structure, subrange, type_of
 from scanbench.plcmodel.model import Model
 from scanbench.program.types import SLOT_BYTES, Kind, Reference, Type, initial_of
@@ -34,7 +35,7 @@ def _named_type(declared: Declarations, declaration: tree.TypeDeclaration) -> Ty
             made = subrange(declared, spec, name)
         case spec:
             made = declared.type_of(spec)
-    made = with_policy(made, declaration.policy)
+    made = with_policy(made, declaration.policy or project_policy(declared, name, declaration.span))
     if declaration.initial is not None:
         declared.defaults[name.upper()] = initial_image(declared, declaration.initial, made)
     else:

@@ -9,6 +9,7 @@ from scanbench.check.declare.addresses import is_relative, locate, place_relativ
 from scanbench.check.declare.creations import FB_INIT
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.initial_values import initial_image, with_references
+from scanbench.check.declare.policies import project_policy
 from scanbench.check.declare.start_references import start_with
 from scanbench.check.declare.vendor_types import BIT, place_bit
 from scanbench.check.dialect import Allowance, said
@@ -64,7 +65,8 @@ def _declare(
     try:
         bound = section is Section.IN_OUT and not copied
         made = declared.referred(variable.type) if bound else declared.type_of(variable.type)
-        made = with_policy(made, variable.policy)
+        path = variable.name if owner.name == "GLOBAL" else f"{owner.name}.{variable.name}"
+        made = with_policy(made, variable.policy or project_policy(declared, path, variable.span))
         if isinstance(made, OpenArray) and section is not Section.IN_OUT:
             raise declared.report.reject(
                 "D008",
