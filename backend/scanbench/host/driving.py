@@ -223,6 +223,8 @@ class Driving:
         """Goes on with a step in the past."""
         program = self._resource.program
         self._debugger.move()
+        if self._timeline.past:
+            self.note()
         self._shown_moved(program)
 
     def _shown_moved(self, program: Program) -> None:
@@ -264,6 +266,8 @@ class Driving:
         refusal = debugger.step(action, step.author, step.file, step.line, step.path, within)
         if refusal is None and not self._timeline.past:
             pacer.go()
+        if self._timeline.past:
+            self.note()  # before anybody sees it: a process that is killed now comes back showing it
         self._shown_moved(program)
         self._answers.answer(step.ref, refusal, action)
 

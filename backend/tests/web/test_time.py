@@ -265,12 +265,12 @@ def test_killed_in_the_past_of_a_changed_run(server: Server) -> None:
             assert browser.ask(type="write", path="Main.level", value=str(value))["ok"]
         scan = still(browser)
         assert browser.ask(type="travel", scan=2)["ok"]
-        pid = server.state(instance)["pid"]
-        os.kill(pid, signal.SIGKILL)
-        browser.wait(lambda: server.state(instance)["pid"] not in (None, pid))
-        browser.ask(type="travel", scan=None)  # what was shown may have been kept, or not yet
-        browser.wait(lambda: server.state(instance)["state"] == "paused")
-        state = server.state(instance)
+        os.kill(server.state(instance)["pid"], signal.SIGKILL)
+        browser.messages.clear()
+        state = browser.wait_state("past")
+        assert state["scan"] == 2, "it shows what it showed"
+        assert browser.ask(type="travel", scan=None)["ok"]
+        state = browser.wait_state("paused")
         assert (state["scan"], state["past"]) == (scan, None)
         shown(browser, "Main.level", 5)
 
