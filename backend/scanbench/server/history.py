@@ -2,14 +2,16 @@
 
 import asyncio
 import logging
-from collections.abc import Awaitable, Callable, Coroutine
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
 from scanbench.history.whatif.contract import WhatIf, WhatIfWanted
+from scanbench.host.run_files import created
 from scanbench.jobs.client import FAULT, Make, SharedJob, alone
 from scanbench.runtime.clock import fresh_token
+from scanbench.server.going import GoingFiles
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
 from scanbench.wire.comparisons import Comparison, Rerun
@@ -48,7 +50,12 @@ Open = Callable[[Session, str, Path, str], Awaitable[Session]]
 class _Comparison:
     session: Session
     changed: Comparison
+    runs: tuple[Path, Path]
+    untils: tuple[int, int]
+    """Scans before these are over, as in `_until`."""
     task: "asyncio.Task[None] | None" = None
+    waits: bool = False
+    """Whether it is done again after a restart of the server, and not begun yet."""
 
     @property
     def over(self) -> bool:
@@ -77,6 +84,8 @@ class RunHistory:
         self._tasks: set[asyncio.Task[None]] = set()
         self._trying = 0
         """Questions of what if that are under way."""
+        self._taking_up = asyncio.Lock()
+        self._going = GoingFiles(runs.with_name("comparisons"))
 
     async def close(self) -> None:
         """Ends every process."""
@@ -86,6 +95,27 @@ class RunHistory:
                 task.cancel()
         await self._questions.close()
         await asyncio.gather(*self._tasks, return_exceptions=True)
+        await self._going.close()
+
+    async def take_up(self, sessions: Mapping[int, Session]) -> None:
+        """The comparisons that were there when the server ended: they are done again, one after the other."""
+        for each in await asyncio.to_thread(lambda: list(self._going.all())):
+            self._next = max(self._next, each.id + 1)
+            was = each.status
+            a, b = (sessions.get(id) for id in (was.a, was.b)) if isinstance(was, Comparison) else (None, None)
+            if a is None or b is None:
+                self._going.forget(each.id)
+                continue
+            assert isinstance(was, Comparison)
+            more = each.more
+            runs, untils = (a.instance.run_file, b.instance.run_file), (int(more["until"]), int(more["other_until"]))
+            comparison = self._comparisons[each.id] = _Comparison(a, was, runs, untils, waits=True)
+            comparison.task = self._do(self._again(comparison, (more["created"], more["other_created"])))
+
+    async def _again(self, comparison: _Comparison, begun: tuple[str, str]) -> None:
+        async with self._taking_up:
+            comparison.waits = False
+            await self._compare(comparison, begun)
 
     async def forget_instance(self, instance: int) -> None:
         """Ends what was asked of an instance that goes."""
@@ -131,7 +161,7 @@ class RunHistory:
     def comparison(self, id: int) -> Comparison:
         """How far a comparison is, and what came of it."""
         if id not in self._comparisons:
-            raise NotFound(f"there is no comparison {id}: it was forgotten, or the server has started again")
+            raise NotFound(f"there is no comparison {id}: it was forgotten")
         return self._comparisons[id].changed
 
     def compare(self, a: Session, b: Session, author: str) -> Comparison:
@@ -142,16 +172,28 @@ class RunHistory:
         mine = [id for id, each in self._comparisons.items() if each.session is a and each.over]
         for id in mine[: max(0, len(mine) - COMPARISONS + 1)]:
             del self._comparisons[id]
+            self._going.forget(id)
         id = self._number()
-        comparison = self._comparisons[id] = _Comparison(a, Comparison(id, a.id, b.id, author))
-        run, other, until, other_until = a.instance.run_file, b.instance.run_file, _until(a), _until(b)
-        comparison.task = self._do(
-            self._compare(comparison, lambda ref: CompareRuns(ref, str(run), str(other), until, other_until))
-        )
+        runs, untils = (a.instance.run_file, b.instance.run_file), (_until(a), _until(b))
+        comparison = self._comparisons[id] = _Comparison(a, Comparison(id, a.id, b.id, author), runs, untils)
+        comparison.task = self._do(self._compare(comparison))
         _tell(comparison)
         return comparison.changed
 
-    async def _compare(self, comparison: _Comparison, make: Make) -> None:
+    async def _compare(self, comparison: _Comparison, begun: tuple[str, str] | None = None) -> None:
+        """`begun`: when the runs were begun that it compared before the server started again."""
+        (run, other), (until, other_until) = comparison.runs, comparison.untils
+        now = await asyncio.to_thread(lambda: (created(run), created(other)))
+        if begun is None:
+            more = {"until": str(until), "other_until": str(other_until), "created": now[0], "other_created": now[1]}
+            self._going.keep(comparison.changed.id, comparison.changed, more)
+        elif begun != now:
+            _tell(comparison, message="one of the two runs was begun anew since then: compare them again")
+            return
+
+        def make(ref: int) -> CompareRuns:
+            return CompareRuns(ref, str(run), str(other), until, other_until)
+
         async def on_part(part: object) -> None:
             if isinstance(part, PastAt):
                 _tell(comparison, done=part.done, of=part.of)
@@ -169,7 +211,8 @@ class RunHistory:
         """Cancels one, or forgets what came of it."""
         comparison = self._comparisons.pop(id, None)
         if comparison is None:
-            raise NotFound(f"there is no comparison {id}: it was forgotten, or the server has started again")
+            raise NotFound(f"there is no comparison {id}: it was forgotten")
+        self._going.forget(id)
         if not comparison.over:
             await _cancelled(comparison.task)
             _tell(comparison, message="cancelled")
@@ -248,7 +291,7 @@ class RunHistory:
     # ---- all of them ----------------------------------------------------------------------------------------------
 
     def _refuse_more(self) -> None:
-        running = sum(not each.over for each in self._comparisons.values()) + len(self._reruns)
+        running = sum(not each.over and not each.waits for each in self._comparisons.values()) + len(self._reruns)
         if running >= MOST:
             raise Refused(f"{running} comparisons and replays go on already: wait for one, or cancel it")
 

@@ -104,6 +104,7 @@ class Workbench:
                 self.looks.left(session)
         await self.verifications.take_up(self._sessions)
         await self.campaigns.take_up(self._sessions)
+        await self.history.take_up(self._sessions)
         if self.models:
             self._warming = asyncio.get_running_loop().create_task(self._warm())
 

@@ -86,6 +86,7 @@ from scanbench.wire import jobs as job_protocol
 from scanbench.wire import traces as trace_protocol
 from scanbench.wire import verification as verify_protocol
 from scanbench.wire import whatif as whatif_protocol
+from scanbench.wire.comparisons import Comparison
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -132,7 +133,7 @@ _CLASSES: dict[str, type] = {
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
         verify_protocol.MakeScenario, verify_protocol.ScenarioMade, verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
-        WhatIfWanted, SetValue, Try, WhatIf, whatif_protocol.RunWhatIf, whatif_protocol.TryDone, whatif_protocol.WhatIfDone,
+        Comparison, WhatIfWanted, SetValue, Try, WhatIf, whatif_protocol.RunWhatIf, whatif_protocol.TryDone, whatif_protocol.WhatIfDone,
         CampaignWanted, Trial, campaign_protocol.RunCampaign, campaign_protocol.TrialDone, campaign_protocol.CampaignDone, campaign_protocol.CampaignCount, campaign_protocol.CampaignState,
         verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
         Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,

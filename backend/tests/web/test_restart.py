@@ -88,7 +88,7 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
 
 
 def verified(server: Server, paused: int, running: int) -> list[str]:
-    """Verifications and a campaign that are over, or wait: where to ask what came of them."""
+    """Verifications, a campaign and a comparison that are over, or wait: where to ask what came of them."""
     url = f"/api/instances/{paused}"
     for wanted in ({"first": 0}, {"first": 0, "last": 0, "range": {"pou": "Main"}}, {}):
         assert server.http.post(f"{url}/verifications", json=wanted).status_code == 201
@@ -99,11 +99,14 @@ def verified(server: Server, paused: int, running: int) -> list[str]:
     paths = [
         path for each in infos for path in (f"/api/verifications/{each['id']}", f"/api/verifications/{each['id']}/rows")
     ]
-    paths.append(f"/api/campaigns/{campaign.json()['id']}")
+    compared = server.http.post(f"{url}/comparisons", json={"other": running})
+    assert compared.status_code == 201, compared.text
+    paths += [f"/api/campaigns/{campaign.json()['id']}", f"/api/comparisons/{compared.json()['id']}"]
 
     def over() -> bool:
-        states = [server.http.get(path).json().get("state") for path in paths[:-1:2]]
-        return states == ["done", "done", "verifying", "done"] and server.http.get(paths[-1]).json()["state"]["over"]
+        states = [server.http.get(path).json().get("state") for path in paths[:-2:2]]
+        tried, compared = (server.http.get(path).json() for path in paths[-2:])
+        return states == ["done", "done", "verifying", "done"] and tried["state"]["over"] and bool(compared["result"])
 
     until(over)
     return paths
