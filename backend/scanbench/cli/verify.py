@@ -14,6 +14,7 @@ from scanbench.cli.interrupt import Leaving
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.progress import progress
 from scanbench.cli.run_options import Options
+from scanbench.cli.verify_controller import INTERVAL_MS, SAMPLES, Controller
 from scanbench.cli.verify_subject import Given, Subject, opened
 from scanbench.cli.verify_text import verify_text
 from scanbench.engines.available import flavours
@@ -50,6 +51,10 @@ def verify(
     scans: str = typer.Option("", metavar="A..B", help="Only these scans, both included; also A.. and ..B. A project runs up to B, else 1000 scans."),
     trace: Path | None = typer.Option(None, metavar="FILE", help="Log of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
     map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the log are (JSON); else they are taken by their names."),
+    controller: str | None = typer.Option(None, metavar="ADDRESS", help="A controller that runs, instead of a run: opc.tcp://HOST:4840 (OPC UA) or fins://HOST:9600 (FINS, UDP). It is only read."),
+    node: list[str] = typer.Option([], metavar="NODE", help="Of a controller: what is read; else all that it shows, by FINS the variables of the program at addresses."),
+    samples: int = typer.Option(SAMPLES, min=2, help="Of a controller: so often it is read."),
+    every: int = typer.Option(INTERVAL_MS, metavar="MS", help="Of a controller: from one sample to the next."),
     interval: str = typer.Option("10ms", help="Of a project: task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Of a project: write before a scan, as with `run`."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Of a project: force from a scan on."),
@@ -72,14 +77,11 @@ def verify(
     options = Options(set, force, generate, clear, mode, restart)
     if html is not None:
         must_be_writable(html)
-    if map is not None and trace is None:
-        usage("--map says what the columns of a trace are: name the trace with --trace FILE")
-    try:
-        wanted = parse_range(range_)
-    except BadRange as error:
-        usage(f"--range {range_}: {with_near(str(error), error.near)}")
+    read = None if controller is None else Controller(controller, tuple(node), samples, every)
+    _one_source(trace, map, read)
+    wanted = _range(range_)
     first, last = _stretch(scans)
-    given = Given(path, model, interval, options, SCANS if last is None else last + 1, trace, map)
+    given = Given(path, model, interval, options, SCANS if last is None else last + 1, trace, map, read)
     make: Make = on(Leaving(flavours())) if engine is ControlEngine.NATIVE else reference
     try:
         with opened(given, make) as subject:
@@ -91,6 +93,20 @@ def verify(
     if html is not None:
         write_text(html, to_html(report))
     _end(report, stopped, subject.lost)
+
+
+def _range(text: str) -> Range:
+    try:
+        return parse_range(text)
+    except BadRange as error:
+        usage(f"--range {text}: {with_near(str(error), error.near)}")
+
+
+def _one_source(trace: Path | None, map: Path | None, controller: Controller | None) -> None:
+    if map is not None and trace is None and controller is None:
+        usage("--map says what the columns of a trace are: name the trace with --trace FILE")
+    if trace is not None and controller is not None:
+        usage("--trace is what a controller did, --controller what one does now: name one of them")
 
 
 def _end(report: Report, stopped: "_Stopped | None", lost: bool) -> NoReturn:
@@ -182,4 +198,5 @@ def _head(
         trace=subject.trace, interval_ns=begun.interval_ns, forgotten=collected.seen - len(collected.rows()),
         limit=limit, full=collected.full, stretches=tuple(collected.stretches[-STRETCHES:]),
         coverage=subject.verifier.coverage, note=" ".join(filter(None, notes)),
+        sampled=subject.sampled,
     )  # fmt: skip

@@ -14,6 +14,7 @@ from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, u
 from scanbench.cli.interrupt import leaving
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, read_commands, read_interval
+from scanbench.cli.verify_controller import Controller, read_controller
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.detect import Detection
@@ -60,6 +61,8 @@ class Subject:
     """Of a project: a run-time error ended the run, so scans that were wanted are not there; the note says so."""
     lost: bool = False
     """The run file is damaged: a part of its run is not there to be verified."""
+    sampled: bool = False
+    """Of a trace: only some scans are known, and inputs are held in between."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +77,7 @@ class Given:
     """How many a project runs."""
     trace: Path | None
     mapping: Path | None
+    controller: Controller | None = None
 
 
 @contextmanager
@@ -82,6 +86,8 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
     _refuse_what_says_nothing(given)
     if given.trace is not None:
         yield _trace(given, given.trace)
+    elif given.controller is not None:
+        yield _controller(given, given.controller)
     elif is_run(given.path):
         with _run_file(given.path, make) as (verifier, recording):
             lost = tell_damage(given.path, recording)
@@ -99,8 +105,9 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
 
 def _refuse_what_says_nothing(given: Given) -> None:
     """Options that a project's run has, and what ran already has not."""
-    if any(asdict(given.options).values()) and (given.trace is not None or is_run(given.path)):
-        what = "a trace" if given.trace is not None else "a recorded run"
+    elsewhere = given.trace is not None or given.controller is not None
+    if any(asdict(given.options).values()) and (elsewhere or is_run(given.path)):
+        what = "what a controller does" if elsewhere else "a recorded run"
         usage(f"--set, --force, --raise, --clear, --mode and --restart are for a project: {what} is taken as it is")
     if given.model is not None and is_run(given.path):
         usage(f"--model is for a project: {given.path.name} was recorded on a model of its own")
@@ -198,7 +205,27 @@ def _trace(given: Given, path: Path) -> Subject:
     verifier = Verifier(TraceSubject(program, checked.trace, files))
     notes = " ".join(filter(None, (table.note, note)))
     return Subject(
-        verifier, given.path.resolve().name, "real controller", program.layout.model.name, "trace", path.name, notes
+        verifier, given.path.resolve().name, "real controller", program.layout.model.name, "trace", path.name, notes,
+        sampled=mapping.gaps == "hold",
+    )  # fmt: skip
+
+
+def _controller(given: Given, controller: Controller) -> Subject:
+    program, files = _program_for_trace(given)
+    notes: list[str] = []
+
+    def mapping_of(table: Table) -> tuple[TraceMapping, bool]:
+        mapping, note = _mapping(given.mapping, table, program)
+        notes.append(note)
+        return mapping, given.mapping is not None
+
+    growing = read_controller(controller, program, mapping_of)
+    verifier = Verifier(TraceSubject(program, growing.trace, files))
+    verifier.follow(growing.until(last=True))
+    notes.append(f"Sampled every {controller.interval_ms:,} ms: what is shorter than that was not seen.")
+    return Subject(
+        verifier, given.path.resolve().name, "real controller", program.layout.model.name, "trace", controller.address,
+        " ".join(filter(None, notes)), sampled=True,
     )  # fmt: skip
 
 

@@ -53,6 +53,8 @@ class ReportHead:
     """What else a reader should know: how the trace was mapped, why it ended early."""
     full: int = 0
     """Scans of those skipped in which uses of variables found no room in the record."""
+    sampled: bool = False
+    """Of a log or a controller of which only some scans are known, so that those in between were not asked for."""
 
     @property
     def partly(self) -> bool:
@@ -60,7 +62,8 @@ class ReportHead:
         controller log is taken over in any case."""
         taken_over = bool(self.trace and self.stretches and self.stretches[0][0] == self.first)
         ungiven = self.coverage is not None and bool(self.coverage.ungiven)
-        return self.skipped > taken_over or ungiven
+        skipped = self.full if self.sampled else self.skipped - taken_over
+        return skipped > 0 or ungiven
 
 
 @dataclass(frozen=True, slots=True)

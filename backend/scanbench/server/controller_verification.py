@@ -5,10 +5,10 @@ import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
 
-from scanbench.comm.controller.contract import Connection, Source, Unreachable
+from scanbench.comm.controller.contract import Connection, Unreachable
+from scanbench.comm.controller.opening import open_source
 from scanbench.comm.controller.sampling import Read, Sampler, Settling, taken
 from scanbench.jobs.client import FAULT
 from scanbench.server.verification import TraceSource, Verification
@@ -174,12 +174,3 @@ class ControllerVerification(Verification):
 
     def _on_trouble(self, why: str) -> None:
         self._change(message=why or self._said())
-
-
-async def open_source(connection: Connection) -> Source:
-    """By the protocol of its address; `Unreachable`."""
-    assert connection.protocol == "opc.tcp"
-    # not with the server, which would start a third of a second later, and beside the loop
-    reading = await asyncio.to_thread(import_module, "scanbench.comm.opcua.reading")
-    source: Source = await reading.open_opcua(connection)
-    return source

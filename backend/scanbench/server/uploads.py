@@ -2,11 +2,12 @@
 
 import asyncio
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
 from scanbench.comm.controller.contract import Connection, Unreachable
+from scanbench.comm.controller.opening import for_program, open_source
 from scanbench.comm.controller.sampling import Sampler
 from scanbench.engines.cache import BlobCache
 from scanbench.host.program_cache import key_of, recall
@@ -15,7 +16,6 @@ from scanbench.program.program import Program
 from scanbench.public import Public
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.runtime.programs import NoProgram
-from scanbench.server.controller_verification import open_source
 from scanbench.server.kept import readable, unreadable
 from scanbench.session.session import Session
 from scanbench.store.records import MappingRow, NotFound
@@ -23,8 +23,8 @@ from scanbench.store.store import Store
 from scanbench.typed import BadValue, make_kept
 from scanbench.verify.trace.bind import check
 from scanbench.verify.trace.growing import TIME, controller_table
-from scanbench.verify.trace.mapping import MAX_LATE_MS, BadMapping, TraceMapping, fits
-from scanbench.verify.trace.propose import Guess, Proposal, propose
+from scanbench.verify.trace.mapping import BadMapping, TraceMapping, fits
+from scanbench.verify.trace.propose import Guess, Proposal, propose, sampled
 from scanbench.verify.trace.read import MAX_BYTES, read_trace
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
 from scanbench.wire.host import Sources
@@ -126,8 +126,11 @@ class TraceFiles:
         return file
 
     async def connect(self, project: int, connection: Connection, sources: Sources | None) -> TraceFile:
-        """Asks a controller what there is to read, and reads it once; a mapping is proposed as for a file. Outputs may come as
-        late as the time between two samples."""
+        """Asks a controller what there is to read, and reads it once; a mapping is proposed as for a file."""
+        try:
+            connection = await self._wanted(connection, sources)
+        except Unreachable as error:
+            raise Refused(error.message) from error
         sampler = Sampler(connection, open_source, lambda _: None)
         try:
             found = await sampler.begin()
@@ -144,10 +147,19 @@ class TraceFiles:
         handle = fresh_token()
         file = self._files[handle] = TraceFile(
             handle, connection.address, self._directory / handle, table.columns, 1, tuple(table.rows),
-            _sampled(proposal.mapping, connection.interval_ms), (), proposal.guesses, connection.protocol, found.left_out,
+            sampled(proposal.mapping, connection.interval_ms, TIME), (), proposal.guesses, connection.protocol, found.left_out,
             monotonic_ns(), connection, table,
         )  # fmt: skip
         return file
+
+    async def _wanted(self, connection: Connection, sources: Sources | None) -> Connection:
+        """With what is read of it where nobody said so; `Unreachable`."""
+        if connection.protocol != "fins" or sources is None:
+            return connection
+        try:
+            return for_program(connection, await asyncio.to_thread(self._program, sources))
+        except NoProgram:
+            return connection
 
     async def check(self, session: Session, file: TraceFile, mapping: TraceMapping) -> Checked:
         """Whether it can be verified with this mapping, and if not, where it cannot."""
@@ -211,19 +223,6 @@ class TraceFiles:
     async def delete_mapping(self, mapping: int) -> None:
         """Forgets one."""
         await asyncio.to_thread(self._store.mappings.delete, mapping)
-
-
-def _sampled(mapping: TraceMapping, interval_ms: int) -> TraceMapping:
-    """What is proposed for a controller that is read again and again: it has much that is no variable of the program."""
-    columns = tuple(
-        replace(each, role="ignore") if not each.path
-        else replace(each, late_ms=max(each.late_ms, min(2.0 * interval_ms, MAX_LATE_MS))) if each.role == "output"
-        else each
-        for each in mapping.columns
-    )  # fmt: skip
-    return replace(
-        mapping, gaps="hold", axis=mapping.axis or TIME, unit=mapping.unit if mapping.axis else "ms", columns=columns
-    )
 
 
 def mapping_of(row: MappingRow) -> TraceMapping:

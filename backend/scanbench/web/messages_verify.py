@@ -188,11 +188,13 @@ class TraceMapping(Wire):
 class NewController(Wire):
     """A controller that runs elsewhere, to be read as the control device. Nothing is written to it."""
 
-    address: str = Field(min_length=1, max_length=500, description="opc.tcp://HOST:PORT of an OPC UA server")
+    address: str = Field(
+        min_length=1, max_length=500, description="opc.tcp://HOST:PORT of an OPC UA server, or fins://HOST:PORT (UDP)"
+    )
     interval_ms: int = Field(default=100, ge=10, le=60_000, description="from one sample to the next")
     nodes: list[Annotated[str, Field(min_length=1, max_length=500)]] = Field(
         default=[], max_length=999,
-        description="ids of OPC UA nodes; none: all that the server shows",
+        description="ids of OPC UA nodes, none: all that the server shows; by FINS addresses as level=D100:INT, none: all variables of the program at addresses",
     )  # fmt: skip
     user: str = Field(default="", max_length=200, description="OPC UA; empty: nobody in particular")
     password: str = Field(default="", max_length=200)

@@ -1,9 +1,11 @@
 """A controller that runs elsewhere as the control device: a second virtual PLC, and a server of OPC UA that is not ours."""
 
 import asyncio
+import json
 import threading
 from collections.abc import Callable, Iterator
 from itertools import count
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -13,8 +15,10 @@ from asyncua import ua
 from scanbench.client import Plc, Refused, connect
 from scanbench.client.shapes.verification import VerificationInfo
 from tests.amounts import slow
+from tests.cli.calling import scanbench
 from tests.web.server import PATIENCE_S, Server
 from tests.web.test_communication import MODEL
+from tests.web.test_communication import switch_on as switch_on_fins
 from tests.web.test_opcua import switch_on
 
 RIGHT = """\
@@ -204,3 +208,51 @@ def test_what_cannot_be_read_is_said_before_anything_begins(server: Server, plc:
     foreign.stop()
     with pytest.raises(Refused, match="nothing listens at"):
         plc.connect_controller(address)
+
+
+def test_a_controller_is_read_by_fins_at_the_addresses_of_the_program(server: Server, plc: Plc, tmp_path: Path) -> None:
+    name = f"controller {next(_NUMBERS)}"
+    port = switch_on_fins(server, server.instance(name, MODEL, Main=WRONG), "fins", "read")
+    controller = connect(server.address, user="Ann").plc(name)
+    controller.write("Main.level", 30)
+    found = plc.connect_controller(f"fins://127.0.0.1:{port}", interval_ms=50)
+    assert set(found["columns"]) == {"time [ms]", "Main.level", "Main.twice", "Main.high"}
+    number = plc.begin_trace_verification(found)
+    goes = until(server, plc, number, lambda info: info["compared"] > 20)
+    assert (goes["state"], goes["differing"]) == ("verifying", 0)
+    controller.write("Main.level", -7)  # words have no sign of their own
+    until(server, plc, number, lambda info: info["compared"] > goes["compared"] + 20 and info["differing"] == 0)
+    controller.write("Main.level", 250)
+    bad = until(server, plc, number, lambda info: info["differing"] > 0)
+    assert bad["first_difference"] is not None
+    assert bad["first_difference"]["message"].startswith("Main.twice is 501, the reference gives 500")
+    plc.delete_verification(number)
+    (tmp_path / "Main.st").write_text(RIGHT)
+    given = (
+        "verify",
+        str(tmp_path / "Main.st"),
+        "--model",
+        MODEL,
+        "--every",
+        "50",
+        "--controller",
+        f"fins://127.0.0.1:{port}",
+    )
+    wrong = scanbench(*given, "--samples", "20")
+    assert wrong.returncode == 1, wrong
+    assert "Main.twice is 501, the reference gives 500" in wrong.stdout
+    controller.write("Main.level", 31)
+    right = scanbench(*given, "--samples", "20", "--json")
+    assert right.returncode == 0, right
+    told = json.loads(right.stdout)
+    assert (told["same"], told["compared"] > 15, told["trace"]) == (True, True, f"fins://127.0.0.1:{port}")
+    nobody = scanbench(*given[:-1], "fins://127.0.0.1:1", "--samples", "2")
+    assert (nobody.returncode, "fins://127.0.0.1:1 cannot be reached" in nobody.stderr) == (2, True), nobody
+    for nodes, why in (
+        (["D100:TEXT"], "`D100:TEXT` is nothing that is read by FINS"),
+        (["D99999"], "FINS has no word 99,999"),
+        (["D40000"], "refuses to read D40000"),
+        (["a=D1", "A=D2"], "two of what is to be read have the same name"),
+    ):
+        with pytest.raises(Refused, match=why):
+            plc.connect_controller(f"fins://127.0.0.1:{port}", nodes=nodes)

@@ -6494,7 +6494,7 @@ export interface components {
         NewController: {
             /**
              * Address
-             * @description opc.tcp://HOST:PORT of an OPC UA server
+             * @description opc.tcp://HOST:PORT of an OPC UA server, or fins://HOST:PORT (UDP)
              */
             address: string;
             /**
@@ -6505,7 +6505,7 @@ export interface components {
             interval_ms: number;
             /**
              * Nodes
-             * @description ids of OPC UA nodes; none: all that the server shows
+             * @description ids of OPC UA nodes, none: all that the server shows; by FINS addresses as level=D100:INT, none: all variables of the program at addresses
              * @default []
              */
             nodes: string[];

@@ -9,7 +9,7 @@ FASTEST_MS, SLOWEST_MS = 10, 60_000
 """Bounds of the time from one sample to the next."""
 MOST = 999
 """Variables that are read: as many as a log has columns, with that of the time."""
-PROTOCOLS = ("opc.tcp",)
+PROTOCOLS = ("opc.tcp", "fins")
 
 
 class Unreachable(Exception):
@@ -25,11 +25,11 @@ class Connection:
     """A controller, and what is wanted of it."""
 
     address: str
-    """opc.tcp://HOST:PORT/..."""
+    """opc.tcp://HOST:PORT/..., or fins://HOST:PORT (UDP)"""
     interval_ms: int = 100
     """From one sample to the next."""
     nodes: tuple[str, ...] = ()
-    """Ids of the nodes that are read; none: all that the server shows."""
+    """Ids of the nodes that are read; none: all that the server shows. By FINS addresses, `level=D100:INT`."""
     user: str = ""
     password: str = field(default="", repr=False)
 
@@ -44,7 +44,7 @@ class Connection:
             host = None
         if not separator or protocol.lower() not in PROTOCOLS or not host:
             raise Unreachable(
-                f"`{self.address}` is no address of a controller: write opc.tcp://HOST:4840 (OPC UA)",
+                f"`{self.address}` is no address of a controller: write opc.tcp://HOST:4840 (OPC UA) or fins://HOST:9600 (FINS)",
                 for_good=True,
             )
         return protocol.lower()

@@ -56,7 +56,7 @@ class Variables:
     def _known(self) -> dict[str, list[tuple[tuple[str, ...], Symbol]]]:
         if self._by_name is None:
             self._by_name = {}
-            for symbol in _leaves(self._program):
+            for symbol in single_values(self._program):
                 parts = _parts(symbol.path)
                 self._by_name.setdefault(parts[-1], []).append((parts, symbol))
         return self._by_name
@@ -97,7 +97,7 @@ def _parts(name: str) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _leaves(program: Program) -> Iterator[Symbol]:
+def single_values(program: Program) -> Iterator[Symbol]:
     """Single values that a column can be: without what is reached through an in-out, or is a constant."""
     waiting = list(reversed(members(program, "")))
     count = 0

@@ -1,7 +1,7 @@
 """What the columns of a trace probably mean: a variable for each, with how sure that is."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from scanbench.check.typed.condition import BadCondition, compile_signal
@@ -12,7 +12,7 @@ from scanbench.symbols.sites import sites_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.verify.trace.axis import axis_of, bare_name, only_counts, plain_name
 from scanbench.verify.trace.likeness import Variables
-from scanbench.verify.trace.mapping import ColumnMap, Gaps, TraceMapping, bits_of, role_of
+from scanbench.verify.trace.mapping import MAX_LATE_MS, ColumnMap, Gaps, TraceMapping, bits_of, role_of
 from scanbench.verify.trace.scans import place
 from scanbench.verify.trace.table import Problems, Table, Unit
 from scanbench.verify.trace.values import cell_value
@@ -66,6 +66,19 @@ def propose(table: Table, program: Program, learned: Mapping[str, str] | None = 
     guesses = [each.guess for column in table.columns if (each := found.get(column)) is not None and not each.idle]
     gaps: Gaps = "hold" if _sampled(table, axis, unit, program) else "refuse"
     return Proposal(TraceMapping(axis, unit, gaps, tuple(maps)), tuple(guesses))
+
+
+def sampled(mapping: TraceMapping, interval_ms: int, time: str) -> TraceMapping:
+    """What is proposed for a controller that is read again and again, with the time in this column: it has much that is no variable of the
+    program, and outputs may come as late as the time between two samples."""
+    columns = tuple(
+        replace(each, role="ignore") if not each.path
+        else replace(each, late_ms=max(each.late_ms, min(2.0 * interval_ms, MAX_LATE_MS))) if each.role == "output"
+        else each
+        for each in mapping.columns
+    )  # fmt: skip
+    unit: Unit = mapping.unit if mapping.axis else "ms"
+    return replace(mapping, gaps="hold", axis=mapping.axis or time, unit=unit, columns=columns)
 
 
 @dataclass(slots=True)

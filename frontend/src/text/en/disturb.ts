@@ -111,12 +111,13 @@ export const disturb = {
 
   "import.controller": "Read a controller that runs…",
   "import.controller.about":
-    "It is read at an interval, and compared while it runs. Nothing is written to it. OPC UA: opc.tcp://HOST:4840.",
+    "It is read at an interval, and compared while it runs. Nothing is written to it. OPC UA: opc.tcp://HOST:4840. FINS over UDP: fins://HOST:9600.",
   "import.controller.address": "Address",
   "import.controller.connect": "Connect",
   "import.controller.interval": "Read every … ms",
   "import.controller.interval.bad": "10 to 60,000 ms",
-  "import.controller.nodes": "Nodes, one a line; none: all that the server shows",
+  "import.controller.nodes":
+    "Nodes, one a line; none: all that the server shows (FINS: level=D100:INT; none: the program's variables at addresses)",
   "import.controller.secret": "Secret of the user",
   "import.controller.user": "User",
   "import.trace": "Import controller log…",

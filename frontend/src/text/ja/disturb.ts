@@ -113,12 +113,13 @@ export const disturb: Record<keyof typeof english, string> = {
 
   "import.controller": "運転中のコントローラを読み出す…",
   "import.controller.about":
-    "一定の間隔で読み出し、運転しながら比較します。コントローラには何も書き込みません。OPC UA：opc.tcp://ホスト:4840。",
+    "一定の間隔で読み出し、運転しながら比較します。コントローラには何も書き込みません。OPC UA：opc.tcp://ホスト:4840。FINS（UDP）：fins://ホスト:9600。",
   "import.controller.address": "アドレス",
   "import.controller.connect": "接続",
   "import.controller.interval": "読み出し間隔（ms）",
   "import.controller.interval.bad": "10 ～ 60,000 ms",
-  "import.controller.nodes": "ノード（1 行に 1 個）。なければサーバが示すすべて",
+  "import.controller.nodes":
+    "ノード（1 行に 1 個）。なければサーバが示すすべて（FINS：level=D100:INT。なければプログラムのアドレス付き変数）",
   "import.controller.secret": "パスワード",
   "import.controller.user": "ユーザー",
   "import.trace": "コントローラのログを取り込む…",
