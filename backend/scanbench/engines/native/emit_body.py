@@ -93,6 +93,16 @@ class Self:
     offset: str
 
 
+@dataclass(frozen=True, slots=True)
+class Farthest:
+    """How far above its lower bound the value of a check was at most in the rounds of a loop: a variable of the stack."""
+
+    pointer: str
+    type: str
+    most: str
+    """It may be so far."""
+
+
 def counter_key(place: Place) -> CounterKey:
     """Names the bytes and how they are read: other places may see the same bytes as something else."""
     size = place.type.size if isinstance(place.type, Elementary) else 0
@@ -132,8 +142,10 @@ class Body:
         """Debugged code: what is known of the run of this body."""
         self.idle = ""
         """Debugged code: whether the loop around has not run a round yet."""
-        self.outside = ""
-        """In a loop whose checks are recorded later: the variable of the stack that says that one was violated."""
+        self.farthest: list[Farthest] | None = None
+        """In a loop whose checks are recorded later: what they note."""
+        self.optimistic = False
+        """Whether that loop runs as if nothing were outside, and once more if something was."""
         self.divided = inlining.divided(pou) and unit.flavour is RUN
         """Whether lists of statements are emitted in pieces."""
         self._swallowed = 0

@@ -95,11 +95,13 @@ def limit(body: Body, expr: Limit) -> Value:
     value = body.scalar(expr.value)
     if within(value.range, (expr.low, expr.high)):
         return value
-    text = body.text
-    outside = _outside(body, value, type, (expr.low, expr.high))
-    if body.outside:
-        emit_deferred.note(body, outside)
-        return within_bounds(body, value, type, (expr.low, expr.high))
+    text, bounds = body.text, (expr.low, expr.high)
+    if body.farthest is not None:
+        emit_deferred.note(body, _distance(body, value, type, expr.low), name, integer(expr.high - expr.low, type))
+        if body.optimistic:
+            return Value(value.ssa, *_brought(value, bounds))
+        return within_bounds(body, value, type, bounds)
+    outside = _outside(body, value, type, bounds)
     before, beyond, on = text.block, text.name("beyond"), text.name("on")
     text.choose(outside, beyond, on, UNLIKELY)
     text.begin(beyond)
@@ -134,14 +136,22 @@ def within_bounds(body: Body, value: Value, type: Elementary, bounds: tuple[int,
     sign, name = "s" if type.signed else "u", value_type(type)
     raised = intrinsic(body, f"{sign}max", name, value.ssa, integer(low, type))
     ssa = intrinsic(body, f"{sign}min", name, raised, integer(high, type))
-    return Value(ssa, min(max(value.low, low), high), min(max(value.high, low), high))
+    return Value(ssa, *_brought(value, bounds))
+
+
+def _brought(value: Value, bounds: tuple[int, int]) -> tuple[int, int]:
+    low, high = bounds
+    return min(max(value.low, low), high), min(max(value.high, low), high)
 
 
 def _outside(body: Body, value: Value, type: Elementary, bounds: tuple[int, int]) -> str:
     """One comparison: below the lower bound the distance wraps, and is large."""
-    (low, high), name = bounds, value_type(type)
-    distance = body.text.op(f"sub {name} {value.ssa}, {integer(low, type)}") if low else value.ssa
-    return body.text.op(f"icmp ugt {name} {distance}, {integer(high - low, type)}")
+    low, high = bounds
+    return body.text.op(f"icmp ugt {value_type(type)} {_distance(body, value, type, low)}, {integer(high - low, type)}")
+
+
+def _distance(body: Body, value: Value, type: Elementary, low: int) -> str:
+    return body.text.op(f"sub {value_type(type)} {value.ssa}, {integer(low, type)}") if low else value.ssa
 
 
 def _record(body: Body, value: Value, type: Elementary, site: int) -> None:

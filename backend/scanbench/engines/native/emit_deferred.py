@@ -1,15 +1,21 @@
 """Loops whose checks are written down afterwards: LLVM can then make vectors of the rounds.
 
-In such a loop a check limits the value and notes in one flag that something was outside; no branch, no call. Where the flag is
-set when the rounds are over, the rounds are gone through once more, storing nothing and recording each violation in its order. So
-everything that a check looks at has to be what it was: it is nothing that the loop writes. And nothing may trap in a round.
+In such a loop a check limits the value, and notes how far above the lower bound it was at most (below it the distance wraps, and is
+large); no branch, no call. Where that was too far for any of them when the rounds are over, the rounds are gone through once more,
+storing nothing and recording each violation in its order. So everything that a check looks at has to be what it was: it is nothing that
+the loop writes. And nothing may trap in a round.
+
+Where the rounds read nothing at all that they write, they are run as if nothing were outside, without limiting anything; if something
+was, all of them are run once more with their checks, and store over what was wrong.
 """
 
 from collections.abc import Callable, Iterable
+from functools import reduce
 
 from scanbench.engines.native.effects import keeps, plain
-from scanbench.engines.native.emit_body import Body, counter_key
+from scanbench.engines.native.emit_body import Body, Farthest, counter_key
 from scanbench.engines.native.emit_function import UNLIKELY
+from scanbench.engines.native.emit_operators import intrinsic
 from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.flavour import RUN
 from scanbench.program.layout import Layout
@@ -35,7 +41,7 @@ PURE = ("MIN", "MAX", "SEL")
 
 def deferrable(body: Body, loop: For) -> bool:
     """Whether the checks of the loop may be recorded after its rounds, unless something in it can trap."""
-    if body.unit.flavour is not RUN or loop.exits or not plain(loop.variable) or body.outside:
+    if body.unit.flavour is not RUN or loop.exits or not plain(loop.variable) or body.farthest is not None:
         return False
     targets: list[Place] = []
     values: list[Expr] = []
@@ -53,24 +59,48 @@ def deferrable(body: Body, loop: For) -> bool:
     return bool(checks) and counts and all(_stays(each, loop, written) for each in checks)
 
 
-def rounds(body: Body, emit: Callable[[], str], again: Callable[[], str]) -> str | None:
+def repeatable(loop: For) -> bool:
+    """Whether the rounds may be gone through once more with the same results: they read nothing that they write. And nothing goes wrong
+    meanwhile where a value is outside: none is an index, and none divides."""
+    targets = [each.target for each in loop.body if isinstance(each, Assign)]
+    values = [each.value for each in loop.body if isinstance(each, Assign)]
+    parts = list(_parts(values, targets))
+    written = {each.variable for each in targets}
+    indices = [index.value for place in (*parts, *targets) if isinstance(place, Place) for index in place.indices]
+    reads = (each for each in parts if isinstance(each, Place))
+    return (
+        all(each.variable and each.variable not in written for each in reads)
+        and all(_counts(each, loop) for each in _parts(indices) if isinstance(each, Limit))
+        and not any(isinstance(each, Binary) and each.op in ("div", "mod") for each in parts)
+    )
+
+
+def _counts(check: Limit, loop: For) -> bool:
+    """Whether the check looks at the counter, which keeps within its subrange."""
+    return isinstance(check.value, Load) and counter_key(check.value.place) == counter_key(loop.variable)
+
+
+def rounds(body: Body, emit: Callable[[], str], again: Callable[[], str], optimistic: bool) -> str | None:
     """Emits the loop with `emit`, and with `again` what records; gives what `emit` gives, or None if something in it can trap
-    or nothing is checked."""
+    or nothing is checked. `optimistic`: values are not limited in `emit`, and `again` is the whole loop with all its checks."""
     text = body.text
     mark = text.mark()
-    body.outside = text.alloca("i8", 1)
-    text.do(f"store i8 0, ptr {body.outside}, align 1")
+    farthest: list[Farthest] = []
+    body.farthest, body.optimistic = farthest, optimistic
     try:
         counter = emit()
-        nothing = not any(line.endswith(f"ptr {body.outside}, align 1") for line in text.lines[mark.lines + 1 :])
-        if nothing or text.failed_since(mark):
-            text.undo(mark)
-            return None
-        any_outside = text.op(f"load i8, ptr {body.outside}, align 1")
     finally:
-        body.outside = ""
+        body.farthest, body.optimistic = None, False
+    if not farthest or text.failed_since(mark):
+        text.undo(mark)
+        return None
+    text.lines[mark.lines : mark.lines] = [f"  store {each.type} 0, ptr {each.pointer}" for each in farthest]
+    outside = [
+        text.op(f"icmp ugt {each.type} {text.op(f'load {each.type}, ptr {each.pointer}')}, {each.most}")
+        for each in farthest
+    ]
     late, on = text.name("late"), text.name("on")
-    text.choose(text.op(f"icmp ne i8 {any_outside}, 0"), late, on, UNLIKELY)
+    text.choose(reduce(lambda one, other: text.op(f"or i1 {one}, {other}"), outside), late, on, UNLIKELY)
     text.begin(late)
     again()
     text.go(on)
@@ -86,12 +116,17 @@ def record(body: Body, loop: For) -> None:
         address(body, each.target)
 
 
-def note(body: Body, outside: str) -> None:
-    """A check found this."""
-    text = body.text
-    before = text.op(f"load i8, ptr {body.outside}, align 1")
-    after = text.op(f"or i8 {before}, {text.op(f'zext i1 {outside} to i8')}")
-    text.do(f"store i8 {after}, ptr {body.outside}, align 1")
+def note(body: Body, distance: str, type: str, most: str) -> None:
+    """A check found a value at this distance above the lower bound, as an unsigned number; `most` is what may be."""
+    text, farthest = body.text, body.farthest
+    assert farthest is not None
+    if body.optimistic:  # what was computed from a value outside may be anything
+        distance = text.op(f"freeze {type} {distance}")
+    pointer = text.alloca(type, 8)
+    farthest.append(Farthest(pointer, type, most))
+    before = text.op(f"load {type}, ptr {pointer}")
+    after = intrinsic(body, "umax", type, before, distance)
+    text.do(f"store {type} {after}, ptr {pointer}")
 
 
 def _parts(values: Iterable[Expr], places: Iterable[Place] = ()) -> Iterable[Expr | Place]:

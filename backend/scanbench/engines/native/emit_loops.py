@@ -128,7 +128,9 @@ def _counted(body: Body, loop: For, parts: tuple[Value, Value, int]) -> None:
 
     counter = None
     if emit_deferred.deferrable(body, loop):
-        counter = emit_deferred.rounds(body, lambda: all_rounds(_round), lambda: all_rounds(_recorded))
+        twice = emit_deferred.repeatable(loop)
+        again = _round if twice else _recorded
+        counter = emit_deferred.rounds(body, lambda: all_rounds(_round), lambda: all_rounds(again), twice)
     if counter is None:
         counter = all_rounds(_round)
     body.unit.flavour.ends(body, loop)
