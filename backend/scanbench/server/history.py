@@ -188,7 +188,7 @@ class RunHistory:
             more = {"until": str(until), "other_until": str(other_until), "created": now[0], "other_created": now[1]}
             self._going.keep(comparison.changed.id, comparison.changed, more)
         elif begun != now:
-            _tell(comparison, message="one of the two runs was begun anew since then: compare them again")
+            _tell(comparison, message="one of the two runs began again since then: compare them again")
             return
 
         def make(ref: int) -> CompareRuns:
