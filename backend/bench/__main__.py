@@ -26,6 +26,7 @@ SUBJECTS = (
     "pou",
     "graphic",
     "comm",
+    "heartbeat",
     "subranges",
 )
 BUILDING = (

@@ -1,34 +1,52 @@
-"""`python -m bench comm`: FINS, Modbus and OPC UA clients at one virtual PLC of a real server.
+"""`python -m bench comm`: clients of FINS, Modbus and OPC UA at one virtual PLC of a real server, and storms of broken frames.
 
-Latencies are those of the clients, from request to answer, in milliseconds; the PLC runs scans of 10 ms. CPU is of one core, of the
-PLC's process and of the server's. Late scans are those that begin after the next one was due: counted without clients, with them, and under a storm of broken frames, in one run.
+The load that issue and documentation speak of: 50 clients of FINS read 100 words 20 times a second each, while 10 clients of OPC UA subscribe to 1,000 variables each at 10 Hz.
+*Answers* are from a client's request to its answer, in milliseconds; the PLC runs scans of 10 ms. *Ages* are a figure of our own: from when a value was read in the PLC to when a
+subscriber has it, the interval of 100 ms included. CPU is of one core: of the PLC's process, of the server's (the parent), of that of OPC UA, and of all that the machine did besides (the
+clients among it): where it has two cores and does much else, latencies are those of the scheduler.
+
+Storms: so many broken frames by each protocol, between two stretches without; how late scans began (in the mean and at worst), with and without, of one run.
 """
 
 import argparse
 import asyncio
 import json
 import random
-import re
-import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
+from itertools import islice
 from pathlib import Path
-from typing import Any
 
-import httpx
-
-from bench.fins_clients import PER_SECOND, WORDS, Udp, fins, fins_from
+from bench.broken_frames import (
+    AT_ONCE,
+    FINS,
+    MODBUS,
+    SLMP,
+    broken_opcua,
+    fins_over_tcp,
+    messages_of_opcua,
+    mutated,
+    sent,
+)
+from bench.comm_clients import PER_SECOND, WORDS, Asks, Ua, fins_from, modbus_from
+from bench.comm_server import Bench, Plc, Used
 from bench.opcua_clients import reads, subscribed
 
-CLIENTS = 50
+CLIENTS, MODBUS_CLIENTS = 50, 16
 UA_CLIENTS, UA_NODES, UA_MS, UA_CHANGING = 10, 1000, 100, 100
 """So many clients subscribe to so many variables each, ten times a second; so many of them change with each scan."""
-UA_READY_S = 25.0
-"""So long until all of them have subscribed."""
+READY_S, UA_READY_S = 2.0, 25.0
+"""So long until all clients are there."""
+CONNECTIONS = 4
+"""Of a storm, at the same time."""
+WAIT_S = 3.0
+"""How long a stretch without a storm is."""
+MOST_MS, MOST_PERCENT = 20, 100
+"""What is aimed at: of 99 % of the answers, and of host and parent together."""
 _SOURCE = (
     "PROGRAM Main\nVAR n : DINT; level AT D100 : INT;\n"
     + "".join(f"  v{each} : INT;\n" for each in range(UA_NODES))
@@ -36,210 +54,236 @@ _SOURCE = (
     + "".join(f"  v{each} := v{each} + 1;\n" for each in range(UA_CHANGING))
     + "END_PROGRAM\n"
 )
-_TICKS = 100
-"""Of a second, in /proc."""
 
 
 @dataclass(frozen=True, slots=True)
-class Load:
-    """What clients saw, and what it cost."""
+class Took:
+    """How long something took, as clients saw it."""
 
     what: str
-    requests: int
+    answers: bool
+    """From a request to its answer; else the age of what a subscriber is told."""
+    count: int
     per_second: float
     p50_ms: float
     p99_ms: float
     worst_ms: float
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """What clients saw, and what it cost, in percent of a core."""
+
+    what: str
+    took: tuple[Took, ...]
     host_percent: float
     server_percent: float
-    others_percent: float
-    """Of further processes of the server: that of OPC UA."""
+    opcua_percent: float
+    besides_percent: float
+    """All that the machine did besides: the clients, and other work."""
     late_percent: float
-    """Scans that began after the next one was due."""
+    """Scans of the last seconds that began after the next one was due."""
 
 
-class Bench:
-    """A server with one PLC."""
+@dataclass(frozen=True, slots=True)
+class Storm:
+    """How late scans began while broken frames came, and in the stretches before and after that."""
 
-    def __init__(self, folder: Path) -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "scanbench", "serve", "--port", "0", "--data", str(folder)],
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-        )  # fmt: skip
-        assert self.process.stdout is not None
-        found = None
-        while found is None:
-            line = self.process.stdout.readline()
-            if not line:
-                raise SystemExit("the server did not start")
-            found = re.search(r"(http://[\w.:]+)/\?token=(\S+)", line)
-        self.http = httpx.Client(base_url=found[1], headers={"Authorization": f"Bearer {found[2]}"}, timeout=60)
-        for each in self.http.get("/api/instances").json():
-            self.http.patch(f"/api/instances/{each['id']}", json={"power": False})
-        project = self.http.post("/api/projects", json={"name": "bench", "model": "CJ1M-CPU13"}).json()["id"]
-        self.http.put(f"/api/projects/{project}/files/main.st", json={"text": _SOURCE, "version": 0})
-        made = self.http.post("/api/instances", json={"project": project, "name": "bench"})
-        self.instance = int(made.raise_for_status().json()["id"])
-        while self.state["state"] != "running":
-            time.sleep(0.1)
-
-    @property
-    def state(self) -> dict[str, Any]:
-        return dict(self.http.get(f"/api/instances/{self.instance}").json()["state"])
-
-    def switch_on(self, kind: str) -> int:
-        wanted = {"on": True, "access": "write", "port": 0}
-        told = self.http.put(f"/api/instances/{self.instance}/communication/{kind}", json=wanted).json()
-        (address,) = (each["address"] for each in told["servers"] if each["kind"] == kind)
-        return int(str(address).rpartition(":")[2])
-
-    def new_pace(self) -> None:
-        """Lateness is counted from here on."""
-        self.http.post(f"/api/instances/{self.instance}/run", json={"action": "pause"}).raise_for_status()
-        self.http.post(f"/api/instances/{self.instance}/run", json={"action": "continue"}).raise_for_status()
-
-    def cpu(self) -> tuple[float, float, float]:
-        """Seconds of the PLC's process, of the server's, and of the others that the server has: that of OPC UA most of all."""
-        plc, server = self.state["pid"], self.process.pid
-        children = Path(f"/proc/{server}/task").glob("*/children")
-        others = {int(pid) for each in children for pid in each.read_text().split()} - {plc}
-        return _cpu(plc), _cpu(server), sum(map(_cpu, others))
-
-    def close(self) -> None:
-        self.http.close()
-        self.process.terminate()
-        self.process.wait(30)
+    protocol: str
+    frames: int
+    seconds: float
+    late_us: float
+    worst_us: float
+    late_us_without: float
+    worst_us_without: float
 
 
-def _cpu(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / _TICKS
+Client = Callable[[float], list[float]]
+"""From the moment that it is given on; what took how long, in seconds."""
 
 
-async def modbus(port: int, clients: int, seconds: float) -> list[float]:
-    """The same by Modbus."""
-    loop, took = asyncio.get_running_loop(), list[float]()
-
-    async def one(number: int) -> None:
-        reader, writer = await asyncio.open_connection("127.0.0.1", port)
-        begin = loop.time() + number / clients / PER_SECOND
-        for at in range(int(seconds * PER_SECOND)):
-            await asyncio.sleep(begin + at / PER_SECOND - loop.time())
-            asked = loop.time()
-            writer.write(bytes((0, at % 256, 0, 0, 0, 6, 1, 3, 0, 100, 0, WORDS)))
-            await reader.readexactly(9 + 2 * WORDS)
-            took.append(loop.time() - asked)
-        writer.close()
-
-    await asyncio.gather(*(one(number) for number in range(clients)))
-    return took
+def measure(plc: Plc, what: str, clients: dict[str, list[Client]], ages: str, seconds: float, ready_s: float) -> Load:
+    """Runs clients, each in a process of its own; `ages`: those that tell of ages."""
+    begin = time.time() + (ready_s if clients else 0)
+    with ProcessPoolExecutor(max(1, sum(map(len, clients.values())))) as pool:
+        running = {name: [pool.submit(one, begin) for one in some] for name, some in clients.items()}
+        time.sleep(max(0.0, begin - time.time()))
+        plc.new_pace()
+        before, at = plc.used(), time.perf_counter()
+        time.sleep(seconds)
+        lasted, after, late = time.perf_counter() - at, plc.used(), plc.state["late_percent"]
+        found = {name: sorted(each for one in some for each in one.result()) for name, some in running.items()}
+    took = tuple(_took(name, name != ages, each, lasted) for name, each in found.items())
+    return _load(what, took, before, after, lasted, late)
 
 
-async def storm(port: int, frames: int) -> list[float]:
-    """Broken frames as fast as the server answers: a request with bytes changed, some 64 at once."""
-    loop, chance = asyncio.get_running_loop(), random.Random(7)
-    transport, _ = await loop.create_datagram_endpoint(lambda: Udp(1), remote_addr=("127.0.0.1", port))
-    whole = bytes.fromhex("8000020001000019000101018200640000030000")
-    for at in range(frames):
-        frame = bytearray(whole)
-        for _ in range(chance.randrange(1, 5)):
-            frame[chance.randrange(1, len(frame))] = chance.randrange(256)
-        transport.sendto(bytes(frame[: chance.randrange(len(frame))]))
+def _took(what: str, answers: bool, took: list[float], lasted: float) -> Took:
+    p50, p99, worst = (1000 * took[min(len(took) - 1, int(q * len(took)))] if took else 0.0 for q in (0.5, 0.99, 1))
+    return Took(what, answers, len(took), len(took) / lasted, p50, p99, worst)
+
+
+def _load(what: str, took: tuple[Took, ...], before: Used, after: Used, lasted: float, late: float) -> Load:
+    plc, server, others, machine = (
+        100 * (b - a) / lasted
+        for a, b in (
+            (before.plc, after.plc), (before.server, after.server), (before.others, after.others),
+            (before.machine, after.machine),
+        )
+    )  # fmt: skip
+    return Load(what, took, plc, server, others, max(0.0, machine - plc - server - others), late)
+
+
+# ---- clients -----------------------------------------------------------------------------------------------------
+
+
+def loads(plc: Plc, ports: dict[str, int], clients: int, ua_clients: int, seconds: float) -> list[Load]:
+    """Each protocol by itself, then the load that is aimed at."""
+
+    def of_ua(ask: Callable[[int, int, float, float, float], list[float]], nodes: int) -> list[Client]:
+        apart = UA_MS / ua_clients / 1000
+        return [Ua(ask, ports["opcua"], nodes, UA_MS, each * apart, seconds) for each in range(ua_clients)]
+
+    fins: list[Client] = [Asks(fins_from, ports["fins"], clients, seconds)]
+    modbus: list[Client] = [Asks(modbus_from, ports["modbus"], min(MODBUS_CLIENTS, clients), seconds)]
+    return [
+        measure(plc, "no client", {}, "", seconds, 0),
+        measure(plc, "FINS", {"FINS": fins}, "", seconds, READY_S),
+        measure(plc, "Modbus", {"Modbus": modbus}, "", seconds, READY_S),
+        measure(plc, "OPC UA, reads", {"OPC UA": of_ua(reads, WORDS)}, "", seconds, UA_READY_S),
+        measure(
+            plc, LOAD, {"FINS": fins, "OPC UA": of_ua(subscribed, UA_NODES)}, "OPC UA", seconds, UA_READY_S
+        ),
+    ]  # fmt: skip
+
+
+LOAD = "the load"
+
+# ---- storms ------------------------------------------------------------------------------------------------------
+
+
+def storm(plc: Plc, protocol: str, port: int, frames: int) -> Storm:
+    """Broken frames as fast as the server takes them."""
+    late: list[tuple[float, float]] = []
+    lasted = 0.0
+    for broken in (False, True, False):
+        plc.new_pace()
+        begin = time.perf_counter()
+        if broken:
+            asyncio.run(_storm(protocol, port, frames))
+            lasted = time.perf_counter() - begin
+        else:
+            time.sleep(WAIT_S)
+        state = plc.state
+        late.append((state["late_us"], state["worst_us"]))
+    before, amid, after = late
+    return Storm(protocol, frames, lasted, *amid, (before[0] + after[0]) / 2, max(before[1], after[1]))
+
+
+async def _storm(protocol: str, port: int, frames: int) -> None:
+    if protocol == "FINS, UDP":
+        await _datagrams(port, frames)
+        return
+    whole = {"FINS, TCP": [fins_over_tcp(each) for each in FINS], "SLMP": SLMP, "Modbus": MODBUS}.get(protocol)
+    opcua = await messages_of_opcua(port) if whole is None else []
+
+    async def some(seed: int) -> None:
+        chance, mine = random.Random(seed), frames // CONNECTIONS
+        made = iter(mutated(whole or [], mine if whole else 0, seed))
+        for _ in range(0, mine, AT_ONCE):
+            if whole:
+                await sent(port, list(islice(made, AT_ONCE)))
+            else:
+                await broken_opcua(port, opcua, chance)
+
+    await asyncio.gather(*map(some, range(CONNECTIONS)))
+
+
+async def _datagrams(port: int, frames: int) -> None:
+    loop = asyncio.get_running_loop()
+    transport, _ = await loop.create_datagram_endpoint(asyncio.DatagramProtocol, remote_addr=("127.0.0.1", port))
+    for at, frame in enumerate(mutated(FINS, frames, seed=7)):
+        transport.sendto(frame)
         if at % 64 == 0:
             await asyncio.sleep(0.002)
     transport.close()
-    return []
 
 
-def measure(bench: Bench, what: str, work: Any, seconds: float) -> Load:
-    """Runs clients, or just waits."""
-    bench.new_pace()
-    before, begin = bench.cpu(), time.perf_counter()
-    took = sorted(asyncio.run(work)) if work is not None else []
-    if work is None:
-        time.sleep(seconds)
-    lasted, after, state = time.perf_counter() - begin, bench.cpu(), bench.state
-    percent = [100 * (b - a) / lasted for a, b in zip(before, after, strict=True)]
-    return _load(what, took, lasted, percent, state)
+# ---- what is printed ---------------------------------------------------------------------------------------------
 
 
-def measure_opcua(
-    bench: Bench, what: str, work: Callable[..., list[float]], port: int, clients: int, nodes: int, seconds: float,
-    beside: tuple[int, int] | None = None,
-) -> list[Load]:  # fmt: skip
-    """`beside`: port and number of clients of FINS at the same time, in a process of their own. Clients that have subscribed, or that read. A latency is from request to answer; of what is subscribed to, from when a value was
-    read in the PLC to when the client has it."""
-    begin = time.time() + UA_READY_S
-    with ProcessPoolExecutor(clients + 1) as pool:
-        others = None if beside is None else pool.submit(fins_from, *beside, begin, seconds)
-        waiting = [
-            pool.submit(work, port, nodes, UA_MS, begin + each * UA_MS / clients / 1000, seconds)
-            for each in range(clients)
-        ]
-        time.sleep(begin - time.time())
-        bench.new_pace()
-        before, at = bench.cpu(), time.perf_counter()
-        time.sleep(seconds)
-        lasted, after, state = time.perf_counter() - at, bench.cpu(), bench.state
-        took = sorted(each for one in waiting for each in one.result())
-        asked = None if others is None else sorted(others.result())
-    percent = [100 * (b - a) / lasted for a, b in zip(before, after, strict=True)]
-    loads = [_load(what, took, lasted, percent, state)]
-    return loads if asked is None else [*loads, _load("  FINS then", asked, lasted, percent, state)]
+def shown(found: list[Load], storms: list[Storm]) -> list[str]:
+    """As tables, for people."""
+    lines = ["                                 count       /s   p50 ms   p99 ms   worst   PLC %  server %  OPC UA %  besides %  late %"]  # fmt: skip
+    for load in found:
+        cost = (
+            f"{load.host_percent:8.1f}  {load.server_percent:8.1f}  {load.opcua_percent:8.1f}  {load.besides_percent:9.1f}"
+            f"  {load.late_percent:6.2f}"
+        )
+        if not load.took:
+            lines.append(f"{load.what:66}{cost}")
+        for each in load.took:
+            kind = "answers" if each.answers else "ages"
+            lines.append(
+                f"{load.what:14} {each.what:7} {kind:8} {each.count:7}  {each.per_second:7.0f}  {each.p50_ms:7.2f}  {each.p99_ms:7.2f}"
+                f"  {each.worst_ms:6.1f}{cost if each is load.took[0] else ''}"
+            )
+    load = next(each for each in found if each.what == LOAD)
+    p99 = max(each.p99_ms for each in load.took if each.answers)
+    cost = load.host_percent + load.server_percent
+    lines += [
+        "",
+        f"The load ({PER_SECOND} requests a second of each client of FINS for {WORDS} words; {UA_NODES} variables of each client of OPC UA at {1000 // UA_MS} Hz):",
+        f"  99 % of the answers within {p99:.1f} ms, of {MOST_MS} that are aimed at: {_met(p99, MOST_MS)}",
+        f"  PLC and server {cost:.0f} % of a core, of {MOST_PERCENT}: {_met(cost, MOST_PERCENT)} (with the process of OPC UA {cost + load.opcua_percent:.0f} %)",
+        "  (ages of subscribed values are not among the answers)",
+        "",
+        "storm of       frames  seconds   late us  without    worst us  without",
+    ]
+    lines += [
+        f"{each.protocol:12} {each.frames:8}  {each.seconds:7.1f}  {each.late_us:8.0f} {each.late_us_without:8.0f}  {each.worst_us:10.0f} {each.worst_us_without:8.0f}"
+        for each in storms
+    ]
+    return lines
 
 
-def _load(what: str, took: list[float], lasted: float, percent: list[float], state: dict[str, Any]) -> Load:
-    p50, p99, worst = (1000 * took[min(len(took) - 1, int(q * len(took)))] if took else 0.0 for q in (0.5, 0.99, 1))
-    return Load(
-        what, len(took), len(took) / lasted, p50, p99, worst, percent[0], percent[1], percent[2], state["late_percent"]
-    )
+def _met(found: float, most: float) -> str:
+    return "met" if found < most else "NOT met"
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="python -m bench comm", description=__doc__)
-    parser.add_argument("--clients", type=int, default=CLIENTS)
+    parser = argparse.ArgumentParser(
+        prog="python -m bench comm", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--clients", type=int, default=CLIENTS, help="of FINS")
     parser.add_argument("--ua-clients", type=int, default=UA_CLIENTS, help="of OPC UA")
     parser.add_argument("--seconds", type=float, default=10)
-    parser.add_argument("--storm", type=int, default=100_000, help="broken frames")
+    parser.add_argument("--storm", type=int, default=100_000, help="broken frames of each protocol")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(Path(folder))
         try:
-            port, other = bench.switch_on("fins"), bench.switch_on("modbus")
-            ua = bench.switch_on("opcua")
-            loads = [
-                measure(bench, "no client", None, given.seconds),
-                measure(bench, "FINS", fins(port, given.clients, given.seconds), given.seconds),
-                measure(bench, "Modbus", modbus(other, min(16, given.clients), given.seconds), given.seconds),
-                *measure_opcua(bench, "OPC UA reads", reads, ua, given.ua_clients, WORDS, given.seconds),
-                *measure_opcua(bench, "OPC UA", subscribed, ua, given.ua_clients, UA_NODES, given.seconds),
-                *measure_opcua(
-                    bench,
-                    "OPC UA, FINS",
-                    subscribed,
-                    ua,
-                    given.ua_clients,
-                    UA_NODES,
-                    given.seconds,
-                    (port, given.clients),
-                ),
-                measure(bench, "broken frames", storm(port, given.storm), given.seconds),
-                measure(bench, "no client", None, given.seconds),
-            ]
+            omron = bench.plc("CJ1M-CPU13", _SOURCE)
+            ports = {kind: omron.switch_on(kind) for kind in ("fins", "modbus", "opcua")}
+            found = loads(omron, ports, given.clients, given.ua_clients, given.seconds)
+            storms = [
+                storm(omron, protocol, ports[kind], given.storm)
+                for protocol, kind in (
+                    ("FINS, UDP", "fins"), ("FINS, TCP", "fins"), ("Modbus", "modbus"), ("OPC UA", "opcua"),
+                )
+                if given.storm
+            ]  # fmt: skip
+            if given.storm:
+                omron.switch_off()
+                melsec = bench.plc("Q03UD", _SOURCE)
+                storms.append(storm(melsec, "SLMP", melsec.switch_on("slmp"), given.storm))
         finally:
             bench.close()
     if given.json:
-        sys.stdout.write(json.dumps([asdict(each) for each in loads]) + "\n")
+        made = {"loads": [asdict(each) for each in found], "storms": [asdict(each) for each in storms]}
+        sys.stdout.write(json.dumps(made) + "\n")
         return
-    sys.stdout.write(
-        "                requests       /s   p50 ms   p99 ms   worst   PLC %  server %  OPC UA %  late %\n"
-    )
-    for each in loads:
-        sys.stdout.write(
-            f"{each.what:14}  {each.requests:8}  {each.per_second:7.0f}  {each.p50_ms:7.2f}  {each.p99_ms:7.2f}  {each.worst_ms:6.1f}"
-            f"  {each.host_percent:6.1f}  {each.server_percent:8.1f}  {each.others_percent:8.1f}  {each.late_percent:6.2f}\n"
-        )
+    sys.stdout.write("\n".join(shown(found, storms)) + "\n")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from scanbench.history.scenario import Expectation, Scenario, Step
 from scanbench.plcmodel.model import Model
 from scanbench.program.types import ELEMENTARY
 from scanbench.runtime.command import Command, Entry
-from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.forces import Force, ForceSeveral, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
@@ -47,6 +47,9 @@ def _steps(command: Command, model: Model) -> Iterator[str]:
             yield f"force {path}={value}"
         case Release(path=str(path)):
             yield f"release {path}"
+        case ForceSeveral(changes=changes):
+            for change in changes:
+                yield from _steps(change, model)
         case Generate(errors=errors):
             for each in errors:
                 yield f"raise {each}"

@@ -8,7 +8,7 @@ from scanbench.program.layout import Layout
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Plan, Refusal
 from scanbench.runtime.copy_areas import CopyAreas
-from scanbench.runtime.forces import read_table
+from scanbench.runtime.forces import ForceSeveral, read_table
 from scanbench.runtime.header import Header
 from scanbench.runtime.holds import held
 from scanbench.runtime.journal import Journal
@@ -38,13 +38,13 @@ class Communication:
                 self._link.post(areas_are(message, loaded, memory, self._timeline.live_journal))
             case ReadVariables():
                 self._link.post(self._variables.are(message, *self._timeline.live_image))
-            case Submit(ref, WriteAreas() | WriteVariables() | CopyAreas() as command):
+            case Submit(ref, WriteAreas() | WriteVariables() | CopyAreas() | ForceSeveral() as command):
                 self._write(ref, command)
             case _:
                 return False
         return True
 
-    def _write(self, ref: int, command: WriteAreas | WriteVariables | CopyAreas) -> None:
+    def _write(self, ref: int, command: WriteAreas | WriteVariables | CopyAreas | ForceSeveral) -> None:
         """Enters it, unless all that it writes is there: a client may repeat itself for weeks."""
         scan = self._timeline.live_scan
         if not self._timeline.past:

@@ -6,14 +6,15 @@ there are the same bytes, and whoever releases one of them would release the oth
 """
 
 import struct
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from typing import ClassVar, TypeVar
 
 from scanbench.program.layout import Layout
 from scanbench.program.types import Elementary
 from scanbench.public import Public
-from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
+from scanbench.runtime.command import Category, Command, Effect, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.holds import held, holder
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
@@ -24,6 +25,9 @@ from scanbench.symbols.values import format_value
 _ENTRY = struct.Struct("<IBBBB")
 _COUNT = struct.Struct("<I")
 Known = TypeVar("Known")
+_SAID = 3
+"""Forces that are named, where many are made at once."""
+_NEVER = datetime(1970, 1, 1, tzinfo=UTC)
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,6 +162,65 @@ class Release(Command):
 
 
 @dataclass(frozen=True, slots=True)
+class ForceSeveral(Command):
+    """Forces and releases in one seam, in this order: all of them, or none. To release what is not forced means nothing here."""
+
+    category: ClassVar[Category] = "force"
+
+    changes: tuple[Force | Release, ...]
+
+    def settled(self, view: View) -> Command:
+        """Each with the variable that is meant, without releases that mean nothing."""
+        return replace(self, changes=tuple(change for change, _ in self._meant(view)))
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """The force table after all of them, and the values at once."""
+        refused = may(view.header.mode, Right.FORCE)
+        if refused is not None:
+            return refused
+        now, patches, said = view, list[Patch](), list[str]()
+        for change, key in self._meant(view):
+            plan = change.plan(now)
+            if isinstance(plan, Refusal):
+                return plan
+            now = _after(now, change, plan)
+            said.append(plan.message)
+            if isinstance(change, Force):
+                bits = change.bits(view)
+                assert not isinstance(bits, Refusal), key
+                patches += everywhere(view, bits)
+        if not said:
+            return Plan((), "nothing of it was forced")
+        more = len(said) - _SAID
+        message = "; ".join(said[:_SAID]) + (f"; and {more} more" if more > 0 else "")
+        return Plan((*table_patches(view, read_table(now.memory)), *patches), message)
+
+    def _meant(self, view: View) -> Iterator[tuple[Force | Release, str]]:
+        forced = set(view.derived(FORCED))
+        for change in self.changes:
+            settled = change.settled(view)
+            assert isinstance(settled, Force | Release)
+            key = _key(settled.path or "")
+            if isinstance(settled, Force):
+                forced.add(key)
+            elif key in forced:
+                forced.remove(key)
+            else:
+                continue
+            yield settled, key
+
+
+def _after(view: View, command: Command, plan: Plan) -> View:
+    """What the one after it finds."""
+    memory, journal = bytearray(view.memory), view.journal.prefix(len(view.journal))
+    for patch in plan.patches:
+        for at, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
+            memory[at] = memory[at] & ~mask | data & mask
+    journal.append(Entry(view.header.scan, _NEVER, command, plan))
+    return replace(view, memory=memory, journal=journal)
+
+
+@dataclass(frozen=True, slots=True)
 class ForcedValue(Public):
     """A force, and what it did in the scan that ran last: values as text."""
 
@@ -244,18 +307,22 @@ def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch,
 
 
 def _step(held: Mapping[str, Force], entry: Entry) -> Mapping[str, Force]:
-    kept = _kept(held, entry)
-    return {**kept, _key(entry.command.path): entry.command} if isinstance(entry.command, Force) else kept
+    return _folded(held, entry, lambda force: force)
 
 
 def _since(known: Mapping[str, int], entry: Entry) -> Mapping[str, int]:
-    kept = _kept(known, entry)
-    return {**kept, _key(entry.command.path): entry.scan} if isinstance(entry.command, Force) else kept
+    return _folded(known, entry, lambda _: entry.scan)
 
 
-def _kept(held: Mapping[str, Known], entry: Entry) -> Mapping[str, Known]:
-    """Without what the entry releases."""
-    command, effect = entry.command, entry.plan.effect
+def _folded(known: Mapping[str, Known], entry: Entry, told: Callable[[Force], Known]) -> Mapping[str, Known]:
+    for command in entry.command.changes if isinstance(entry.command, ForceSeveral) else (entry.command,):
+        kept = _kept(known, command, entry.plan.effect)
+        known = {**kept, _key(command.path): told(command)} if isinstance(command, Force) else kept
+    return known
+
+
+def _kept(held: Mapping[str, Known], command: Command, effect: Effect | None) -> Mapping[str, Known]:
+    """Without what it releases."""
     if isinstance(effect, Restarted) and effect.kind != "warm":
         return {}
     gone: tuple[str, ...] = ()

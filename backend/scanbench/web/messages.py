@@ -206,6 +206,10 @@ class InstanceState(Wire):
         description="where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty"
     )
     late_percent: float = Field(description="scans of the last seconds that began after the next one was due")
+    late_us: float = Field(
+        description="how late scans began, in the mean, since the pace was set: by a start, or by a change of speed"
+    )
+    worst_us: float = Field(description="how late the latest of them began")
     halt: HaltInfo | None = Field(description="where the debugger halted it, also in the past; null while it runs")
     flavour: str = Field(description="which code runs: empty is the ordinary one, `debug`, `probed`")
     startable: bool = Field(description="false: nothing starts it, `message` says why and what to do")

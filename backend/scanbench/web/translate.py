@@ -111,6 +111,7 @@ def state(now: PlcState) -> wire.InstanceState:
             "past": {"live_scan": now.live_scan, "by": now.past_by} if now.past_by else None,
             "previous_version": now.previous_version,
             "target": now.target, "late_percent": round(now.late_percent, 2),
+            "late_us": now.late_us, "worst_us": now.worst_us,
             "halt": translate_debug.halt(now.halt), "flavour": now.flavour, "startable": now.startable,
             "trap": None if trap is None else {
                 "kind": trap.kind, "message": trap.message, "file": trap.file, "line": trap.line,

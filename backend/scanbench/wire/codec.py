@@ -61,7 +61,7 @@ from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Freed, Held, Numbered, Patch, Plan, Restarted, Swapped
 from scanbench.runtime.copy_areas import CopyAreas
-from scanbench.runtime.forces import FORCED, Force, ForcedValue, Release
+from scanbench.runtime.forces import FORCED, Force, ForcedValue, ForceSeveral, Release
 from scanbench.runtime.holds import HELD
 from scanbench.runtime.migrate_image import Lost
 from scanbench.runtime.modes import SetMode
@@ -114,7 +114,7 @@ _CLASSES: dict[str, type] = {
         events.CheckOutcome, Problem, PouInfo, CheckSite, TaskInfo, TaskProgram, RaisedNumber, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         DeviceDetail, DeviceError, DeviceErrors, DeviceMessage, DeviceRecord, DeviceStandby, protocol.DeviceIs, protocol.WantDevice,
-        GenerateAbsent, ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Left, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
+        GenerateAbsent, ForcedValue, ForceSeveral, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Left, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
         debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,

@@ -9,8 +9,9 @@ from typing import Any, cast
 import pytest
 from asyncua import Client, ua
 
+from bench.broken_frames import AT_ONCE, broken_opcua, messages_of_opcua
 from tests.amounts import amount, slow
-from tests.web.server import Server
+from tests.web.server import PATIENCE_S, Server
 from tests.web.test_communication import MODEL, seen, until
 from tests.web.test_opcua import SOURCE, Changes, at, client_at, run, switch_on, write
 
@@ -175,8 +176,6 @@ def test_a_connection_has_one_session_and_the_log_short_names(server: Server) ->
 
 
 FRAMES = amount(100_000, 400)
-AT_ONCE = 20
-"""Messages on one connection: the first that is none ends it."""
 MOST_KIB = 64 << 10
 """More than this the process of OPC UA may not have grown."""
 
@@ -194,69 +193,16 @@ def process_of(server: Server) -> tuple[int, int]:
     return largest, sizes[largest]
 
 
-async def closed(writer: asyncio.StreamWriter) -> None:
-    writer.close()
-    with suppress(OSError):
-        await writer.wait_closed()
-
-
-def messages_of_a_client(port: int, url: str) -> list[bytes]:
-    """Hello, OpenSecureChannel and requests, as asyncua sends them."""
-    sent: list[bytes] = []
-
-    async def story() -> None:
-        async def pump(reader: asyncio.StreamReader, writer: asyncio.StreamWriter, note: bool) -> None:
-            while data := await reader.read(1 << 16):
-                if note:
-                    sent.append(data)
-                writer.write(data)
-            await closed(writer)
-
-        over = asyncio.Event()
-
-        async def between(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-            ours, theirs = await asyncio.open_connection("127.0.0.1", port)
-            await asyncio.gather(pump(reader, theirs, True), pump(ours, writer, False))
-            over.set()
-
-        listening = await asyncio.start_server(between, "127.0.0.1", 0)
-        client = client_at(url.replace(str(port), str(listening.sockets[0].getsockname()[1])))
-        async with client:
-            await client.get_node("ns=2;s=Main.level").read_value()
-            subscription = await client.create_subscription(100, Changes())
-            await subscription.subscribe_data_change(client.get_node("ns=2;s=Main.level"))
-        await over.wait()
-        listening.close()
-
-    run(story())
-    return sent
-
-
 def test_broken_messages_harm_nobody(server: Server) -> None:
     instance = server.instance("opc ua storm", MODEL, main=SOURCE)
     address = switch_on(server, instance)
     port = int(address.rpartition(":")[2].rstrip("/"))
-    whole, chance = messages_of_a_client(port, address), random.Random(7)
+    whole, chance = asyncio.run(asyncio.wait_for(messages_of_opcua(port), PATIENCE_S)), random.Random(7)
     assert len(whole) > 5
-
-    async def one() -> None:
-        """A client that begins as it should, and goes on with broken messages."""
-        reader, writer = await asyncio.open_connection("127.0.0.1", port)
-        with suppress(OSError):
-            for number in range(AT_ONCE):
-                frame = bytearray(whole[min(number, len(whole) - 1)])
-                if number or chance.random() < 0.2:
-                    for _ in range(chance.randrange(3)):
-                        frame[chance.randrange(len(frame))] = chance.randrange(256)
-                writer.write(frame)
-            writer.write_eof()
-            while await reader.read(1 << 16):
-                pass
-        await closed(writer)
 
     async def storm(connections: int) -> None:
         for _ in range(connections):
-            await one()
+            await broken_opcua(port, whole, chance)
 
     run(storm(FRAMES // AT_ONCE // 4))
     process, before = process_of(server)

@@ -24,6 +24,8 @@ const RUNNING: InstanceState = {
   cycle_us: 40,
   interval_ns: 10_000_000,
   late_percent: 0,
+  late_us: 0,
+  worst_us: 0,
   speed: 1,
   flavour: "quick",
   target: "",

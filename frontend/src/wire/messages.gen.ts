@@ -6010,6 +6010,11 @@ export interface components {
              */
             late_percent: number;
             /**
+             * Late Us
+             * @description how late scans began, in the mean, since the pace was set: by a start, or by a change of speed
+             */
+            late_us: number;
+            /**
              * Message
              * @description one line that says why, e.g. the error code or the trap's place
              */
@@ -6056,6 +6061,11 @@ export interface components {
             /** Time Ns */
             time_ns: number;
             trap: components["schemas"]["TrapInfo"] | null;
+            /**
+             * Worst Us
+             * @description how late the latest of them began
+             */
+            worst_us: number;
         };
         /** Invitation */
         Invitation: {

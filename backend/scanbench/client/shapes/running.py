@@ -105,6 +105,10 @@ class InstanceState(TypedDict):
     """where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty."""
     late_percent: float
     """scans of the last seconds that began after the next one was due."""
+    late_us: float
+    """how late scans began, in the mean, since the pace was set: by a start, or by a change of speed."""
+    worst_us: float
+    """how late the latest of them began."""
     halt: HaltInfo | None
     """where the debugger halted it, also in the past; null while it runs."""
     flavour: str

@@ -4,8 +4,7 @@ from scanbench.comm.door import Door
 from scanbench.comm.fins.areas import Element, Form, element
 from scanbench.comm.fins.codes import End, Refused
 from scanbench.comm.fins.outcome import enter
-from scanbench.runtime.command import Command
-from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.forces import Force, ForceSeveral, Release
 
 _ENTRY = 6
 _RESET, _SET = 0x0000, 0x0001
@@ -13,18 +12,13 @@ _RELEASES = (0x8000, 0x8001, 0xFFFF)
 
 
 async def on_force(door: Door, body: bytes) -> bytes:
-    """Bits that are set, reset or released, one after the other: the first that cannot be ends it, and those before it stay."""
+    """Bits that are set, reset or released, in one seam: all of them, or none."""
     count = int.from_bytes(body[:2], "big")
     if len(body) != 2 + count * _ENTRY:
         raise Refused(End.NOT_AS_MANY)
-    entries = [body[at : at + _ENTRY] for at in range(2, len(body), _ENTRY)]
-    commands = [_command(door, entry) for entry in entries]
+    changes = tuple(_change(door, body[at : at + _ENTRY]) for at in range(2, len(body), _ENTRY))
     await _permitted(door)
-    for command in commands:
-        if isinstance(command, Release):
-            await door.submit(command)  # one that is not forced is released already
-        else:
-            await enter(door, command)
+    await enter(door, ForceSeveral(door.author, changes))
     return b""
 
 
@@ -40,7 +34,7 @@ async def _permitted(door: Door) -> None:
         raise Refused(End.NOT_IN_RUN)
 
 
-def _command(door: Door, entry: bytes) -> Command:
+def _change(door: Door, entry: bytes) -> Force | Release:
     what = int.from_bytes(entry[:2], "big")
     place = element(door.model, entry[2], int.from_bytes(entry[3:5], "big"), entry[5])
     path = _path(door, place)

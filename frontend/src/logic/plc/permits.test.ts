@@ -22,6 +22,8 @@ const monitor: InstanceState = {
   halt: null,
   flavour: "",
   late_percent: 0,
+  late_us: 0,
+  worst_us: 0,
   startable: true,
 };
 
