@@ -74,6 +74,11 @@ def raise_battery_error(server: Server, instance: int) -> None:
     server.http.post(f"/api/instances/{instance}/errors/generate", json=wanted).raise_for_status()
 
 
+def recover_battery_error(server: Server, instance: int) -> None:
+    wanted = {"ids": ["battery-error"]}
+    server.http.post(f"/api/instances/{instance}/errors/recover", json=wanted).raise_for_status()
+
+
 def test_a_fins_client_reads_writes_is_refused_and_sees_errors(server: Server) -> None:
     instance = server.instance("fins", MODEL, main=SOURCE)
     client = fins(switch_on(server, instance, "fins"))
@@ -87,6 +92,9 @@ def test_a_fins_client_reads_writes_is_refused_and_sees_errors(server: Server) -
     until(lambda: words(client.memory_area_read("A400")) == [BATTERY])
     assert client.memory_area_read("A400").code == b"\x00\x40", "a non-fatal error is told in each answer"
     until(lambda: client.memory_area_read("CIO100.00").data == b"\x01")
+    recover_battery_error(server, instance)
+    until(lambda: words(client.memory_area_read("A400")) == [0])
+    assert client.memory_area_read("A400").code == b"\x00\x00"
 
     told = seen(server, instance, "fins")
     assert told["settings"]["error_bits"]
@@ -154,6 +162,8 @@ def test_a_modbus_client_reads_writes_and_cannot_write_errors(server: Server) ->
         until(lambda: client.read_input_registers(400, count=1).registers == [BATTERY])
         assert client.read_discrete_inputs(402 * 16 + 4, count=1).bits[0]
         until(lambda: bool(client.read_coils(100 * 16, count=1).bits[0]))
+        recover_battery_error(server, instance)
+        until(lambda: client.read_input_registers(400, count=1).registers == [0])
         assert not client.write_coil(16 * 200 + 3, True).isError()
         assert client.read_coils(16 * 200, count=4).bits[:4] == [False, False, False, True]
         assert client.read_holding_registers(32768, count=1).exception_code == 2
@@ -194,6 +204,8 @@ def test_an_slmp_client_at_a_melsec(server: Server, code: str) -> None:
         f"/api/instances/{instance}/errors/generate", json={"errors": [{"id": "battery-error"}]}
     ).raise_for_status()
     until(lambda: client.batchread_wordunits("SD0", 1) == [1600])
+    recover_battery_error(server, instance)
+    until(lambda: client.batchread_wordunits("SD0", 1) == [0])
     client.remote_stop()
     assert server.state(instance)["mode"] == "PROGRAM"
     client.remote_run(clear_mode=0)
@@ -202,6 +214,10 @@ def test_an_slmp_client_at_a_melsec(server: Server, code: str) -> None:
     assert (
         "batch write SD0, 1: C05B" in told["clients"][0]["last_refused"] or "C056" in told["clients"][0]["last_refused"]
     )
+    break_line(server, instance, "slmp", "node")
+    with pytest.raises(MCProtocolError, match="4B00"):
+        client.batchread_wordunits("D100", 1)
+    assert last_outcome(server, instance, "slmp") == f"4B00 {ELSEWHERE}"
     client.close()
 
 
@@ -218,6 +234,13 @@ def test_programs_that_everybody_has_find_the_plc(server: Server) -> None:
     poll = ["mbpoll", "-m", "tcp", "-p", str(other), "-r", "101", "-1", "-q", "127.0.0.1"]
     said(*poll, "42")
     assert "[101]: \t42" in said(*poll, "-t", "4")
+    error = ["mbpoll", "-m", "tcp", "-p", str(other), "-r", "401", "-1", "-q", "-t", "3", "127.0.0.1"]
+    raise_battery_error(server, instance)
+    until(lambda: f"[401]: \t{BATTERY}" in said(*error))
+    recover_battery_error(server, instance)
+    until(lambda: "[401]: \t0" in said(*error))
+    beyond = subprocess.run([*poll[:6], "32769", *poll[7:], "1"], capture_output=True, text=True, check=False)
+    assert "Illegal data address" in beyond.stderr + beyond.stdout, "a write where there is no register is refused"
     said("mbpoll", "-m", "tcp", "-p", str(other), "-r", "3205", "-1", "-q", "-t", "0", "127.0.0.1", "1")
     assert client_reads(other, 3204)
 
@@ -306,6 +329,12 @@ def break_line(server: Server, instance: int, kind: str, fault: str, late_ms: in
     server.http.put(f"/api/instances/{instance}/communication/{kind}/fault", json=wanted).raise_for_status()
 
 
+def last_outcome(server: Server, instance: int, kind: str) -> str:
+    """Of what was asked last."""
+    found: str = max(seen(server, instance, kind)["frames"], key=lambda each: each["number"])["outcome"]
+    return found
+
+
 def test_what_is_wrong_with_the_line_is_seen_by_clients(server: Server) -> None:
     instance = server.instance("line", MODEL, main=SOURCE)
     port = switch_on(server, instance, "fins")
@@ -318,6 +347,9 @@ def test_what_is_wrong_with_the_line_is_seen_by_clients(server: Server) -> None:
     client._socket.settimeout(PATIENCE_S)
     break_line(server, instance, "fins", "late", 1)
     assert words(client.memory_area_read("D100")) == [7], "it was done, and nobody was told"
+    break_line(server, instance, "fins", "node")
+    assert client.memory_area_read("D100").code == b"\x02\x01"
+    assert last_outcome(server, instance, "fins") == f"0201 {ELSEWHERE}"
     break_line(server, instance, "fins", "none")
     assert words(client.memory_area_read("D100")) == [7]
     client.close()

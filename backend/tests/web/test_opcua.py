@@ -250,6 +250,30 @@ def recover(server: Server, instance: int) -> None:
     server.http.post(f"/api/instances/{instance}/errors/recover", json={"ids": ["battery-error"]}).raise_for_status()
 
 
+def test_the_plc_is_a_device_with_its_identification(server: Server) -> None:
+    instance = server.instance("opc ua device", MODEL, main=SOURCE)
+    address = switch_on(server, instance)
+
+    async def story() -> None:
+        async with client_at(address) as client:
+            index = await client.get_namespace_index("http://opcfoundation.org/UA/DI/")
+            devices = await client.nodes.objects.get_child(f"{index}:DeviceSet")
+            assert devices.nodeid.Identifier == 5001
+            (device,) = await devices.get_children()
+            kind = client.get_node(await device.read_type_definition())
+            above = await kind.get_references(ua.ObjectIds.HasSubtype, ua.BrowseDirection.Inverse)
+            assert [(each.NodeId.Identifier, each.NodeId.NamespaceIndex) for each in above] == [(1002, index)]
+            found = {
+                (await each.read_browse_name()).Name: await each.read_value() for each in await device.get_properties()
+            }
+            assert (found["Manufacturer"].Text, found["Model"].Text, found["SerialNumber"]) == ("Scanbench", MODEL, "")
+            organized = await device.get_children(ua.ObjectIds.Organizes)
+            assert [each.nodeid for each in organized] == [numbered(client, 1).nodeid]
+            assert await write(client, "Main.level", 1, ua.VariantType.Int16) == "BadUserAccessDenied"
+
+    run(story())
+
+
 def test_who_gives_no_name_reads_and_a_wrong_token_is_refused(server: Server, tmp_path: Path) -> None:
     instance = server.instance("opc ua users", MODEL, main=SOURCE)
     address = switch_on(server, instance)

@@ -12,6 +12,7 @@ from asyncua.server.subscription_service import SubscriptionService
 
 from scanbench.comm.opcua.clients import Desk, ToPlc
 from scanbench.comm.opcua.connection import Line
+from scanbench.comm.opcua.device import show_device
 from scanbench.comm.opcua.errors import Errors
 from scanbench.comm.opcua.forms import Form
 from scanbench.comm.opcua.ids import INDEX, own, standard
@@ -70,6 +71,7 @@ class Plc:
         index = await server.register_namespace(NAMESPACE)
         assert index == INDEX
         self._make(iserver.desk)
+        await show_device(server, _PLC, self._start.plc, self._start.model)
         self._errors = Errors(server, self._values, _ERRORS, self._shown_errors())
         self._changed = await server.get_event_generator(ua.ObjectIds.GeneralModelChangeEventType)
         await server.start()

@@ -97,6 +97,7 @@ function Settings({ kind, settings }: SettingsProps) {
         value={`${draft.port}`}
         onChange={(port) => change({ port: Number(port) })}
       />
+      {draft.port === 0 && <span className="faint">{t("communication.port.about")}</span>}
       {kind === "fins" && (
         <Field
           label={t("communication.node")}
