@@ -229,12 +229,12 @@ def shown(found: list[Load], storms: list[Storm]) -> list[str]:
             )
     load = next(each for each in found if each.what == LOAD)
     p99 = max(each.p99_ms for each in load.took if each.answers)
-    cost = load.host_percent + load.server_percent
+    both = load.host_percent + load.server_percent
     lines += [
         "",
         f"The load ({PER_SECOND} requests a second of each client of FINS for {WORDS} words; {UA_NODES} variables of each client of OPC UA at {1000 // UA_MS} Hz):",
         f"  99 % of the answers within {p99:.1f} ms, of {MOST_MS} that are aimed at: {_met(p99, MOST_MS)}",
-        f"  PLC and server {cost:.0f} % of a core, of {MOST_PERCENT}: {_met(cost, MOST_PERCENT)} (with the process of OPC UA {cost + load.opcua_percent:.0f} %)",
+        f"  PLC and server {both:.0f} % of a core, of {MOST_PERCENT}: {_met(both, MOST_PERCENT)} (with the process of OPC UA {both + load.opcua_percent:.0f} %)",
         "  (ages of subscribed values are not among the answers)",
         "",
         "storm of       frames  seconds   late us  without    worst us  without",

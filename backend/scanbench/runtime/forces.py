@@ -196,7 +196,8 @@ class ForceSeveral(Command):
         return Plan((*table_patches(view, read_table(now.memory)), *patches), message)
 
     def _meant(self, view: View) -> Iterator[tuple[Force | Release, str]]:
-        forced = set(view.derived(FORCED))
+        held = view.derived(FORCED)
+        forced = set(held)
         for change in self.changes:
             settled = change.settled(view)
             assert isinstance(settled, Force | Release)
