@@ -123,7 +123,7 @@ async def broken_opcua(port: int, whole: Sequence[bytes], chance: random.Random)
     try:
         await _asked(reader, writer, hello)
         opened = await _asked(reader, writer, channel)
-        ids = opened[8:12] + opened[-20:-16]  # behind the number of the token are its times, and an empty nonce
+        ids = opened[8:12] + opened[-20:-16]  # the number of the token; after it come its times, and an empty nonce
         made = Buffer(await _asked(reader, writer, _in_channel(session, ids)))
         made.skip(_RESPONSE)
         nodeid_from_binary(made)  # of the session

@@ -202,13 +202,9 @@ class InstanceState(Wire):
     program_version: int
     past: PastInfo | None
     previous_version: int | None = Field(description="what a roll back swaps in; null when there is nothing")
-    target: str = Field(
-        description="where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty"
-    )
+    target: str = Field(description="where a run ends: `scan 4711`, `until Main.count > 3`; or empty: it does not")
     late_percent: float = Field(description="scans of the last seconds that began after the next one was due")
-    late_us: float = Field(
-        description="how late scans began, in the mean, since the pace was set: by a start, or by a change of speed"
-    )
+    late_us: float = Field(description="how late scans began, in the mean, since speed was set or the PLC went on")
     worst_us: float = Field(description="how late the latest of them began")
     halt: HaltInfo | None = Field(description="where the debugger halted it, also in the past; null while it runs")
     flavour: str = Field(description="which code runs: empty is the ordinary one, `debug`, `probed`")

@@ -6011,7 +6011,7 @@ export interface components {
             late_percent: number;
             /**
              * Late Us
-             * @description how late scans began, in the mean, since the pace was set: by a start, or by a change of speed
+             * @description how late scans began, in the mean, since speed was set or the PLC went on
              */
             late_us: number;
             /**
@@ -6055,7 +6055,7 @@ export interface components {
             state: "starting" | "running" | "paused" | "halted" | "stopped" | "fatal" | "trapped" | "restarting" | "silent" | "failed" | "past" | "off" | "no_space";
             /**
              * Target
-             * @description where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty
+             * @description where a run ends: `scan 4711`, `until Main.count > 3`; or empty: it does not
              */
             target: string;
             /** Time Ns */

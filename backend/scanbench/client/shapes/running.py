@@ -102,11 +102,11 @@ class InstanceState(TypedDict):
     previous_version: int | None
     """what a roll back swaps in; null when there is nothing."""
     target: str
-    """where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty."""
+    """where a run ends: `scan 4711`, `until Main.count > 3`; or empty: it does not."""
     late_percent: float
     """scans of the last seconds that began after the next one was due."""
     late_us: float
-    """how late scans began, in the mean, since the pace was set: by a start, or by a change of speed."""
+    """how late scans began, in the mean, since speed was set or the PLC went on."""
     worst_us: float
     """how late the latest of them began."""
     halt: HaltInfo | None
