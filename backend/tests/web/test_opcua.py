@@ -260,11 +260,14 @@ def test_the_plc_is_a_device_with_its_identification(server: Server) -> None:
             devices = await client.nodes.objects.get_child(f"{index}:DeviceSet")
             assert devices.nodeid.Identifier == 5001
             (device,) = await devices.get_children()
-            kind = client.get_node(await device.read_type_definition())
+            type = await device.read_type_definition()
+            assert type is not None
+            kind = client.get_node(type)
             above = await kind.get_references(ua.ObjectIds.HasSubtype, ua.BrowseDirection.Inverse)
             assert [(each.NodeId.Identifier, each.NodeId.NamespaceIndex) for each in above] == [(1002, index)]
             found = {
-                (await each.read_browse_name()).Name: await each.read_value() for each in await device.get_properties()
+                str((await each.read_browse_name()).Name): await each.read_value()
+                for each in await device.get_properties()
             }
             assert (found["Manufacturer"].Text, found["Model"].Text, found["SerialNumber"]) == ("Scanbench", MODEL, "")
             organized = await device.get_children(ua.ObjectIds.Organizes)
