@@ -19,7 +19,14 @@ from uuid import NAMESPACE_URL, uuid5
 from scanbench.server.foreign_archive import is_foreign, notes, read_foreign
 from scanbench.server.from_disk import PROJECT_FILE, project_file
 from scanbench.server.project_files import OWN_FILES, is_beside
-from scanbench.server.twincat_project import ENDING, TwinCatProject, is_twincat_project, read_twincat_project
+from scanbench.server.twincat_project import (
+    ENDING,
+    TwinCatProject,
+    is_twincat_project,
+    read_twincat_project,
+    with_tasks,
+)
+from scanbench.server.twincat_tasks import ENDING as TASKS
 from scanbench.syntax.imported import Project
 from scanbench.syntax.language_file import STRICT, DialectName, guess_dialect, language_of
 from scanbench.syntax.parse_file import ENDINGS, XML_ENDINGS, is_program_file
@@ -154,7 +161,7 @@ def _unpacked(archive: zipfile.ZipFile) -> Archive:
             files[path] = decode(data)
         elif is_beside(path):
             panels[path] = decode(_read(archive, each))
-        elif path != PROJECT_FILE and not is_twincat_project(path):
+        elif path != PROJECT_FILE and not is_twincat_project(path) and not (projects and path.lower().endswith(TASKS)):
             left_out.append(path)
     if missing:
         raise Refused(f"the TwinCAT project compiles files that are not in this archive: {', '.join(missing)}")
@@ -202,8 +209,9 @@ def _root(texts: Collection[str]) -> str:
 
 
 def _twincat_projects(archive: zipfile.ZipFile, files: Mapping[str, zipfile.ZipInfo]) -> dict[str, TwinCatProject]:
+    tasks = {path: decode(_read(archive, each)) for path, each in files.items() if path.lower().endswith(TASKS)}
     return {
-        path: read_twincat_project(decode(_read(archive, each)))
+        path: with_tasks(path, read_twincat_project(decode(_read(archive, each))), tasks)
         for path, each in files.items()
         if is_twincat_project(path)
     }

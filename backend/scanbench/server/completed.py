@@ -1,17 +1,21 @@
 """Programs of other tools, with what they need to be checked here: the libraries that they use, and what these are called."""
 
+import re
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import PurePath
 
 from scanbench.check.dialect import DIALECTS
 from scanbench.check.libraries.catalogue import catalogue, library_of_file, used_libraries
 from scanbench.server.twincat_project import TwinCatProject, missing_libraries
+from scanbench.server.twincat_tasks import FILE, configuration
 from scanbench.syntax.language_file import LANGUAGE_FILE, dialect_of, is_language_file, with_namespaces
+
+_CONFIGURATION = re.compile(r"^\s*CONFIGURATION\b", re.IGNORECASE | re.MULTILINE)
 
 
 def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (), folder: str = "") -> dict[str, str]:
     """The files of a project at `folder`, with the texts of the libraries that they use. The names of these TwinCAT projects, whose
-    files are among them, may be written before other names, and what they define is defined.
+    files are among them, may be written before other names, what they define is defined, and their tasks are a CONFIGURATION.
 
     Nothing is different in the strict language, which has no libraries.
     """
@@ -19,6 +23,9 @@ def completed(files: Mapping[str, str], projects: Iterable[TwinCatProject] = (),
     names = {name for project in projects for name in project.names if name.isidentifier()}
     defines = {name for project in projects for name in project.defines}
     made = dict(files)
+    tasks = configuration([task for project in projects for task in project.tasks], made)
+    if tasks and not any(map(_CONFIGURATION.search, made.values())):
+        made.setdefault(str(PurePath(folder, FILE)), tasks)
     if (names or defines) and any(map(is_language_file, made)):
         made = with_namespaces(made, names, str(PurePath(folder, LANGUAGE_FILE)), defines)
     libraries = used_libraries(made, dialect_of(made)[0])

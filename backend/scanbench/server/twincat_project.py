@@ -3,9 +3,10 @@
 import posixpath
 import re
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import unescape
 
+from scanbench.server.twincat_tasks import Task, read_task
 from scanbench.syntax.parse_file import XML_ENDINGS
 
 ENDING = ".plcproj"
@@ -32,6 +33,8 @@ class TwinCatProject:
     """Libraries: how each is called, and what is written before its names."""
     defines: tuple[str, ...] = ()
     """Names that are defined for conditional pragmas."""
+    tasks: tuple[Task, ...] = ()
+    """Those whose files were given."""
 
 
 def is_twincat_project(path: str) -> bool:
@@ -48,6 +51,15 @@ def read_twincat_project(text: str) -> TwinCatProject:
     names = dict.fromkeys(unescape(name) for name in _NAMES.findall(_REFERENCE.sub("", text)) if name)
     defines = re.findall(r"[A-Za-z_]\w*", " ".join(_DEFINES.findall(text)))
     return TwinCatProject(compiled, tuple(names), tuple(named.items()), tuple(dict.fromkeys(defines)))
+
+
+def with_tasks(path: str, project: TwinCatProject, texts: Mapping[str, str]) -> TwinCatProject:
+    """The project of this path with the tasks that it compiles, whose texts are given by their paths."""
+    folder = posixpath.dirname(path.replace("\\", "/"))
+    known = {each.replace("\\", "/").lower(): text for each, text in texts.items()}
+    paths = (posixpath.normpath(posixpath.join(folder, each)).lower() for each in project.compiled)
+    found = (read_task(known[each]) for each in paths if each in known)
+    return replace(project, tasks=tuple(each for each in found if each is not None))
 
 
 def left_out(paths: Collection[str], projects: Mapping[str, TwinCatProject]) -> set[str]:

@@ -87,3 +87,29 @@ def test_libraries_are_listed_shown_and_added(tmp_path: Path) -> None:
     assert (again.returncode, "is there already" in again.stderr) == (2, True)
     unknown = scanbench("library", "show", "Utils")
     assert (unknown.returncode, "there is no library Utils" in unknown.stderr) == (2, True)
+
+
+TASK = """<TcPlcObject><Task Name="{name}" Id="{{1}}"><!--CycleTime in micro seconds.--><CycleTime>{cycle}</CycleTime>
+<Priority>{priority}</Priority>{calls}</Task></TcPlcObject>"""
+
+
+def test_programs_of_a_twincat_project_run_as_often_as_its_tasks_say(project: Path) -> None:
+    file = project / "line/Line.plcproj"
+    names = ("MAIN.TcPOU", "Slow.TcPOU", "Idle.TcPOU")
+    compiled = "".join(f'<Compile Include="POUs\\{each}" />' for each in names)
+    compiled += '<Compile Include="PlcTask.TcTTO" /><Compile Include="SlowTask.TcTTO" />'
+    file.write_text(PROJECT.format(compiled=compiled))
+    for name in ("MAIN", "Slow", "Idle"):
+        text = exported(f"PROGRAM {name}\nVAR n : INT; END_VAR", "n := n + 1;")
+        (project / f"line/POUs/{name}.TcPOU").write_text(text)
+    call = "<PouCall><Name>{0}</Name></PouCall>".format
+    fast = TASK.format(name="PlcTask", cycle=2000, priority=20, calls=call("MAIN") + call("NotThere"))
+    (project / "line/PlcTask.TcTTO").write_text(fast)
+    (project / "line/SlowTask.TcTTO").write_text(
+        TASK.format(name="SlowTask", cycle=10000, priority=21, calls=call("Slow"))
+    )
+    options = ("--dialect", "twincat", "--scans", "10", "--print", "MAIN.n", "--print", "Slow.n", "--print", "Idle.n")
+    ran = scanbench("run", str(project / "line"), *options)
+    assert ran.returncode == 0, ran
+    assert ran.stdout.split() == ["MAIN.n", "=", "10", "Slow.n", "=", "2", "Idle.n", "=", "0"]
+    assert "0.02 s of PLC time" in ran.stderr
