@@ -269,7 +269,8 @@ class Checker:
         """What a reference starts with."""
         if is_this(node):
             return own_instance(self.declarations, owner, node, type)
-        scope = Scope(owner.name, self.globals, constants=(owner,), space=self.declarations.names.space)
+        space = self.declarations.names.space
+        scope = Scope(owner.name, self.globals, constants=(owner,), space=space, system=(self.programs,))
         body = body_of(self.report, self.declarations, self.pous, scope, None)
         return as_argument(body, node, type, "The start value")
 

@@ -67,6 +67,7 @@ class Allowance(Enum):
     GENERIC_CONSTANTS = auto()
     SHORTER_STRINGS = auto()
     OVERLOADS = auto()
+    START_EXPRESSIONS = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,7 +289,7 @@ RULES: dict[Allowance, Rule] = {
         "`unit(r := REF(level))`",
     ),
     Allowance.POINTER_NUMBERS: Rule(
-        "a pointer where LWORD, ULINT or LINT is wanted, and the other way round",
+        "a pointer where an integer or a bit string of 64 or 32 bits is wanted, compared with one, and the other way round",
         "an address is no number",
         "POINTER TO",
     ),
@@ -337,6 +338,11 @@ RULES: dict[Allowance, Rule] = {
         "a name is declared once",
         "a name for each FUNCTION",
     ),
+    Allowance.START_EXPRESSIONS: Rule(
+        "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",
+        "a start value is a constant",
+        "an assignment in the body",
+    ),
 }
 
 
@@ -370,7 +376,6 @@ _SIEMENS = frozenset(
             Allowance.SIGNED_TEXTS,
             Allowance.BLOCK_MOVES,
             Allowance.VARIANTS,
-            Allowance.INTEGER_SHIFTS,
             Allowance.OVERLOADS,
         ),
     }
@@ -388,6 +393,7 @@ DIALECTS: dict[DialectName, Dialect] = {
             "siemens",
             "Siemens SCL",
             _SIEMENS
+            | {Allowance.INTEGER_SHIFTS}
             | {Allowance.CHAINED_ASSIGNMENT, Allowance.LABELS, Allowance.BLOCK_VARIABLES}
             | {Allowance.BIT_CONVERSION, Allowance.NARROWING, Allowance.REAL_CONVERSION},
         ),

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Collection
 
 from scanbench.problems import Problem, Span
+from scanbench.syntax import tree
 from scanbench.syntax.conditions import chosen
 from scanbench.syntax.lexer import AHEAD, DRAWN, Lex, Tokens, tokenize
 from scanbench.syntax.pragmas import in_out_pragmas, subrange_policies
@@ -53,6 +54,8 @@ class Cursor:
         """In a function block diagram: the wires that were read, in upper case. Elsewhere `#x` is a variable of one vendor."""
         self.parts = False
         """Whether a start value may name parts at any depth, `(a.b := 1, c[2] := 3)`: in the texts of one vendor."""
+        self.actions: list[tuple[str, Span, list[tree.PouDeclaration]]] = []
+        """Actions that are written apart from their POU, and its name."""
         self.list_name = ""
         """Of the variables that a vendor keeps in a list of its own."""
         self.namespace = ""

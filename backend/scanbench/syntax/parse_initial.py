@@ -45,7 +45,7 @@ def _repeated(c: Cursor) -> tuple[tree.Expression | None, tree.Initial]:
     if c.texts[at + 1] != "(" or c.kinds[at] not in (Lex.INTEGER, NAME):
         return None, initial(c)
     if c.kinds[at] is NAME and not _count_follows(c):
-        return None, initial(c)
+        return None, initial(c)  # perhaps a constant as a count, `SIZE(0)`: what it is, only the check knows
     c.take()
     count = parse_literal.literal(c, at) if c.kinds[at] is Lex.INTEGER else tree.Name(c.texts[at], c.span_of(at))
     if c.kinds[at + 2] is NAME and c.texts[at + 3] == ":=":

@@ -29,6 +29,12 @@ def whole(c: Cursor) -> tuple[tree.File, list[Problem]]:
     result = tree.File(c.source.name)
     while not c.ended():
         _next(c, result)
+    for owner, span, members in c.actions:
+        found = [at for at, pou in enumerate(result.pous) if pou.name.upper() == owner.upper()]
+        if found:
+            result.pous[found[-1]] = with_member(result.pous[found[-1]], members)
+        else:
+            c.report("D002", f"There is no POU `{owner}` in this file, whose ACTIONS these could be.", span)
     parse_pou.check_pragmas(c)
     c.problems.sort(key=lambda problem: (problem.span.line, problem.span.column))
     return result, c.problems
@@ -59,7 +65,7 @@ def _top(c: Cursor, result: tree.File) -> None:
         _namespace(c, result)
     elif word == "USING":
         c.visible += parse_pou.using_names(c)
-    elif word == "ACTIONS" and result.pous:
+    elif word == "ACTIONS":
         _actions(c, result)
     elif word in MEMBERS and result.pous:
         # exports of vendors write methods and actions after the POU they belong to
@@ -80,21 +86,18 @@ def _top(c: Cursor, result: tree.File) -> None:
 
 
 def _actions(c: Cursor, result: tree.File) -> None:
-    """`ACTIONS Pump ... END_ACTIONS` after a POU, as some exports write its actions; without a name, those of the last one."""
+    """`ACTIONS Pump ... END_ACTIONS` beside a POU, as some exports write its actions; without a name, those of the one before."""
     start = c.take()
-    number = len(result.pous) - 1
+    name = start
     if c.kinds[c.at] is NAME and c.word() != "ACTION":
         name = c.name("the name of the POU")
-        wanted = c.texts[name].upper()
-        found = [at for at, pou in enumerate(result.pous) if pou.name.upper() == wanted]
-        if not found:
-            c.report(
-                "D002", f"There is no POU `{c.texts[name]}` before these ACTIONS; write them after it.", c.span_of(name)
-            )
-        number = found[-1] if found else number
         c.accept(":")
+    members: list[tree.PouDeclaration] = []
     while c.word() == "ACTION":
-        result.pous[number] = with_member(result.pous[number], parse_pou.member(c, result.pous[number].kind.upper()))
+        members += parse_pou.member(c, "FUNCTION_BLOCK")
+    c.actions.append(
+        (c.texts[name] if name != start or not result.pous else result.pous[-1].name, c.span_of(name), members)
+    )
     if not c.accept_word("END_ACTIONS"):
         c.report(
             "S003", f"`END_ACTIONS` expected to close the ACTIONS of line {c.span_of(start).line}{c.found()}.", c.here()

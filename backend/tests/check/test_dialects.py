@@ -232,7 +232,7 @@ APART = {
     Allowance.SIGNED_TEXTS, Allowance.TRUE_TEXTS, Allowance.TEXT_NUMBERS, Allowance.BLOCK_MOVES, Allowance.VARIANTS,
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
     Allowance.GENERIC_CONSTANTS,
-    Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS,
+    Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

@@ -146,3 +146,35 @@ def test_a_check_of_an_edit_makes_the_same_program(engine: EngineFactory) -> Non
         resource.run(3)
         images.append(bytes(resource.state))
     assert images[0] == images[1]
+
+
+COMPUTED = f"""{CODESYS}VAR_GLOBAL level : INT := 4; END_VAR
+FUNCTION_BLOCK Unit
+VAR own : INT := level + 1; END_VAR
+own := own + 1;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR unit : Unit; first : INT := level * 2; END_VAR
+VAR RETAIN kept : INT := level * 3; END_VAR
+unit();
+kept := kept + 1;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_start_values_are_computed_at_each_start_and_for_what_is_new(engine: EngineFactory) -> None:
+    resource = plc(COMPUTED, engine)
+    resource.run(2)
+    assert values(resource, "unit.own", "first", "kept") == [7, 8, 14]
+    done(resource, Write("Ada", "level", "10"))
+    resource.run(1)
+    change(resource, program(COMPUTED.replace("unit : Unit;", "unit, other : Unit;")), engine)
+    resource.run(1)
+    assert values(resource, "unit.own", "other.own", "first", "kept") == [9, 11, 8, 16]
+    done(resource, Restart("Ada", "warm"))
+    resource.run(1)
+    assert values(resource, "unit.own", "other.own", "first", "kept") == [6, 5, 8, 17]
+    done(resource, Restart("Ada", "cold"))
+    resource.run(1)
+    assert values(resource, "kept") == [13]

@@ -134,7 +134,17 @@ def _index(body: Body, place: Place, type: ArrayType, dimension: int, node: tree
             raise body.report.reject("T012", f"Index {number} is outside of {low}..{high}.", node.span)
         return replace(place, offset=place.offset + (number - low) * stride)
     trap = body.trap(TrapKind.BOUNDS, node.span, f"index outside of {low}..{high}")
+    if _may_be_shorter(body, place):
+        limits = Const(LINT, low), Const(LINT, high), Const(LINT, stride)
+        return replace(place, indices=(*place.indices, Index(index, *limits, trap)))
     return replace(place, indices=(*place.indices, Index(index, low, high, stride, trap)))
+
+
+def _may_be_shorter(body: Body, place: Place) -> bool:
+    """Whether a pointer leads to the array: `POINTER TO ARRAY[0..32000] OF REAL` is how vendors' programs take arrays of any size,
+    so the element has to be there, and not the whole array."""
+    type = None if place.reference is None else place.reference.type
+    return isinstance(type, Reference) and type.pointer and may(body, Allowance.POINTER_NUMBERS)
 
 
 def _open_index(body: Body, place: Place, type: OpenArray, dimension: int, node: tree.Expression) -> Place:

@@ -98,12 +98,13 @@ def _size_of(body: Body, node: tree.Call, name: str) -> Expr:
 def _is_bound(body: Body, node: tree.Call) -> Expr:
     """`__ISVALIDREF(reference)` of vendors: whether it refers to something."""
     values = [argument.value for argument in node.arguments if argument.value is not None]
-    if len(values) != 1 or not isinstance(values[0], VARIABLES):
+    if len(values) != 1 or not isinstance(values[0], VARIABLES | tree.Call):
         raise body.report.reject("T004", "`__ISVALIDREF` takes one reference.", node.span)
-    place, _ = raw_place(body, values[0])
-    if not isinstance(place.type, Reference):
-        raise body.report.reject("T002", f"`__ISVALIDREF` takes a reference, not {place.type}.", node.span)
-    return fold.compare("ne", BOOL, Load(place), Const(NULL, 0))
+    asked = values[0]
+    value = body.call(asked) if isinstance(asked, tree.Call) else Load(raw_place(body, asked)[0])
+    if not isinstance(value.type, Reference):
+        raise body.report.reject("T002", f"`__ISVALIDREF` takes a reference, not {value.type}.", node.span)
+    return fold.compare("ne", BOOL, value, Const(NULL, 0))
 
 
 def form(body: Body, node: tree.Call) -> Expr | None:

@@ -60,6 +60,9 @@ def heap_form(body: Body, node: tree.Call, name: str) -> Expr | None:
 
 
 def _new(body: Body, node: tree.Call, named: tree.Expression, count: tree.Expression | None) -> Expr:
+    arguments: tuple[tree.Argument, ...] = ()
+    if isinstance(named, tree.Call):  # `__NEW(Unit(number := 3))`: what FB_init gets
+        arguments, named = named.arguments, named.callee
     if not isinstance(named, tree.Name | tree.MemberOf):
         raise body.report.reject("T004", "`__NEW` takes the name of a type.", named.span)
     type = body.declarations.named(shown(named), named.span)
@@ -70,16 +73,20 @@ def _new(body: Body, node: tree.Call, named: tree.Expression, count: tree.Expres
     pointer = reference_type(type, pointer=True)
     kept = body.temporary(pointer, node.span)
     first = Assign(kept, fold.convert(pointer, fold.convert(ULINT, taken)), node.span)
-    made = _initialised(body, type, kept, node.span, one=count is None)
+    made = _initialised(body, type, kept, node.span, arguments, one=count is None)
     there = fold.compare("ne", BOOL, Load(kept), Const(NULL, 0))
     stores: tuple[Stmt, ...] = (first, If(((there, tuple(made)),), (), node.span)) if made else (first,)
     return Sequence(stores, Load(kept))
 
 
-def _initialised(body: Body, type: Type, kept: Place, span: Span, one: bool) -> list[Stmt]:
+def _initialised(
+    body: Body, type: Type, kept: Place, span: Span, arguments: tuple[tree.Argument, ...], one: bool
+) -> list[Stmt]:
     """What is new starts as a variable of the type does; its memory is all zero."""
     data, life = initial_of(type), body.pous.life
     lives = life is not None and life.needs.of(type)
+    if arguments and not lives:
+        raise body.report.reject("T004", f"{type} has no FB_init that could take these; write `__NEW({type})`.", span)
     references = own_references(body.declarations, type)
     if not any(data) and not references and not lives:
         return []
@@ -94,7 +101,7 @@ def _initialised(body: Body, type: Type, kept: Place, span: Span, one: bool) -> 
         target = replace(place, type=value.type, offset=at)
         made.append(Assign(target, referring(place, value, base), span))
     if life is not None and lives:
-        made += Writer(body, life, lambda member: place, passed_on=False).whole(place, type, span)
+        made += Writer(body, life, lambda member: place, passed_on=False).whole(place, type, span, arguments)
     return made
 
 

@@ -14,6 +14,9 @@ ORDER = ("eq", "ne", "lt", "le", "gt", "ge")
 
 def joining_hint(op: str, left: Elementary, right: Elementary) -> str:
     """` Convert it with WORD_TO_UINT.`, or nothing where no conversion of one side is enough."""
+    if op in LOGIC and Kind.BOOL in (left.kind, right.kind):
+        number = left if right.kind is Kind.BOOL else right
+        return "" if number.kind is Kind.BOOL else f" Compare the {number} with 0, `x <> 0`, or convert the BOOL."
     for source, other in ((right, left), (left, right)):
         for target in _targets(op, source, other):
             joined = common(target, other)

@@ -241,6 +241,8 @@ def shifted_with_sign(body: Body, name: str, expr: Expr, count: Expr, span: Span
         return None
     if not may(body, Allowance.INTEGER_SHIFTS):
         return None
+    if may(body, Allowance.INTEGER_BITS) and (name != "SHR" or type.kind is not Kind.INT):
+        return None
     bits = bits_of(type)
     used(body, Allowance.INTEGER_SHIFTS, span, f"`{name}` works on the bits of {type}")
     if name != "SHR" or type.kind is not Kind.INT:
@@ -314,7 +316,7 @@ def _address(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr 
     numbers = [
         each
         for each in (source, type)
-        if isinstance(each, Elementary) and each.kind in INTEGRAL and each.size == ULINT.size
+        if isinstance(each, Elementary) and each.kind in INTEGRAL and each.size >= DINT.size
     ]
     if len(pointers) != 1 or len(numbers) != 1 or is_untyped(expr):
         return None
@@ -322,6 +324,18 @@ def _address(body: Body, expr: Expr, type: Type, span: Span, what: str) -> Expr 
         return None
     assert isinstance(type, Elementary)  # as references are, too
     return fold.convert(type, fold.convert(ULINT, expr))
+
+
+def address_number(body: Body, expr: Expr, span: Span) -> Expr | None:
+    """A pointer, or a number that is compared with one, as a number; None of what is neither, or where the dialect has no such."""
+    type = expr.type
+    pointer = isinstance(type, Reference) and type.pointer
+    number = isinstance(type, Elementary) and type.kind in INTEGRAL and type.size >= DINT.size and not is_untyped(expr)
+    if not (pointer or number) or not may(body, Allowance.POINTER_NUMBERS):
+        return None
+    if number:
+        used(body, Allowance.POINTER_NUMBERS, span, f"A pointer is compared with {type}")
+    return fold.convert(ULINT, expr)
 
 
 def _allowance(source: Elementary, target: Elementary) -> Allowance | None:

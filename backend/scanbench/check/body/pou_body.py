@@ -91,7 +91,7 @@ def _initialised(body: Body) -> list[Stmt]:
     frame, code = body.scope.frame, body.pous.life
     if frame is None or code is None:
         return []
-    temporary = (Section.TEMP, Section.VAR)
+    temporary = (Section.TEMP, Section.VAR, Section.OUTPUT)
     found = [each for each in code.needs.members(frame) if each.section in temporary]
     if not found:
         return []

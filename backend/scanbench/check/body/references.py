@@ -1,8 +1,9 @@
 """Values that refer to a variable: references, pointers, interfaces; their comparison, and arithmetic in bytes."""
 
 from scanbench.check.body import fold
-from scanbench.check.body.allowed import may, used
+from scanbench.check.body.allowed import allowed, may, used
 from scanbench.check.body.context import Body
+from scanbench.check.body.lenient import address_number
 from scanbench.check.context import Rejected
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
@@ -82,6 +83,10 @@ def as_reference(body: Body, expr: Expr, type: Reference, span: Span) -> Expr | 
 
 def compare_references(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
     """`left op right`, of which one is a reference at least."""
+    if isinstance(left.type, Reference) != isinstance(right.type, Reference):
+        first, second = (address_number(body, each, span) for each in (left, right))
+        if first is not None and second is not None:
+            return fold.compare(op, BOOL, first, second)
     sides = []
     for one, other in ((left, right), (right, left)):
         assert isinstance(left.type, Reference) or isinstance(right.type, Reference)
@@ -148,7 +153,9 @@ def _as_interface(body: Body, expr: Expr, type: Reference, span: Span) -> Expr |
             "T002", f"`{expr.place.type.name}` does not implement the interface `{target.name}`.", span
         )
     if place.base is Base.FRAME and place.slot is None and place.reference is None:
-        raise body.report.reject("T013", "A temporary instance cannot be referred to.", span)
+        if body.pou is None or not allowed(body, Allowance.LOCAL_ADDRESSES, span, "The instance is temporary"):
+            raise body.report.reject("T013", "A temporary instance cannot be referred to.", span)
+        body.pou.addressed = True
     return RefOf(place, type)
 
 

@@ -8,8 +8,14 @@ from scanbench.check.body.targets import note_written, writable
 from scanbench.check.dialect import Allowance
 from scanbench.program.program import Base, RefOf
 from scanbench.program.shown import shown
-from scanbench.program.types import OpenArray
+from scanbench.program.types import Member, OpenArray, Section
 from scanbench.syntax import tree
+
+
+def _read(body: Body, member: Member, node: tree.Expression) -> bool:
+    """Whether a pointer may lead to a VAR_IN_OUT CONSTANT, which is a variable of whoever calls."""
+    used = f"`{member.name}` is CONSTANT, and could be written through this pointer"
+    return member.section is Section.IN_OUT and allowed(body, Allowance.LOCAL_ADDRESSES, node.span, used)
 
 
 def refer(body: Body, node: tree.Expression, pointer: bool = False, passing: bool = False) -> RefOf:
@@ -17,7 +23,7 @@ def refer(body: Body, node: tree.Expression, pointer: bool = False, passing: boo
     if not isinstance(node, VARIABLES):
         raise body.report.reject("T013", "Only a variable can be referred to.", node.span)
     place, member = body.place(node)
-    if member is not None and member.constant:
+    if member is not None and member.constant and not (pointer and _read(body, member, node)):
         raise body.report.reject("T013", f"`{member.name}` is a CONSTANT and cannot be referred to.", node.span)
     if place.base is Base.FRAME and place.slot is None and place.reference is None:
         if not passing and not allowed(body, Allowance.LOCAL_ADDRESSES, node.span, f"`{shown(node)}` is temporary"):

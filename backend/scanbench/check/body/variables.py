@@ -82,6 +82,10 @@ def no_member(body: Body, record: Record, node: tree.MemberOf) -> Rejected:
     """Reports a member that is not there, unless its declaration was reported."""
     if record.open or is_broken(body, record, node.name):
         return Rejected()
+    owner = body.pous.classes.of(record)
+    if owner is not None and owner.find(node.name.upper()) is not None:
+        said = f"`{node.name}` is a method of `{record.name}`; call it with `{node.name}(...)`."
+        return body.report.reject("T010", said, node.span)
     hint = body.report.near(node.name, lambda: _shown(record), f"member:{record.name}")
     return body.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
 

@@ -5,6 +5,7 @@ from scanbench.check.declare.declarations import TYPE_NAMES, Declarations
 from scanbench.check.declare.kept import declare_kept, is_kept
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import qualified
+from scanbench.check.declare.section_order import constants_first
 from scanbench.check.dialect import Allowance
 from scanbench.program.origin import in_library
 from scanbench.program.types import ULINT, Kind, Member, Record, Section
@@ -16,10 +17,10 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
     role = Kind.INTERFACE if declaration.kind == "interface" else Kind.BLOCK
     record = declared.record(qualified(declaration.namespace, declaration.name), role)
     declared.inherit(record, declaration)
-    if Allowance.LIFE in declared.dialect.allows and lives(declaration) and MADE.upper() not in record.members:
-        record.place(Member(MADE, ULINT, Section.VAR, declaration.span, hidden=True, non_retain=True))
+    if Allowance.LIFE in declared.dialect.allows and lives(declaration):
+        _remembers(record, declaration)
     copied = _copies(declared, declaration)
-    for section in declaration.sections:
+    for section in constants_first(declaration.sections):
         kind = Section(section.keyword)
         if kind in (Section.TEMP, Section.EXTERNAL) or (section.kept == "VAR_STAT" and is_kept(declared, section)):
             continue
@@ -38,8 +39,16 @@ def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
                 member.non_retain = "NON_RETAIN" in section.qualifiers
     for method in declaration.methods:
         declare_kept(declared, record, method)
+    if any((record.name.upper(), key) in declared.computed for key in record.members if declared.computed):
+        _remembers(record, declaration)
     record.close()
     return record
+
+
+def _remembers(record: Record, declaration: tree.PouDeclaration) -> None:
+    """An instance knows whether it was initialised."""
+    if MADE.upper() not in record.members:
+        record.place(Member(MADE, ULINT, Section.VAR, declaration.span, hidden=True, non_retain=True))
 
 
 def _copies(declared: Declarations, declaration: tree.PouDeclaration) -> bool:

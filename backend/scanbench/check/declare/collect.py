@@ -9,6 +9,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import LIBRARY, Space, full_name, qualified
 from scanbench.check.declare.scopes import Pous
+from scanbench.check.declare.section_order import by_need
 from scanbench.check.dialect import Allowance, said
 from scanbench.check.libraries.catalogue import library_of_file
 from scanbench.check.standard.library import library
@@ -190,14 +191,12 @@ def declare_globals(parsed: list[tree.File], variables: Record, declarations: De
     """Declares constants first, as the bounds of other variables may use them."""
     sections = global_sections(parsed)
     kept = _Lists(declarations, pous)
-    for constant in (True, False):
-        for section in sections:
-            if ("CONSTANT" in section.qualifiers) != constant:
-                continue
-            using = (*section.using, *((LIBRARY,) if library_of_file(section.span.file) else ()))
-            with declarations.names.within(Space(section.namespace, using)):
-                for variable in section.variables:
-                    kept.declare(variables, section, variable, constant)
+    constants = [(each, variable) for each in sections if "CONSTANT" in each.qualifiers for variable in each.variables]
+    others = [(each, variable) for each in sections if "CONSTANT" not in each.qualifiers for variable in each.variables]
+    for section, variable in (*by_need(constants, declarations.type_trees), *others):
+        using = (*section.using, *((LIBRARY,) if library_of_file(section.span.file) else ()))
+        with declarations.names.within(Space(section.namespace, using)):
+            kept.declare(variables, section, variable, "CONSTANT" in section.qualifiers)
 
 
 @dataclass(slots=True)

@@ -16,7 +16,18 @@ from scanbench.check.uses import Symbol
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr
-from scanbench.program.types import ABBREVIATIONS, ELEMENTARY, NULL, Kind, Member, Record, Reference, Type
+from scanbench.program.types import (
+    ABBREVIATIONS,
+    ELEMENTARY,
+    NULL,
+    Elementary,
+    Kind,
+    Member,
+    Record,
+    Reference,
+    StringType,
+    Type,
+)
 from scanbench.syntax import tree
 
 TYPE_NAMES = {**ELEMENTARY, **{name: ABBREVIATIONS[name] for name in ("TOD", "LTOD", "DT", "LDT")}}
@@ -53,6 +64,19 @@ class Afresh:
     offset: int
     """In bytes, from the beginning of the variable."""
     type: Type
+
+
+@dataclass(frozen=True, slots=True)
+class StartExpression:
+    """What a variable, or a part of it, starts with that has to be computed."""
+
+    offset: int
+    """In bytes, from the beginning of the variable."""
+    type: Elementary | StringType | Reference
+    node: tree.Expression
+
+
+Given: TypeAlias = "StartReference | Afresh | StartExpression"
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,8 +123,10 @@ class Declarations:
     """Whether any variable waits for its address."""
     start_references: list[Start] = field(default_factory=list)
     """References that start with REF(variable), and what starts without them, in the order in which they apply."""
-    given: list[StartReference | Afresh] = field(default_factory=list)
-    """Those in the initial value that is being read, counted from its beginning."""
+    computed: dict[tuple[str, str], list[StartExpression]] = field(default_factory=dict)
+    """By the names of the record and the variable, in upper case."""
+    given: list[Given] = field(default_factory=list)
+    """What is apart from the bytes in the initial value that is being read, counted from its beginning."""
     reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
     symbols: Record = field(default_factory=lambda: Record("", Kind.STRUCT))
     """Variables that the model gives to every program."""
@@ -145,9 +171,7 @@ class Declarations:
             raise self.report.reject("D003", f"`{name}` contains itself ({path}), so it has no size.", span)
         declaration, block = self.type_trees.get(key), self.block_trees.get(key)
         if declaration is None and block is None:
-            hint = self.library_hint(name) or self.report.near(
-                name, lambda: [*TYPE_NAMES, *self.type_trees, *self.block_trees], "declared"
-            )
+            hint = self.library_hint(name) or self.report.near(name, self._declared, "declared")
             hint = instead_of(self.dialect, name) or hint
             raise self.report.reject("D002", f"There is no type `{name}`.{hint}", span)
         origin = declaration or block
@@ -171,6 +195,11 @@ class Declarations:
         self.types[key] = made
         self._complete()
         return made
+
+    def _declared(self) -> list[str]:
+        """The full names of all types and blocks, with the capitals that they are declared with."""
+        types = [qualified(each.namespace, each.name) for each in self.type_trees.values()]
+        return [*TYPE_NAMES, *types, *(qualified(each.namespace, each.name) for each in self.block_trees.values())]
 
     def _note(self, name: str, key: str, span: Span) -> None:
         origin = self.type_trees.get(key) or self.block_trees.get(key)

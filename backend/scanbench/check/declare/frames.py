@@ -7,6 +7,7 @@ from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.kept import is_kept
 from scanbench.check.declare.members import declare, default_of
 from scanbench.check.declare.names import qualified
+from scanbench.check.declare.section_order import constants_first
 from scanbench.check.dialect import Allowance, said
 from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type, has_instance
 from scanbench.syntax import tree
@@ -38,7 +39,7 @@ def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: R
         part = f".{declaration.kind}" if declaration.kind in ("get", "set") else ""
         record = Record(f"{this.name}.{declaration.name}{part}", Kind.STRUCT)
         record.place(Member("THIS", this, Section.IN_OUT, declaration.span, hidden=True))
-    for section in declaration.sections:
+    for section in constants_first(declaration.sections):
         kind = Section(section.keyword)
         if is_kept(declared, section) and (function or section.kept == "VAR_STAT"):
             continue

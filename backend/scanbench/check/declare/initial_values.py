@@ -6,8 +6,9 @@ from contextlib import suppress
 from dataclasses import replace
 
 from scanbench.check.context import Rejected
-from scanbench.check.declare.declarations import Afresh, Declarations, StartReference
+from scanbench.check.declare.declarations import Afresh, Declarations, Given, StartExpression, StartReference
 from scanbench.check.declare.start_references import Held, refers
+from scanbench.check.dialect import Allowance
 from scanbench.check.uses import variable_symbol
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
@@ -29,11 +30,9 @@ from scanbench.program.types import (
 from scanbench.syntax import tree
 
 
-def with_references(
-    declared: Declarations, value: tree.Initial, type: Type
-) -> tuple[bytes, list[StartReference | Afresh]]:
-    """The bytes of a variable of this type that starts with the value, the references in it that are bound later, and those that it
-    gives up of what the type has."""
+def with_references(declared: Declarations, value: tree.Initial, type: Type) -> tuple[bytes, list[Given]]:
+    """The bytes of a variable of this type that starts with the value, what in it is bound or computed later, and the references that
+    it gives up of what the type has."""
     around, declared.given = declared.given, []
     try:
         made = _image(declared, value, type)
@@ -46,7 +45,9 @@ def initial_image(declared: Declarations, value: tree.Initial, type: Type) -> by
     """The same of what starts with no references."""
     made, given = with_references(declared, value, type)
     for each in given:
-        if isinstance(each, StartReference):
+        if isinstance(each, StartExpression):
+            declared.constant_of(each.node, each.type)  # tells what is wrong
+        if not isinstance(each, Afresh):
             raise declared.report.reject(
                 "D004", "This starts with NULL; assign the reference in the body.", each.node.span
             )
@@ -71,7 +72,20 @@ def _image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
     if not isinstance(type, Elementary | StringType):
         example = "[1, 2, 3(0)]" if isinstance(type, ArrayType) else "(member := value)"
         raise declared.report.reject("D004", f"An initial value of {type} is written like {example}.", value.span)
-    return encode(type, declared.constant_of(value, type))
+    return _bytes(declared, value, type)
+
+
+def _bytes(declared: Declarations, value: tree.Expression, type: Elementary | StringType) -> bytes:
+    """Those of a constant; what is none is computed later, where the dialect has that."""
+    if Allowance.START_EXPRESSIONS not in declared.dialect.allows or isinstance(value, tree.Literal):
+        return encode(type, declared.constant_of(value, type))
+    mark = declared.report.mark()
+    try:
+        return encode(type, declared.constant_of(value, type))
+    except Rejected:
+        declared.report.undo(mark)
+        declared.given.append(StartExpression(0, type, value))
+        return initial_of(type)
 
 
 def _array(declared: Declarations, value: tree.ArrayInit, type: Type) -> bytes:
@@ -82,7 +96,7 @@ def _array(declared: Declarations, value: tree.ArrayInit, type: Type) -> bytes:
         element = ArrayType(type.bounds[1:], type.element)
     total, given = type.count if element is type.element else type.bounds[0][1] - type.bounds[0][0] + 1, 0
     image = bytearray()
-    for count_tree, item in value.items:
+    for count_tree, item in (_counted(declared, *each) for each in value.items):
         count = 1 if count_tree is None else declared.constant_of(count_tree, None).value
         if not isinstance(count, int) or count < 0 or count > type.count:
             raise declared.report.reject("D004", f"{count!r} values do not fit {type}.", value.span)
@@ -98,6 +112,22 @@ def _array(declared: Declarations, value: tree.ArrayInit, type: Type) -> bytes:
     if given > total:
         raise declared.report.reject("D004", f"{given} values do not fit {type}; at most {total}.", value.span)
     return bytes(image + initial_of(element) * (total - given))
+
+
+def _counted(
+    declared: Declarations, count: tree.Expression | None, item: tree.Initial
+) -> tuple[tree.Expression | None, tree.Initial]:
+    """`SIZE(0)` and `LIST.SIZE(0)` look like calls, and repeat a value where their name is a constant."""
+    given = item.arguments[0] if count is None and isinstance(item, tree.Call) and len(item.arguments) == 1 else None
+    if given is None or given.name is not None or given.value is None or not isinstance(item, tree.Call):
+        return count, item
+    mark = declared.report.mark()
+    try:
+        repeats = isinstance(declared.constant_of(item.callee, None).value, int)
+    except Rejected:
+        repeats = False
+    declared.report.undo(mark)
+    return (item.callee, given.value) if repeats else (count, item)
 
 
 def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes:
@@ -117,7 +147,7 @@ def _inside(declared: Declarations, item: tree.Initial, type: Type, offset: int,
     """What is there in something larger, from this offset on."""
     first = len(declared.given)
     made = _image(declared, item, type)
-    afresh: list[StartReference | Afresh] = []
+    afresh: list[Given] = []
     if declared.start_references and isinstance(type, Reference | ArrayType | Record):
         afresh = [Afresh(offset, type)]
     moved = [

@@ -137,6 +137,7 @@ def _start(declared: Declarations, owner: Record, member: Member, variable: tree
         if variable.initial is not None:
             declared.report.error("D004", "An in-out has no initial value; it is bound at each call.", member.span)
     elif variable.initial is not None:
+        declared.computed.pop((owner.name.upper(), member.name.upper()), None)
         member.initial, given = with_references(declared, variable.initial, member.type)
         start_with(declared, owner, member, given)
     else:

@@ -66,10 +66,9 @@ class Scope:
         for full in self.space.candidates(key):
             if full in self.globals.members:
                 return self.globals.members[full], Base.IMAGE, self.globals
-        if not self.constants:
-            for owner in (SYSTEM, *self.system):
-                if key in owner.members:
-                    return owner.members[key], Base.IMAGE, owner
+        for owner in (*(() if self.constants else (SYSTEM,)), *self.system):
+            if key in owner.members:
+                return owner.members[key], Base.IMAGE, owner
         return None
 
     def names(self) -> list[str]:

@@ -15,6 +15,7 @@ from scanbench.program.types import (
     Elementary,
     Enumeration,
     Kind,
+    Member,
     OpenArray,
     Record,
     Reference,
@@ -114,17 +115,34 @@ def enumeration(declared: Declarations, spec: tree.EnumSpec, name: str) -> Enume
     shown: list[tuple[str, int]] = []
     number = -1
     low, high = bounds(base)
+    known = Record(name or "enumeration", Kind.STRUCT)
     for value_name, stated, span in spec.values:
         if value_name.upper() in values:
             declared.report.error("D001", f"`{value_name}` is twice in this enumeration; rename one.", span)
             continue
-        number = number + 1 if stated is None else int(declared.constant_of(stated, base).value)
+        number = number + 1 if stated is None else _value(declared, stated, base, known, shown)
         if not low <= number <= high:
             raise declared.report.reject("S004", f"`{value_name}` is number {number}, which does not fit {base}.", span)
         values[value_name.upper()] = number
         shown.append((value_name, number))
     made = name or f"({', '.join(each for each, _ in shown)})"
     return Enumeration(made, base.kind, base.size, tuple(shown), base.name)
+
+
+def _value(
+    declared: Declarations, stated: tree.Expression, base: Elementary, known: Record, shown: list[tuple[str, int]]
+) -> int:
+    """The number of a value, which may be computed from those before it."""
+    if isinstance(stated, tree.Literal):
+        return int(declared.constant_of(stated, base).value)
+    for name, number in shown[len(known.members) :]:
+        data = number.to_bytes(base.size, "little", signed=base.signed)
+        known.place(Member(name, base, Section.VAR, stated.span, initial=data, constant=True))
+    declared.owners.append(known)
+    try:
+        return int(declared.constant_of(stated, base).value)
+    finally:
+        declared.owners.pop()
 
 
 def subrange(declared: Declarations, spec: tree.SubrangeSpec, name: str) -> Subrange:

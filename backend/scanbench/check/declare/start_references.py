@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 
 from scanbench.check.context import Rejected
-from scanbench.check.declare.declarations import Afresh, Declarations, Start, StartReference
+from scanbench.check.declare.declarations import Afresh, Declarations, Given, Start, StartExpression, StartReference
 from scanbench.check.dialect import Allowance, said
 from scanbench.problems import Span
 from scanbench.program.program import Base, Expr, Place, RefOf
@@ -93,15 +93,15 @@ class Held:
                     found |= _moved(self.of(start.given.type), at)
         return found
 
-    def changed(self, type: Type, given: Sequence[StartReference | Afresh]) -> list[StartReference | Afresh]:
+    def changed(self, type: Type, given: Sequence[Given]) -> list[Given]:
         """The same without each `Afresh` that changes no reference of a variable of this type."""
-        if all(isinstance(each, StartReference) for each in given):
+        if not any(isinstance(each, Afresh) for each in given):
             return [*given]
         found = self.of(type)
         return [
             each
             for each in given
-            if isinstance(each, StartReference) or any(each.offset + slot in found for slot in slots(each.type))
+            if not isinstance(each, Afresh) or any(each.offset + slot in found for slot in slots(each.type))
         ]
 
 
@@ -152,7 +152,10 @@ def own_references(declared: Declarations, type: Type) -> dict[int, tuple[RefOf,
 
 def refers(declared: Declarations, type: Reference, initial: tree.Initial) -> bool:
     """Whether a reference starts with a variable: `REF(x)`, or where the dialect has it so, `x` and `THIS`."""
-    if isinstance(initial, tree.Call) or is_this(initial):
+    if isinstance(initial, tree.Call):
+        computed = Allowance.START_EXPRESSIONS in declared.dialect.allows
+        return not computed or is_this(initial) or shown(initial.callee).upper() in ("REF", "ADR")
+    if is_this(initial):
         return True
     direct = (type.automatic or _is_interface(type)) and Allowance.DIRECT_REFERENCES in declared.dialect.allows
     return direct and isinstance(initial, tree.Name | tree.MemberOf | tree.IndexOf) and shown(initial).upper() != "NULL"
@@ -162,11 +165,14 @@ def _is_interface(type: Type) -> bool:
     return isinstance(type, Reference) and isinstance(type.target, Record) and type.target.kind is Kind.INTERFACE
 
 
-def start_with(declared: Declarations, owner: Record, member: Member, given: Sequence[StartReference | Afresh]) -> None:
-    """Notes the references that the variable, or what is in it, starts with."""
+def start_with(declared: Declarations, owner: Record, member: Member, given: Sequence[Given]) -> None:
+    """Notes the references that the variable, or what is in it, starts with, and what is computed."""
     for each in given:
         if isinstance(each, Afresh):
             declared.start_references.append(Start(owner, member, each))
+            continue
+        if isinstance(each, StartExpression):
+            _compute(declared, owner, member, each)
             continue
         node, name = each.node, each.name or member.name
         if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
@@ -176,6 +182,17 @@ def start_with(declared: Declarations, owner: Record, member: Member, given: Seq
             instead = f"`{name} := {shown(node)};` in the body"
             declared.report.warn("W006", said(declared.dialect, Allowance.DIRECT_REFERENCES, used, instead), node.span)
         declared.start_references.append(Start(owner, member, each))
+
+
+def _compute(declared: Declarations, owner: Record, member: Member, given: StartExpression) -> None:
+    """Notes a start value that is no constant; a constant, a member of a structure and an input of a function have none."""
+    called = owner.kind is not Kind.BLOCK and member.section is Section.INPUT
+    if member.constant or member.section is Section.MEMBER or called:
+        declared.constant_of(given.node, given.type)  # tells what is wrong
+        raise declared.report.reject("D004", "A constant is needed here: a literal or a CONSTANT.", given.node.span)
+    used = f"The start value of `{member.name}` is computed"
+    declared.report.warn("W006", said(declared.dialect, Allowance.START_EXPRESSIONS, used), given.node.span)
+    declared.computed.setdefault((owner.name.upper(), member.name.upper()), []).append(given)
 
 
 def is_this(node: tree.Initial) -> bool:

@@ -45,9 +45,12 @@ class Life:
     pous: Pous
     globals: Record
     scope_of: ScopeOf
-    code: Code = field(default_factory=lambda: Code(Needs()))
+    code: Code = field(init=False)
     made: bool = False
     """Whether the bodies are there."""
+
+    def __post_init__(self) -> None:
+        self.code = Code(Needs(self.declarations.computed))
 
     def declare(self) -> Code:
         """What each block needs that has something to initialise; the bodies of all POUs may call it."""

@@ -1,6 +1,6 @@
 """Which types have something to initialise besides their bytes."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 
 from scanbench.check.declare.creations import MADE
@@ -11,6 +11,8 @@ from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Ty
 class Needs:
     """Looks at each type once."""
 
+    computed: Container[tuple[str, str]] = ()
+    """The variables whose start values are computed, see `Declarations`."""
     _known: dict[int, bool] = field(default_factory=dict)
     _kept: list[Record] = field(default_factory=list)
     """So that no other gets the identity of a record that was looked at."""
@@ -31,14 +33,21 @@ class Needs:
     def _in(self, record: Record) -> bool:
         """Whether something in it needs it: in its base, or in what it has besides."""
         if record.base is None:
-            return any(self.of(each.type) for each in held(record))
+            return any(self._has(record, each) for each in held(record))
         known = record.base.members
         own = [member for key, member in record.members.items() if key not in known]
-        return self.of(record.base) or any(self.of(each.type) for each in own if _is_held(each))
+        return self.of(record.base) or any(self._has(record, each) for each in own if _is_held(each))
+
+    def _has(self, record: Record, member: Member) -> bool:
+        return self.computes(record, member) or self.of(member.type)
+
+    def computes(self, record: Record, member: Member) -> bool:
+        """Whether the start value of the variable, or of a part of it, is computed."""
+        return bool(self.computed) and ((member.home or record.name).upper(), member.name.upper()) in self.computed
 
     def members(self, record: Record) -> list[Member]:
         """The variables of a record that need it, in order of declaration."""
-        return [each for each in held(record) if self.of(each.type)]
+        return [each for each in held(record) if self._has(record, each)]
 
 
 def has_made(record: Record) -> bool:

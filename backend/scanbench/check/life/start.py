@@ -11,6 +11,7 @@ from scanbench.check.declare.classes import Class
 from scanbench.check.declare.creations import FB_REINIT, MADE, Arguments, Creation, is_called
 from scanbench.check.declare.life_rules import extra_inputs, init_of, is_whole
 from scanbench.check.declare.scopes import decode
+from scanbench.check.declare.section_order import named_variables
 from scanbench.check.declare.start_references import own_references, refers
 from scanbench.check.life.code import Code
 from scanbench.check.life.explicit import Explicit, explicit
@@ -73,12 +74,38 @@ class Writer:
         for member in members:
             creation = self.body.declarations.creations.of(record, member)
             try:
-                made += self._member(member, creation, fresh)
+                made += self._member(record, member, creation, fresh)
             except Rejected:
                 continue
         return made
 
-    def _member(self, member: Member, creation: Creation, fresh: bool) -> list[Stmt]:
+    def computed(self, record: Record, member: Member) -> list[Stmt]:
+        """What the variable, or a part of it, starts with that has to be computed."""
+        key = (member.home or record.name).upper(), member.name.upper()
+        place, made = self.place_of(member), list[Stmt]()
+        for each in self.body.declarations.computed.get(key, ()):
+            span, type = member.span, each.type  # as all that initialises a variable: no statement of its own
+            self._only_above(record, member, each.node)
+            value = as_argument(self.body, each.node, type, f"`{member.name}`")
+            target = replace(place, type=type, offset=place.offset + each.offset)
+            one: Stmt = Assign(target, value, span)
+            kept = self.passed_on and member.retain
+            made.append(If(((self.body.expression(self._input(RETAINS, span)), (one,)),), (), span) if kept else one)
+        return made
+
+    def _only_above(self, record: Record, member: Member, node: tree.Expression) -> None:
+        """What is declared further down has no value yet in the vendors' tools, or has it already: their documentation does not say."""
+        order = [*record.members]
+        below = set(order[order.index(member.name.upper()) + 1 :])
+        for name in named_variables(node):
+            if name.upper() in below and not record.members[name.upper()].constant:
+                self.body.report.error(
+                    "D004",
+                    f"`{name}` is declared below `{member.name}`, whose start value needs it; declare it above.",
+                    node.span,
+                )
+
+    def _member(self, record: Record, member: Member, creation: Creation, fresh: bool) -> list[Stmt]:
         place = self.place_of(member)
         values = list(explicit(creation.initial, member.type, member.retain, self._count))
         # what is given from outside is not there yet when FB_init runs
@@ -96,6 +123,7 @@ class Writer:
             )
             raise Rejected
         last = self._after(place, member.type, creation.span) if fresh else []
+        after += self.computed(record, member) if fresh else []
         return [
             *before,
             *self.walk(place, member.type, creation.arguments, elements, creation.span, fresh),
@@ -139,9 +167,9 @@ class Writer:
     def _input(self, name: str, span: Span) -> tree.Expression:
         return tree.Name(name, span) if self.passed_on else tree.Literal("bool", int(name == RETAINS), None, span)
 
-    def whole(self, place: Place, type: Type, span: Span) -> list[Stmt]:
+    def whole(self, place: Place, type: Type, span: Span, arguments: Arguments = ()) -> list[Stmt]:
         """For something new that no declaration gives values to."""
-        return [*self.walk(place, type, (), [], span, True), *self._after(place, type, span)]
+        return [*self.walk(place, type, arguments, [], span, True), *self._after(place, type, span)]
 
     # ---- what is in a variable --------------------------------------------------------------------------
 
