@@ -83,7 +83,7 @@ def run(
     """
     sources = read_sources([path], dialect)
     program, problems = _compiled(sources, find_model(model, sources), read_interval(interval), as_json)
-    commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine)
+    commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine, scans)
     shown = [(each, find_symbol(program, each)) for each in show]
     begun: list[Resource] = []
     condition = None if until is None else read_condition(program, until)
@@ -143,8 +143,8 @@ def _compiled(
     raise typer.Exit(1)
 
 
-def _commands(program: Program, options: Options, engine: EngineChoice) -> list[tuple[int, Command]]:
-    commands = read_commands(program, options)
+def _commands(program: Program, options: Options, engine: EngineChoice, scans: int) -> list[tuple[int, Command]]:
+    commands = read_commands(program, options, scans)
     lines = any(isinstance(each, Arm) and each.wanted.start.kind == "line" for _, each in commands)
     if lines and engine is EngineChoice.BOTH:
         usage("--engine both cannot wait for a line: code that notes statements runs on one engine")

@@ -35,8 +35,9 @@ def read_interval(text: str) -> int:
     return interval
 
 
-def read_commands(program: Program, options: Options) -> list[tuple[int, Command]]:
-    """(scan, command) in the order of the scans; for one scan: sets, forces, errors raised, errors cleared."""
+def read_commands(program: Program, options: Options, scans: int) -> list[tuple[int, Command]]:
+    """(scan, command) in the order of the scans; for one scan: sets, forces, errors raised, errors cleared. What comes after all
+    of `scans` would never be applied, and is refused."""
     verbs = {
         "--set": "write",
         "--force": "force",
@@ -49,6 +50,8 @@ def read_commands(program: Program, options: Options) -> list[tuple[int, Command
     for (option, verb), texts in zip(verbs.items(), astuple(options), strict=True):
         for text in texts:
             body, scan = before_scan(text)
+            if scan > scans:
+                usage(f"{option} {text}: there are only {scans:,} scans, from 0, so it would never be applied")
             try:
                 made.append((scan, read_command(program, verb, body)))
             except BadCommand as error:

@@ -1,6 +1,7 @@
 """`scanbench verify`: the scans of a run, or of a real controller's trace, compared with a second execution."""
 
 import re
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import NoReturn
@@ -116,6 +117,8 @@ def _end(report: Report, stopped: "_Stopped | None", lost: bool) -> NoReturn:
         raise typer.Exit(1)
     if stopped is None and not report.head.compared:
         usage("nothing of these scans could be compared")
+    if stopped is None and report.idle:
+        usage(f"{report.head.title} did not run in any of these scans: nothing of it was compared")
     raise typer.Exit(stopped.code if stopped is not None else PARTLY if lost or report.head.partly else 0)
 
 
@@ -148,14 +151,16 @@ def _verified(
     kept = f"{subject.trace or subject.instance} has scans {begin} to {end - 1}"
     if begin >= end:
         usage(f"{subject.trace or subject.instance} has no scan that is over")
-    first, last = begin if first is None else first, end - 1 if last is None else last
+    if last is None:
+        last = SCANS - 1 if subject.trapped else end - 1
+    first = begin if first is None else first
     if not begin <= first < end:
         usage(f"{kept}: scan {first} is none of them")
-    stopped = None
+    unreached = 0
     if last >= end:
         if not subject.trapped:
             usage(f"{kept}: scan {last} is none of them")
-        last = end - 1
+        unreached, last = last - end + 1, end - 1
     try:
         begun = verifier.begin(wanted, limit, first)
     except BadRange as error:
@@ -166,7 +171,8 @@ def _verified(
         typer.echo(f"scanbench: {begun.note}", err=True)
     collected = Collected()
     stopped = _run(subject, collected, first, last)
-    return collected.report(_head(subject, begun, collected, first, last, stopped, limit)), stopped
+    head = _head(subject, begun, collected, first, last, stopped, limit)
+    return collected.report(replace(head, unreached=unreached)), stopped
 
 
 def _run(subject: Subject, collected: Collected, first: int, last: int) -> _Stopped | None:

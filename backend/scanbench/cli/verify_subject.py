@@ -158,7 +158,7 @@ def _program(given: Given) -> tuple[Program, dict[str, str]]:
 def ran(given: Given, path: Path) -> tuple[Program, str]:
     """Runs the project and records it; gives the program, and what a report should say about the run."""
     program, files = _program(given)
-    commands = read_commands(program, given.options)
+    commands = read_commands(program, given.options, given.scans)
     with recorded(path, program, files, read_interval(given.interval)) as recording:
         result: HeadlessRun[None] = run_headless(
             program, given.scans, leaving(NativeEngine), commands, detect=Detection(),

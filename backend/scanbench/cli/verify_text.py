@@ -42,7 +42,7 @@ def verify_text(report: Report) -> Iterator[str]:
             f"the record was full in {count(head.full, 'scan')}: what a scan used beyond {head.limit:,} uses of variables was not "
             "compared; --limit keeps more"
         )
-    yield _summary(head)
+    yield _summary(report)
 
 
 def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
@@ -69,17 +69,19 @@ def _coverage(coverage: VerifyCoverage) -> Iterator[str]:
             yield f"{what}: {', '.join(names[:NAMES])}{', ...' if len(names) > NAMES else ''}"
 
 
-def _summary(head: ReportHead) -> str:
-    same = "no difference in what was compared" if head.skipped else "no difference"
+def _summary(report: Report) -> str:
+    head = report.head
+    same = "no difference in what was compared" if head.skipped or head.unreached else "no difference"
     if head.coverage is not None and head.coverage.ungiven:
         same += f", if {count(len(head.coverage.ungiven), 'input')} without a column had the start value"
     came = f"{count(head.differing, 'row')} differ" if head.differing else same
-    if not head.compared and not head.differing:
-        came = "nothing was compared"
+    if not head.differing and (report.idle or not head.compared):
+        came = "nothing was compared, as the range did not run in them" if report.idle else "nothing was compared"
     skipped = f", {head.skipped:,} not compared ({_stretches(head)})" if head.skipped else ""
+    unreached = f", {head.unreached:,} that were asked for did not run" if head.unreached else ""
     return (
         f"{head.project} on {head.model}, {head.title}: scans {head.first} to {head.last}, "
-        f"{head.compared:,} compared{skipped}: {came}"
+        f"{0 if report.idle else head.compared:,} compared{skipped}{unreached}: {came}"
     )
 
 

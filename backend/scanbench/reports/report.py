@@ -53,6 +53,8 @@ class ReportHead:
     """What else a reader should know: how the trace was mapped, why it ended early."""
     full: int = 0
     """Scans of those skipped in which uses of variables found no room in the record."""
+    unreached: int = 0
+    """Scans that were asked for and did not run, as a run-time error had ended the program."""
     sampled: bool = False
     """Of a log or a controller of which only some scans are known, so that those in between were not asked for."""
 
@@ -63,7 +65,7 @@ class ReportHead:
         taken_over = bool(self.trace and self.stretches and self.stretches[0][0] == self.first)
         ungiven = self.coverage is not None and bool(self.coverage.ungiven)
         skipped = self.full if self.sampled else self.skipped - taken_over
-        return skipped > 0 or ungiven
+        return skipped > 0 or ungiven or self.unreached > 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +79,11 @@ class Report:
     inputs: tuple[str, ...] = ()
     """Names of columns that were read before they were written, in some row."""
     outputs: tuple[str, ...] = ()
+
+    @property
+    def idle(self) -> bool:
+        """Whether the range did not run in any of the scans, so that nothing of it was compared."""
+        return not self.columns and all(row.kind == "none" for row in self.rows)
 
     def ordered(self) -> tuple[Column, ...]:
         """Outputs, then inputs, as in the table of the panel; each column once."""

@@ -57,14 +57,16 @@ class _Document:
             mark, word = "differs", "differences_found"
         else:
             found = ("none", "no_difference_partly") if head.partly else ("same", "no_difference")
-            mark, word = found if head.compared else ("none", "nothing_compared")
+            mark, word = found if head.compared and not self._report.idle else ("none", "nothing_compared")
         numbers = [("compared", head.compared), ("skipped", head.skipped), ("differing", head.differing)]
         items = "".join(f"<li><b>{count:,}</b>{self._word(name)}</li>" for name, count in numbers)
         skipped = ", ".join(str(first) if first == last else f"{first} – {last}" for first, last in head.stretches)
         notes = [self._word("skipped_text", stretches=skipped) if skipped else ""]
         if head.coverage is not None and head.coverage.ungiven:
             notes.append(self._word("ungiven_text"))
-        if head.compared and not head.skipped:
+        if self._report.idle and not head.differing:
+            notes.append(self._word("idle"))
+        elif head.compared and not head.skipped and not head.unreached:
             notes.append(self._word("all_compared"))
         if head.forgotten:
             notes.append(self._word("forgotten", count=f"{head.forgotten:,}"))

@@ -23,18 +23,19 @@ def report_object(report: Report) -> dict[str, Json]:
     return {
         "format": FORMAT,
         **_head(report.head),
-        "same": _same(report.head),
+        "same": _same(report),
         "columns": [_column(each, report) for each in report.ordered()],
         "differences": [_difference(row, each, report.columns) for row, each in report.differences()],
         "rows": [_row(row, columns) for row in report.rows],
     }
 
 
-def _same(head: ReportHead) -> bool | None:
+def _same(report: Report) -> bool | None:
     """None: there is no verdict, as nothing was compared, or not all that was asked."""
+    head = report.head
     if head.differing:
         return False
-    return None if head.partly or not head.compared else True
+    return None if head.partly or not head.compared or report.idle else True
 
 
 def _head(head: ReportHead) -> dict[str, Json]:
@@ -42,7 +43,7 @@ def _head(head: ReportHead) -> dict[str, Json]:
         "tool": head.tool, "project": head.project, "instance": head.instance, "model": head.model, "by": head.by,
         "when": head.when, "program_version": head.version, "range": head.title, "source": head.source,
         "trace": head.trace or None, "interval_ns": head.interval_ns, "first": head.first, "last": head.last,
-        "compared": head.compared, "skipped": head.skipped,
+        "compared": head.compared, "skipped": head.skipped, "not_reached": head.unreached,
         "skipped_stretches": [[first, last] for first, last in head.stretches],
         "limit": head.limit, "differing_rows": head.differing, "rows_left_out": head.forgotten,
         "note": head.note or None, "coverage": _coverage(head.coverage),

@@ -281,11 +281,30 @@ def test_a_run_that_traps_is_verified_up_to_there(project: Path) -> None:
         "PROGRAM Main\nVAR n : INT; a : ARRAY[0..9] OF INT; END_VAR\n  n := n + 1;\n  a[n] := 1 / (7 - n);\nEND_PROGRAM\n"
     )
     result = scanbench("verify", str(project), "--json")
-    assert result.returncode == 0, result
+    assert result.returncode == 4, result
     told = json.loads(result.stdout)
     assert "trap" in told["note"]
-    assert told["same"] is True
-    assert told["last"] == 6
+    assert told["same"] is None, "not all that was asked for was compared"
+    assert (told["last"], told["not_reached"]) == (6, 993)
     text = scanbench("verify", str(project)).stdout
     assert "scan 6: ended by a run-time error" in text
-    assert "scans 0 to 6, 7 compared: no difference" in text
+    assert "scans 0 to 6, 7 compared, 993 that were asked for did not run: no difference in what was compared" in text
+
+
+def test_a_range_that_never_runs_is_not_compared(project: Path) -> None:
+    (project / "never.st").write_text(
+        "FUNCTION_BLOCK Never\nVAR n : INT; END_VAR\nn := n + 1;\nEND_FUNCTION_BLOCK\n"
+        "PROGRAM Other\nVAR f : Never; on : BOOL; END_VAR\nIF on THEN f(); END_IF;\nEND_PROGRAM\n"
+    )
+    result = scanbench("verify", str(project), "--range", "Never", "--scans", "..9", "--json")
+    assert result.returncode == 2, result
+    assert "Never did not run in any of these scans" in result.stderr
+    assert json.loads(result.stdout)["same"] is None
+    text = scanbench("verify", str(project), "--range", "Never", "--scans", "..9").stdout
+    assert "0 compared: nothing was compared" in text
+
+
+def test_a_command_after_the_last_scan_is_refused(project: Path) -> None:
+    result = scanbench("verify", str(project), "--scans", "0..5", "--set", "Main.wanted=1@9")
+    assert (result.returncode, result.stdout) == (2, "")
+    assert "--set Main.wanted=1@9: there are only 6 scans" in result.stderr
