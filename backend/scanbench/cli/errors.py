@@ -356,11 +356,13 @@ def compare_sweeps(
 ) -> None:
     """Compare two sweeps, by error and state.
 
-    Exit 0; 1: something is worse or gone; 2: wrong usage; 4: nothing is, but the sweeps were not made alike: on
-    different models, with different windows, or from states at other scans.
+    Exit 0; 1: something is worse or gone; 2: wrong usage, or neither has an error; 4: nothing is, but the sweeps
+    were not made alike: on different models, with different windows, or from states at other scans.
     """
     sweeps = _read_sweep(before), _read_sweep(after)
     changes = compare(sweeps[0][1], sweeps[1][1])
+    if not changes:
+        usage("neither sweep has an error: nothing was compared")
     apart = conditions_apart(sweeps[0][0], sweeps[1][0])
     if as_json:
         told = [asdict(each) for each in changes]

@@ -432,6 +432,10 @@ def test_two_sweeps_compared(project: Path) -> None:
     assert apart.stdout.count("not made alike: ") >= 3
     assert "watched for" in apart.stdout
     assert "the state Start was at scan" in apart.stdout
+    after.write_text(json.dumps({**told, "results": []}), "utf-8")
+    nothing = scanbench("errors", "compare", str(after), str(after))
+    assert (nothing.returncode, nothing.stdout) == (2, "")
+    assert "neither sweep has an error" in nothing.stderr
     page = project / "page.html"
     page.write_text("<!doctype html>")
     for other in (page, project / "project.json"):
