@@ -19,7 +19,7 @@ test('the tour: the sample is tried step by step, each step done at the real con
   await test.step('a write', async () => {
     await expect(tour).toContainText('type TRUE');
     await mika.watch.set('start', 'TRUE');
-    await expect(tour).toContainText('motor became TRUE');
+    await expect(tour).toContainText('motor becomes TRUE');
     await next();
   });
 

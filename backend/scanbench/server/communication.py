@@ -167,8 +167,12 @@ class Communication:
             raise Refused(f"{session.model.name} does not speak {SERVER_NAMES[kind]}", tuple(unit.servers))
         _refuse_wrong(wanted)
         async with unit.turning:
-            await _close(unit.servers[kind])
-            unit.servers[kind] = _Running(wanted, fault=unit.servers[kind].fault)
+            before = unit.servers[kind]
+            listens = before.server is not None and wanted.on
+            same = (wanted.host, wanted.port) == (before.wanted.host, before.wanted.port)
+            await _close(before)
+            # clients find it where they know it, also where any port was wanted
+            unit.servers[kind] = _Running(wanted, fault=before.fault, port=before.port if listens and same else 0)
             await self._turn(unit, kind)
             await self._keep(unit)
         session.log.add(author, _told(kind, unit.servers[kind]), "system")

@@ -219,7 +219,8 @@ class Projects:
             if session.state.state != "off" and (instances is None or session.id in instances)
         ]
         if await self._runs_already(project, sources, sessions):
-            return BuildOutcome(True, f"nothing to build: version {project.version} is what is saved", found, project)
+            said = f"nothing to build: version {project.version} is what is saved"
+            return BuildOutcome(True, "; ".join([said, *await self._not_built(id)]), found, project)
         build = Sources(project.model, sources, INTERVAL_NS, project.version + 1)
         self._checker.keep(build)
         changes = await self._changes(sessions, build)
@@ -234,8 +235,13 @@ class Projects:
         willing = [session for session in sessions if session.id not in refused]
         acks = await asyncio.gather(*(session.build(build, author) for session in willing))
         done = [f"{session.name}: {ack.message}" for session, ack in zip(willing, acks, strict=True)]
-        said = "; ".join([f"version {build.version} built", *done, *lines])
+        said = "; ".join([f"version {build.version} built", *done, *lines, *await self._not_built(id)])
         return BuildOutcome(all(ack.ok for ack in acks), said, found, await self.get(id), changes)
+
+    async def _not_built(self, id: int) -> list[str]:
+        """Says which files have a text that somebody edited and nobody saved: a build takes what is saved."""
+        unsaved = await self.drafts.unsaved(id)
+        return [f"not built, as nobody saved it: what was edited in {', '.join(unsaved)}"] if unsaved else []
 
     async def _runs_already(self, project: ProjectRow, sources: Mapping[str, str], sessions: Sequence[Session]) -> bool:
         """Whether a build would change nothing; one that stopped by an error is begun again by a build."""

@@ -9,7 +9,7 @@ import pytest
 from scanbench.history.scenario import ENDING, BadScenario, project_of, read_scenario
 from scanbench.testing.play import play
 from scanbench.testing.plc import Plc, PlcFailure
-from scanbench.testing.plugin import read_project
+from scanbench.testing.plugin import named_project, read_project
 
 __all__ = ["ENDING", "ScenarioFile"]
 
@@ -35,7 +35,10 @@ class ScenarioItem(pytest.Item):
             scenario = read_scenario(self.path.read_text("utf-8"))
         except BadScenario as error:
             pytest.fail(f"{self.path}: {error}", pytrace=False)
-        project = read_project(project_of(self.path, scenario), self.config.getoption("--scanbench-engine"))
+        # as a test does: what the file itself says, else the option, else pytest.ini, else its folder
+        named = named_project(self.config) if scenario.project == "." else None
+        path = project_of(self.path, scenario) if named is None else named.resolve()
+        project = read_project(path, self.config.getoption("--scanbench-engine"))
         self._folder = TemporaryDirectory()
         self.plc = Plc(project, Path(self._folder.name) / "scenario.scanrun")
         failed = play(self.plc, scenario)

@@ -67,13 +67,18 @@ def project(request: pytest.FixtureRequest) -> "Project":
     config, mark = request.config, request.node.get_closest_marker("scanbench")
     if mark is not None:
         path = request.path.parent / (mark.args[0] if mark.args else mark.kwargs["project"])
-    elif config.getoption("--scanbench-project"):
-        path = config.invocation_params.dir / config.getoption("--scanbench-project")
-    elif config.getini("scanbench_project"):
-        path = config.rootpath / config.getini("scanbench_project")
     else:
-        path = request.path.parent
+        path = named_project(config) or request.path.parent
     return read_project(path.resolve(), config.getoption("--scanbench-engine"))
+
+
+def named_project(config: pytest.Config) -> Path | None:
+    """The folder or file of the program that the option names, else pytest.ini; None where neither does."""
+    if config.getoption("--scanbench-project"):
+        return config.invocation_params.dir / str(config.getoption("--scanbench-project"))
+    if config.getini("scanbench_project"):
+        return config.rootpath / str(config.getini("scanbench_project"))
+    return None
 
 
 @pytest.fixture

@@ -10,6 +10,9 @@ pytest_plugins = ["pytester"]
 LOADED = plc, project
 """A run of pytester forgets the modules that it loads, and some of them cannot be loaded twice."""
 
+INI = "[pytest]\naddopts = -p no:cacheprovider -p no:asyncio -p no:pytest-lsp\n"
+"""`pytest-lsp` takes only tests that are functions."""
+
 PROGRAM = """
 VAR_GLOBAL start AT CIO 0.00 : BOOL; motor AT CIO 100.00 : BOOL; lamp AT CIO 100.01 : BOOL; battery AT A402.04 : BOOL; END_VAR
 PROGRAM Main
@@ -82,7 +85,7 @@ def test_trap(plc):
 @pytest.fixture(autouse=True)
 def _quiet(pytester: pytest.Pytester) -> None:
     """What a different plugin of ours wants to be told."""
-    pytester.makeini("[pytest]\naddopts = -p no:cacheprovider -p no:asyncio\n")
+    pytester.makeini(INI)
 
 
 @pytest.fixture
@@ -129,3 +132,16 @@ def test_a_mark_names_the_project(pytester: pytest.Pytester) -> None:
         test_it="import pytest\n@pytest.mark.scanbench('plant')\ndef test_it(plc):\n  plc.run(2)\n  assert plc.value('Main.n') == 4"
     )
     pytester.runpytest_inprocess().assert_outcomes(passed=1)
+
+
+@pytest.mark.parametrize("said", ["option", "ini"])
+def test_a_scenario_elsewhere_is_of_the_named_project(pytester: pytest.Pytester, folder: Path, said: str) -> None:
+    """As the page makes it: a file that names no project, in a folder of its own."""
+    tests = pytester.mkdir("downloads")
+    (tests / "line-1.scenario.yaml").write_text(
+        "scans: 5\nsteps:\n- {at: 1, do: write start=TRUE}\nexpect:\n- {after: 3, holds: motor}\n"
+    )
+    if said == "ini":
+        pytester.makeini(f"{INI}scanbench_project = .\n")
+    named = ["--scanbench-project", str(folder)] if said == "option" else []
+    pytester.runpytest_inprocess(*named, str(tests)).assert_outcomes(passed=1)

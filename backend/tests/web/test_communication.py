@@ -78,6 +78,13 @@ def recover_battery_error(server: Server, instance: int) -> None:
     server.http.post(f"/api/instances/{instance}/errors/recover", json=wanted).raise_for_status()
 
 
+def test_other_rights_leave_any_port_as_it_is(server: Server) -> None:
+    instance = server.instance("any-port", MODEL, main=SOURCE)
+    port = switch_on(server, instance, "modbus", access="read")
+    assert switch_on(server, instance, "modbus", access="write") == port
+    assert seen(server, instance, "modbus")["settings"]["access"] == "write"
+
+
 def test_a_fins_client_reads_writes_is_refused_and_sees_errors(server: Server) -> None:
     instance = server.instance("fins", MODEL, main=SOURCE)
     client = fins(switch_on(server, instance, "fins"))

@@ -5,8 +5,10 @@ import os
 import signal
 import subprocess
 import sys
+from base64 import b64decode, b64encode
 from pathlib import Path
 
+from scanbench.server.draft import Draft
 from tests.amounts import slow
 from tests.web.server import Browser, Message, Server
 
@@ -389,6 +391,22 @@ def test_the_past_has_the_errors_of_then(server: Server) -> None:
         browser.wait(lambda: status() == "generated")
         assert browser.ask(type="travel", scan=None)["ok"]
         browser.wait(lambda: status() == "cleared")
+
+
+def test_a_build_says_what_nobody_saved(server: Server) -> None:
+    instance = server.instance("unsaved", MODEL, main=COUNT)
+    project = next(each for each in server.http.get("/api/projects").json() if each["name"] == "unsaved")["id"]
+    with server.browser(instance) as ada:
+        assert ada.ask(type="open_draft", path="main.st")["ok"]
+        opened = ada.wait_for("draft", path="main.st")
+        draft = Draft(opened["draft"], [b64decode(opened["update"])])
+        update = b64encode(draft.become(f"{COUNT}// more\n")).decode()
+        assert ada.ask(type="edit_draft", path="main.st", draft=draft.key, update=update)["ok"]
+    built = server.http.post(f"/api/projects/{project}/build").json()
+    assert built["ok"]
+    assert built["message"].endswith("; not built, as nobody saved it: what was edited in main.st")
+    server.http.put(f"/api/projects/{project}/files/main.st", json={"text": f"{COUNT}// more\n", "version": 1})
+    assert "not built" not in server.http.post(f"/api/projects/{project}/build").json()["message"]
 
 
 def test_a_build_of_what_runs_changes_nothing(server: Server) -> None:

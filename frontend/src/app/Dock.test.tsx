@@ -2,9 +2,11 @@ import { act, render, screen, waitFor } from "@testing-library/react";
 import type { IDockviewPanelProps } from "dockview-react";
 import { expect, test } from "vitest";
 import { openFile, openPage as show, useNavigation } from "../store/page/navigate";
+import { chooseProject } from "../store/plc/bench";
 import { useDocuments } from "../store/project/documents";
 import { box } from "../testing/find";
 import { openPage } from "../testing/page";
+import { MODEL } from "../testing/samples";
 import type { FakeServer } from "../testing/server";
 import { t } from "../text";
 import type { HaltInfo, Pou } from "../wire/types";
@@ -54,6 +56,21 @@ test("a page stays the one that is shown when the first file opens by itself, an
   render(<Dock ref={null} />);
   await tabOf("Main.st");
   expect(page()).not.toBeNull();
+});
+
+test("a different project shows its program, and not the page that was open", async () => {
+  const { server } = await openPage((server) => {
+    const none = { errors: [], groups: [], version: 0, readable: true, problems: [] };
+    server.on("GET", "/projects/*/user-errors", () => none);
+    server.on("GET", "/models/*", () => MODEL);
+    server.on("POST", "/projects/*/check", () => ({ checks: [], tasks: [], pous: [MAIN], problems: [] }));
+  });
+  render(<Dock ref={null} />);
+  await tabOf("Main.st");
+  act(() => show("usererrors"));
+  await waitFor(() => expect(page()).not.toBeNull());
+  await chooseProject({ ...server.instance.project, id: 4711 });
+  await waitFor(() => expect(page()).toBeNull());
 });
 
 /** A project with two files, of which the program is open, and the caret is in its text. */

@@ -155,14 +155,15 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
     if (!dock || project === null) return;
     const kept = recall<{ project: number; files: string[] }>("files", { project, files: [] });
     const wanted = kept.project === project ? kept.files : recall<string[]>(`files.${project}`, []);
-    closeFiles(dock, (path) => kept.project !== project || !wanted.includes(path));
+    const switched = kept.project !== project;
+    closeFiles(dock, (path) => switched || !wanted.includes(path));
     // Files of the restored layout are there, each part of a split with its own tab in front.
     const shown = new Set(dock.panels.map((panel) => fileOf(panel.id)));
     for (const path of wanted) if (!shown.has(path)) openFilePanel(dock, path);
     const front = recall<string>(`front.${project}`, "");
     if (wanted.includes(front)) {
-      if (kept.project === project) offerFilePanel(dock, front);
-      else openFilePanel(dock, front);
+      if (switched) openFilePanel(dock, front);
+      else offerFilePanel(dock, front);
       inFrontIs(front); // the dock tells nothing where it was in front already
     }
     const inFront = useDocuments.subscribe(({ active }, before) => {
@@ -177,11 +178,11 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
       if (now.project !== project || now.files === before.files) return;
       const known = new Set(now.files.map((file) => file.path));
       closeFiles(dock, (path) => !known.has(path) && !holdsUnsaved(path));
-      if (before.files.length === 0 && !dock.panels.some((panel) => fileOf(panel.id))) openFirst(dock);
+      if (before.files.length === 0 && !dock.panels.some((panel) => fileOf(panel.id))) openFirst(dock, switched);
     });
     const pous = useDocuments.subscribe((now, before) => {
       if (before.pous.length === 0 && now.pous.length > 0 && !dock.panels.some((panel) => fileOf(panel.id)))
-        openFirst(dock);
+        openFirst(dock, switched);
     });
     return () => {
       inFront();
@@ -192,9 +193,9 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
   }, [api, project]);
 }
 
-/** When a project is opened for the first time, its first program is opened. */
-function openFirst(dock: DockviewApi): void {
+/** When a project is opened for the first time, its first program is opened; `front`: before the pages of the project before. */
+function openFirst(dock: DockviewApi, front: boolean): void {
   const { pous, files } = useDocuments.getState();
   const first = pous.find((pou) => pou.kind === "program")?.file ?? (pous.length > 0 ? files[0]?.path : undefined);
-  if (first) offerFilePanel(dock, first);
+  if (first) (front ? openFilePanel : offerFilePanel)(dock, first);
 }

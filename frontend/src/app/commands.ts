@@ -21,7 +21,7 @@ import {
 } from "../store/page/prefs";
 import { openTour } from "../store/page/tour";
 import { showInstances } from "../store/plc/instances";
-import { returnToLive, stepBack } from "../store/plc/timeline";
+import { returnToLive, saveScenarioNow, stepBack } from "../store/plc/timeline";
 import { openBreadcrumbs } from "../store/project/breadcrumbs";
 import { askBuildMessage } from "../store/project/buildMessage";
 import { showUnused } from "../store/project/cross";
@@ -82,6 +82,7 @@ export const GROUPS: Record<"file" | "run" | "window", readonly WindowCommand[]>
     { label: "command.pause", keys: "Ctrl+Alt+Pause", run: () => void step("pause") },
     { label: "run.scan", keys: "F8", run: singleScan },
     { label: "run.back", keys: "Shift+F8", run: stepBack },
+    { label: "scenario.now", run: saveScenarioNow },
     { label: "command.live", keys: "Shift+Escape", run: returnToLive },
     { label: "command.breakpoint", keys: "F9", run: toggleBreakpointHere },
     { label: "debug.over", keys: "F10", run: () => void step("next") },

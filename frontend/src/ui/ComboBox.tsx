@@ -36,6 +36,8 @@ interface Props<T extends Offer> {
   about?: string;
   /** Class of the list, which is then placed by the style sheet; without a class it floats above the page. */
   list?: string;
+  /** A mouse that moves chooses as the arrows do. */
+  pointed?: boolean;
   /** The accessible name of the list. */
   listed?: string;
 }
@@ -63,6 +65,10 @@ export function ComboBox<T extends Offer>(props: Props<T>) {
       ref={index === chosen ? intoView : null}
       className={`mi${index === chosen ? " on" : ""}`}
       onPointerDown={(event) => event.preventDefault()}
+      onPointerMove={({ movementX, movementY }) => {
+        // the list may come under a mouse that rests
+        if (props.pointed && index !== chosen && (movementX !== 0 || movementY !== 0)) offering.choose(index);
+      }}
       onClick={() => onTake(offer, "click")}
     >
       {(offer.type || offer.icon) && <Icon name={offer.icon ?? "var"} small />}

@@ -10,19 +10,24 @@ interface Props<T extends string> {
   disabled?: string | null;
   /** Additional classes; `sm` by default. */
   look?: string;
+  /** A choice acts on the PLC at once: the arrow keys only move the focus, and Space chooses. */
+  acts?: boolean;
   onChoose: (value: T) => void;
 }
 
-/** A choice between a few words; the arrow keys move along them. */
+/** A choice between a few words; the arrow keys choose, as they do in a radio group. */
 export function Segments<T extends string>(props: Props<T>) {
-  const { label, value, options, disabled = null, look = "sm", onChoose } = props;
+  const { label, value, options, disabled = null, look = "sm", acts = false, onChoose } = props;
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
     if (step === undefined) return;
     event.preventDefault();
     const radios = [...event.currentTarget.querySelectorAll<HTMLElement>("[role=radio]")];
     const now = radios.indexOf(document.activeElement as HTMLElement);
-    radios[(now + step + radios.length) % radios.length]?.focus();
+    const next = (now + step + radios.length) % radios.length;
+    radios[next]?.focus();
+    const chosen = options[next]?.value;
+    if (!acts && disabled === null && chosen !== undefined && chosen !== value) onChoose(chosen);
   }
   return (
     <span

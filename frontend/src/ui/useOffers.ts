@@ -13,8 +13,13 @@ export interface Offer {
 
 const DELAY = 80;
 
-/** Suggestions for the typed text: requested a moment after the last key, chosen by arrows. `complete` must stay the same function. */
-export function useOffers<T extends Offer>(complete: (text: string) => Promise<readonly T[]>, most?: number) {
+/** Suggestions for the typed text: requested a moment after the last key, chosen by arrows. `complete` must stay the same function.
+ * `first`: the first one is chosen already. */
+export function useOffers<T extends Offer>(
+  complete: (text: string) => Promise<readonly T[]>,
+  most?: number,
+  first = false,
+) {
   const id = useId();
   const [query, ask] = useState("");
   const [offers, setOffers] = useState<readonly T[]>([]);
@@ -34,7 +39,7 @@ export function useOffers<T extends Offer>(complete: (text: string) => Promise<r
         setOffers(found.slice(0, most));
         setOf(text);
         setNothing(found.length === 0);
-        setChosen(-1);
+        setChosen(first && found.length > 0 ? 0 : -1);
       };
       complete(text).then(show, () => show([]));
     }, DELAY);
@@ -42,7 +47,7 @@ export function useOffers<T extends Offer>(complete: (text: string) => Promise<r
       gone = true;
       clearTimeout(timer);
     };
-  }, [query, complete, most]);
+  }, [query, complete, most, first]);
 
   function close(): void {
     ask("");
@@ -62,7 +67,7 @@ export function useOffers<T extends Offer>(complete: (text: string) => Promise<r
     return true;
   }
 
-  return { id, offers, of, chosen, nothing, ask, show: setOffers, close, onKey };
+  return { id, offers, of, chosen, choose: setChosen, nothing, ask, show: setOffers, close, onKey };
 }
 
 export type Offering<T extends Offer> = ReturnType<typeof useOffers<T>>;

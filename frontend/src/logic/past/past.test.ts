@@ -58,6 +58,8 @@ describe("comparisons", () => {
     const here = instance(1, "line-1");
     const all = [here, instance(2, "press", 2), instance(3, "mixer"), instance(4, "line-2"), instance(5, "line-3")];
     expect(compareWith(here, all).map(({ id }) => id)).toEqual([5, 4, 3, 2]);
+    const elsewhere = { ...instance(6, "line-4"), project: { ...here.project, id: 3, model: "NJ501" } };
+    expect(compareWith(here, [here, elsewhere])).toEqual([]);
   });
 
   it("say what they found", () => {

@@ -31,7 +31,8 @@ export function compareWith(here: Instance, all: readonly Instance[]): Instance[
   const stem = stemOf(here.name);
   const rank = (other: Instance) =>
     other.project.id !== here.project.id ? 2 : stemOf(other.name) === stem || other.name.startsWith(stem) ? 0 : 1;
-  return all.filter(({ id }) => id !== here.id).sort((a, b) => rank(a) - rank(b) || b.id - a.id);
+  const fits = ({ id, project }: Instance) => id !== here.id && project.model === here.project.model;
+  return all.filter(fits).sort((a, b) => rank(a) - rank(b) || b.id - a.id);
 }
 
 const stemOf = (name: string) => name.replace(/-\d+$/, "");

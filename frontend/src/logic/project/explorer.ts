@@ -91,6 +91,13 @@ const NAMED = /^required\.reactions$/;
 /** What the file picker offers: files that the compiler reads, and operator panels. */
 export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.scl,.udt,.db,.csv,.panel.json,.reactions";
 
+/** Whether a file from this computer is one of a project, by its name. */
+export const isProjectFile = (name: string) =>
+  FILE_ENDINGS.split(",").some((ending) => name.toLowerCase().endsWith(ending));
+
+/** Whether it is a project as a whole: a zip, PLCopen or L5X file. */
+export const isWholeProject = (name: string) => /\.(zip|xml|l5x)$/i.test(name);
+
 /** A table of inputs, not a program. */
 export const isTable = (path: string) => TABLE.test(path);
 

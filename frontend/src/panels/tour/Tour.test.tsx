@@ -2,6 +2,7 @@ import { render, screen, waitFor } from "@testing-library/react";
 import { beforeEach, expect, test } from "vitest";
 import { openTour, useTour } from "../../store/page/tour";
 import { usePlc } from "../../store/plc/plc";
+import { useDocuments } from "../../store/project/documents";
 import { button, textOf } from "../../testing/find";
 import { openPage } from "../../testing/page";
 import { symbol } from "../../testing/samples";
@@ -15,7 +16,7 @@ const card = () => textOf(screen.getByRole("region", { name: t("tour.title") }))
 const at = (name: string) => STEPS.findIndex((step) => step.name === name);
 
 async function openAt(name: (typeof STEPS)[number]["name"]) {
-  const page = await openPage((server) => server.has(symbol("motor", "BOOL"), false));
+  const page = await openPage((server) => server.has(symbol("start", "BOOL"), false));
   useTour.setState({ open: true, at: at(name) });
   const { unmount } = render(<Tour />);
   return { ...page, unmount };
@@ -26,7 +27,7 @@ test("a step shows its panel, waits for the event whoever causes it, says what h
   expect(card()).toContain(t("tour.write"));
   expect(places).toEqual(["panel watch"]);
   expect(button(t("tour.skip"))).toBeDefined();
-  server.set("motor", true);
+  server.set("start", true);
   await waitFor(() => expect(card()).toContain(t("tour.write.done")));
   await user.click(button(t("tour.next")));
   expect(card()).toContain(t("tour.raise"));
@@ -73,4 +74,14 @@ test("after the last step it can begin again", async () => {
   expect(card()).toContain(t("tour.end"));
   await user.click(button(t("tour.close")));
   expect(useTour.getState()).toEqual({ open: false, at: 0 });
+});
+
+test("a different project is not called the sample", async () => {
+  await openAt("sample");
+  const sample = ["Main.st", "Belt.st"].map((path) => ({ path, version: 1, saved: "", author: "Ann" }));
+  useDocuments.setState({ files: sample });
+  await waitFor(() => expect(card()).toContain(t("tour.sample.done")));
+  useDocuments.setState({ files: sample.slice(1) });
+  await waitFor(() => expect(card()).toContain(t("tour.sample")));
+  expect(card()).not.toContain(t("tour.sample.done"));
 });

@@ -33,7 +33,7 @@ function Doing({ step, at }: { step: Step; at: number }) {
   useEffect(() => step.show(), [step]);
   useEffect(() => {
     const look = () => {
-      setDone((was) => was || step.done(before));
+      setDone((was) => (was && step.lasts !== true) || step.done(before));
       setPlace((was) => (samePlace(was, placeOf(step)) ? was : placeOf(step)));
     };
     look();

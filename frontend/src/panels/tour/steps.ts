@@ -18,6 +18,8 @@ export interface Step {
   /** What was there before the step; `done` compares with it. */
   before?: () => number;
   done: (before: number) => boolean;
+  /** It is done only as long as this is so: somebody may choose a different project. */
+  lasts?: boolean;
 }
 
 const ERROR = "basic-io-error";
@@ -25,7 +27,7 @@ const FILE = "Main.st";
 const LINE = 26;
 
 /** Variables whose values decide about steps. */
-export const WATCHED = ["motor"];
+export const WATCHED = ["start"];
 
 const find = (selector: string) => document.querySelector(selector);
 const named = (label: TextKey) => find(`.runset [aria-label="${t(label)}"]`);
@@ -49,12 +51,13 @@ export const STEPS: readonly Step[] = [
       const paths = useDocuments.getState().files.map(({ path }) => path);
       return paths.includes(FILE) && paths.includes("Belt.st");
     },
+    lasts: true,
   },
   {
     name: "write",
     show: () => showPanel("watch"),
     target: () => find(`[data-path="start"] input`),
-    done: () => currentText("motor") === "TRUE",
+    done: () => currentText("start") === "TRUE",
   },
   {
     name: "raise",

@@ -31,6 +31,8 @@ interface Run {
   /** The scan that the page is going to, until the PLC is there. */
   aim: number | null;
   refused: string | null;
+  /** Name of the test that was just made of the run, and downloaded. */
+  made: string | null;
   /** Where somebody wants to go who would take others along: they choose first. */
   asking: Moment | null;
   /** The scans that are selected, both included; null while none are. */
@@ -46,6 +48,7 @@ const nothing: Run = {
   follows: true,
   aim: null,
   refused: null,
+  made: null,
   asking: null,
   selection: null,
   read: "",
@@ -157,14 +160,22 @@ export function returnToLive(): void {
   if (usePlc.getState().state?.past) void travel(null);
 }
 
-/** Saves the file of a scenario: what people did before a scan, as a test. */
-export async function saveScenario(scan: number): Promise<void> {
+/** A test of what people did so far, or before the scan of the past that is shown. */
+export const saveScenarioNow = () => void saveScenario(usePlc.getState().state?.past ? readClock().scan : null);
+
+const TOLD_MS = 15_000;
+
+/** Saves the file of a scenario: what people did before a scan, or so far, as a test. */
+export async function saveScenario(scan: number | null): Promise<void> {
   const { instance } = useBench.getState();
   if (instance === null) return;
   try {
-    const text = await blob(`/instances/${instance.id}/scenario?scan=${scan}`);
-    saveFile(text, `${instance.name}.scenario.yaml`);
-    set({ refused: null });
+    const text = await blob(`/instances/${instance.id}/scenario${scan === null ? "" : `?scan=${scan}`}`);
+    const scans = /^scans: (\d+)/m.exec(await text.text())?.[1] ?? "0";
+    const made = `${instance.name}-${scans}-scans.scenario.yaml`;
+    saveFile(text, made);
+    set({ refused: null, made });
+    setTimeout(() => set((now) => (now.made === made ? { made: null } : {})), TOLD_MS);
   } catch (error) {
     set({ refused: t("scenario.failed", { message: messageOf(error) }) });
   }

@@ -26,6 +26,12 @@ export function useUnsavedPaths(): readonly string[] {
   return text === "" ? [] : text.split("\n");
 }
 
+/** Those that are not open here: what others edited, which a build here does not take. */
+export function useUnsavedOfOthers(): readonly string[] {
+  const open = useDocuments((documents) => documents.open);
+  return useUnsavedPaths().filter((path) => !open[path]);
+}
+
 /** Saves all of them. The path of the first one that could not be saved; null when all are. */
 export async function saveAll(): Promise<string | null> {
   await refreshUnsaved();
@@ -45,14 +51,14 @@ async function refreshUnsaved(): Promise<void> {
   if (now === project) useUnsaved.setState({ drafts: [...drafts, ...kept] });
 }
 
-const refreshSoon = spaced(() => void refreshUnsaved().catch(() => undefined), 300);
+const refreshSoon = spaced(() => void refreshUnsaved().catch(() => undefined), 1000);
 
 /** Who opens, saves or leaves a file may have edited it. */
 let known = "";
 function follow(): void {
   const { project, files, open } = useDocuments.getState();
   if (project === null) return;
-  const others = othersOf(usePeople.getState()).map(({ file }) => file);
+  const others = othersOf(usePeople.getState()).map(({ file, head }) => [file, head]); // who moves the caret may type
   const now = JSON.stringify([
     project,
     files.map(({ path, version }) => `${path} ${version}`),

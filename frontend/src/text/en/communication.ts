@@ -93,6 +93,7 @@ export const communication = {
   "communication.plant.way": "Goes",
   "communication.port": "Port",
   "communication.port.about": "0: one that is free",
+  "communication.port.any": "Port 0: one that is free, when it is switched on",
   "communication.refused": "Refused",
   "communication.refused.last": "Refused last",
   "communication.request": "Request",

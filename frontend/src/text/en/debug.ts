@@ -131,6 +131,7 @@ export const debug = {
   "debug.runcaret": "Run to the cursor",
   "debug.runhere": "Run to here",
   "debug.scan": "scan {scan}",
+  "debug.valuesof": "Values of {instance}",
   "debug.seenas": "values of",
   "debug.seenas.hover": "values of {instance}",
   "debug.seenas.label": "{pou}: values of {instance}",

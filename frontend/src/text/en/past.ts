@@ -75,6 +75,8 @@ export const past = {
     "Choose another instance and press Compare. The first scan in which the runs diverge is shown here, and the reason.",
   "compare.nootherhere":
     "There is no other instance to compare with. Branch from a scan, or replay with a different error.",
+  "compare.noothermodel":
+    "There is no other instance of the model {model} here, and only runs of one model can be compared. Branch from a scan, or replay with a different error.",
   "compare.open": "Open {name} at scan {scan}",
   "compare.open.hint": "Opens a new tab",
   "compare.other": "Compare {name} with",
@@ -142,6 +144,8 @@ export const past = {
   "rerun.when.same": "in the same scan",
   "rerun.where": "before scan {scan}",
   "scenario.failed": "No test could be made: {message}",
+  "scenario.made": "Test downloaded: {name}",
+  "scenario.now": "Make a test of this run (scenario of what people did)",
   "scenario.make": "Make a test of the run before scan {scan}",
   "stretch.changes": "What changed in scans {first} to {last}",
   "stretch.clear": "Clear the selection",

@@ -38,5 +38,5 @@ export const tour = {
   "tour.title": "Tour",
   "tour.write": "In the watch table click into the column Change of start, type TRUE, and press Enter.",
   "tour.write.done":
-    "The write was done between two scans. In the next one the program read start, and motor became TRUE.",
+    "The write was done between two scans. In the next one the program read start: motor becomes TRUE, unless stop or an error holds the belt.",
 };

@@ -133,6 +133,7 @@ export const debug: Record<keyof typeof english, string> = {
   "debug.runcaret": "カーソルまで実行",
   "debug.runhere": "ここまで実行",
   "debug.scan": "スキャン {scan}",
+  "debug.valuesof": "{instance} の値",
   "debug.seenas": "値:",
   "debug.seenas.hover": "{instance} の値",
   "debug.seenas.label": "{pou}: {instance} の値",

@@ -76,6 +76,8 @@ export const past: Record<keyof typeof english, string> = {
   "compare.none": "別のインスタンスを選んで「比較」を押すと、最初に分かれるスキャンとその理由がここに表示されます。",
   "compare.nootherhere":
     "比較できる別のインスタンスがありません。スキャンから分岐するか、別の異常で再実行してください。",
+  "compare.noothermodel":
+    "機種{model}の別のインスタンスがありません。比較できるのは同じ機種の実行だけです。スキャンから分岐するか、別のエラーで再生してください。",
   "compare.open": "{name} のスキャン {scan} を開く",
   "compare.open.hint": "別のタブで開きます",
   "compare.other": "{name} と比較する相手",
@@ -142,6 +144,8 @@ export const past: Record<keyof typeof english, string> = {
   "rerun.when.same": "同じスキャン",
   "rerun.where": "スキャン {scan} の前",
   "scenario.failed": "テストを作成できません：{message}",
+  "scenario.made": "テストをダウンロードしました：{name}",
+  "scenario.now": "この実行からテストを作成（人が行った操作のシナリオ）",
   "scenario.make": "スキャン {scan} までの操作からテストを作成",
   "stretch.changes": "スキャン {first} から {last} の変化",
   "stretch.clear": "選択を解除",

@@ -40,5 +40,5 @@ export const tour: Record<keyof typeof english, string> = {
   "tour.title": "ツアー",
   "tour.write": "ウォッチ表の start の「変更値」欄をクリックし、TRUE と入力して Enter を押します。",
   "tour.write.done":
-    "書き込みは二つのスキャンの間に行われました。次のスキャンでプログラムが start を読み、motor が TRUE になりました。",
+    "書き込みは二つのスキャンの間に行われました。次のスキャンでプログラムが start を読みます。stop またはエラーがベルトを止めていなければ、motor が TRUE になります。",
 };

@@ -10,6 +10,7 @@ import { useForbidden, useLost, usePlc } from "../../../store/plc/plc";
 import { build, isDirty, save, useDocuments } from "../../../store/project/documents";
 import { useCorrected } from "../../../store/project/refusedBuild";
 import { shownText, useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
+import { useUnsavedOfOthers } from "../../../store/project/unsaved";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
@@ -219,17 +220,28 @@ function BuildOutcome() {
   const here = useBench((bench) => bench.instance?.id);
   const corrected = useCorrected();
   const edited = useDocuments((documents) => Object.values(documents.open).some(isDirty));
+  const others = useUnsavedOfOthers();
   if (state.phase !== "done" || corrected || (state.ok && edited)) return <OtherVersion />;
   const by = state.author ? t("build.by", { author: state.author }) : "";
   return (
     <button
       type="button"
       className="link plain cut"
-      title={state.message}
+      title={
+        others.length > 0
+          ? `${state.message}\n${t("build.unsaved.about", { files: others.join(", ") })}`
+          : state.message
+      }
       role="status"
       onClick={() => showPanel("problems")}
     >
-      {state.ok ? (
+      {state.ok && others.length > 0 ? (
+        <StateWord
+          tone="warning"
+          icon="warning"
+          word={`${builtNote(state.changes, here)}${by}, ${t("build.unsaved", { count: others.length })}`}
+        />
+      ) : state.ok ? (
         <StateWord tone="running" icon="check" word={`${builtNote(state.changes, here)}${by}`} />
       ) : (
         <StateWord tone="fatal" icon="error" word={`${t("build.refused")}${by}`} />

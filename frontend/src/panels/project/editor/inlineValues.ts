@@ -5,7 +5,7 @@
 
 import { type NamedVariable, variablesIn } from "../../../logic/debug/inline";
 import { lineIn, pouAt } from "../../../logic/plc/sourceLines";
-import { loadNames, pathOf, useSeenAs } from "../../../store/debug/seenAs";
+import { loadNames, pathOf, seenAsNow, useSeenAs } from "../../../store/debug/seenAs";
 import { frameNow, frameText, useStack } from "../../../store/debug/stack";
 import { usePrefs } from "../../../store/page/prefs";
 import { useMembers } from "../../../store/plc/members";
@@ -112,6 +112,8 @@ interface RowWanted {
   values: Shown[];
   /** The line is after the next statement: its values are those of the previous scan. */
   old: boolean;
+  /** At the first line of a block with several instances: the one whose values are shown. */
+  instance: string;
   /** The text at the end of the line at which the program is halted. */
   next: "" | "next" | "past" | "calls";
 }
@@ -144,7 +146,8 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
       const values = pou && on && hasValues(pou) ? valuesOf(found.variables, pou, inFrame) : [];
       const next = haltedAt === line ? saidOf(halted?.look) : "";
       const old = inFrame && haltedAt !== null && line > haltedAt;
-      if (values.length > 0 || next !== "") wanted.set(line, { values, old, next });
+      const instance = on && begins && hasValues(begins) ? oneOfSeveral(begins.name) : "";
+      if (values.length > 0 || next !== "" || instance !== "") wanted.set(line, { values, old, instance, next });
     }
   }
   return wanted;
@@ -152,6 +155,12 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
 
 const saidOf = (look: "halt" | "past" | "frame" | undefined) =>
   look === "frame" ? "calls" : look === "past" ? "past" : "next";
+
+/** Of a POU with several instances the one whose values are shown. */
+function oneOfSeveral(pou: string): string {
+  const several = (useSeenAs.getState().instances.get(pou.toUpperCase())?.length ?? 0) > 1;
+  return several ? (seenAsNow(pou) ?? "") : "";
+}
 
 function valuesOf(named: readonly NamedVariable[], pou: Pou, inFrame: boolean): Shown[] {
   const shown: Shown[] = [];
@@ -165,7 +174,7 @@ function valuesOf(named: readonly NamedVariable[], pou: Pou, inFrame: boolean): 
 }
 
 /** The elements of a row; from now on the values write their texts themselves. */
-function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, "key"> {
+function build({ values, old, instance, next }: RowWanted, layer: HTMLElement): Omit<Row, "key"> {
   const element = document.createElement("div");
   element.className = `inlinerow${old ? " old" : ""}`;
   const paints: (() => void)[] = [];
@@ -186,12 +195,14 @@ function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, 
       cell.classList.toggle("new", reading.changed && usePlc.getState().state?.halt != null);
     });
   });
-  if (next !== "") {
+  const say = (text: string, look: string) => {
     const said = document.createElement("span");
-    said.className = `why ${next}`;
-    said.textContent = t(SAID[next]);
+    said.className = `why ${look}`;
+    said.textContent = text;
     element.append(said);
-  }
+  };
+  if (instance !== "") say(t("debug.valuesof", { instance }), "calls");
+  if (next !== "") say(t(SAID[next]), next);
   layer.append(element);
   return {
     element,

@@ -90,6 +90,26 @@ test("a new file is of the kind that its name says until somebody chooses, and i
   expect(sent?.text).toMatch(/^PROGRAM FB_Belt\n[\s\S]*LD {3}enable/);
 });
 
+test("the arrow keys choose the language of a new file", async () => {
+  const { user } = await openExplorer();
+  await user.click(button(t("file.new")));
+  const dialog = await screen.findByRole("dialog", { name: t("file.new") });
+  const language = (name: "ST" | "SFC") => within(dialog).getByRole("radio", { name: t(`file.language.${name}`) });
+  language("ST").focus();
+  await user.keyboard("{ArrowLeft}");
+  expect(language("SFC")).toHaveProperty("ariaChecked", "true");
+});
+
+test("a file that somebody edited and nobody saved is marked, though it is not open here", async () => {
+  const { server } = await openPage((server) => {
+    server.on("GET", "/projects/*/files", () => [{ path: "notes.csv", version: 1, author: "Mika" }]);
+    server.on("GET", "/projects/*/unsaved", () => ["notes.csv"]);
+  });
+  render(<Explorer />);
+  expect(await screen.findByTitle(t("unsaved.others"))).toBeDefined();
+  expect(server.askedOf("GET", "/projects/*/unsaved")).toBeDefined();
+});
+
 test("tasks are listed with how often they run and what; a task leads to its declaration, a program to its text", async () => {
   const pous = [{ name: "Belt", kind: "program" as const, file: "Belt.st", line: 3 }];
   const programs = [{ name: "second", pou: "Belt" }];

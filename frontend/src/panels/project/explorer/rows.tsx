@@ -173,13 +173,14 @@ function FileMarks({ file, dirty, problems, holds }: Marked) {
     (debug) =>
       debug.breakpoints.filter((known) => known.kind === "line" && known.file === file && holds(lineOf(known))).length,
   );
+  const own = useDocuments(({ open }) => open[file] !== undefined);
   return (
     <>
       {breakpoints > 0 && <span className="bpdot" title={t("debug.bp.count", { count: breakpoints })} />}
       {errors > 0 && (
         <span className="bad">{t(errors === 1 ? "explorer.errors.one" : "explorer.errors", { count: errors })}</span>
       )}
-      {dirty && <span className="dirty" title={t("unsaved")} />}
+      {dirty && <span className="dirty" title={t(own ? "unsaved" : "unsaved.others")} />}
     </>
   );
 }

@@ -2,7 +2,7 @@ import { useRef, useState } from "react";
 import { decodeText } from "../../../logic/format/decode";
 import { messageOf } from "../../../logic/format/messageOf";
 import { filesIn } from "../../../logic/project/droppedFolder";
-import { placeFor } from "../../../logic/project/explorer";
+import { isWholeProject, placeFor } from "../../../logic/project/explorer";
 import { openFile } from "../../../store/page/navigate";
 import { createFile, useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
@@ -61,6 +61,7 @@ export function useAddFiles(): Adding {
 
 /** Tables go to the plant without a question. */
 async function addFile(name: string, file: File): Promise<string> {
+  if (isWholeProject(name)) throw new Error(t("file.left.project"));
   const path = placeFor(name);
   const known = useDocuments.getState().files;
   if (known.some((other) => other.path.toLowerCase() === path.toLowerCase())) throw new Error(t("file.add.exists"));

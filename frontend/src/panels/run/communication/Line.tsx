@@ -15,6 +15,7 @@ export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault
       <span className="row">
         <Segments
           label={t("communication.fault")}
+          acts
           value={now}
           options={KINDS.filter((value) => value !== "node" || kind !== "opcua").map((value) => ({
             value,
@@ -26,6 +27,7 @@ export function Line({ kind, fault }: { kind: CommunicationServer["kind"]; fault
         {now === "late" && (
           <Segments
             label={t("communication.late")}
+            acts
             value={`${fault.late_ms}`}
             options={LATE.map((each) => ({ value: `${each}`, word: `${each} ms` }))}
             onChoose={(value) => breakLine(kind, { kind: "late", late_ms: Number(value) })}

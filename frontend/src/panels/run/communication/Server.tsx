@@ -16,10 +16,13 @@ export function Server({ server }: { server: CommunicationServer }) {
   const title = t(`communication.kind.${kind}`);
   const refused = useCommunication(({ refused }) => refused?.kind === kind && refused.message);
   const said = refused || trouble;
+  const form = useDraft(settings);
+  // What is seen is what is switched on; switching off leaves what is typed as it is.
+  const toggle = () => changeServer(kind, settings.on ? { on: false } : { ...form.draft, on: true });
   return (
     <section className="comserver" aria-label={title} data-server={kind}>
       <div className="row">
-        <Switch on={settings.on} onToggle={() => changeServer(kind, { on: !settings.on })}>
+        <Switch on={settings.on} onToggle={toggle}>
           <h2>{title}</h2>
         </Switch>
         <span className="grow" />
@@ -37,7 +40,7 @@ export function Server({ server }: { server: CommunicationServer }) {
       {listening && kind === "opcua" && settings.access === "write" && (
         <p className="faint">{t("communication.users")}</p>
       )}
-      <Settings kind={kind} settings={settings} />
+      <Settings kind={kind} {...form} />
       {settings.on && <Line kind={kind} fault={server.fault} />}
       {listening && (
         <>
@@ -59,25 +62,30 @@ function Address({ server: { address } }: { server: CommunicationServer }) {
   );
 }
 
-interface SettingsProps {
-  kind: CommunicationServer["kind"];
-  settings: CommunicationServerSettings;
+type Wanted = Omit<CommunicationServerSettings, "on">;
+
+interface Form {
+  draft: Wanted;
+  edited: boolean;
+  change: (part: Partial<Wanted>) => void;
 }
 
 /** What is typed stays as typed until it is applied; what somebody else applied meanwhile takes its place. */
-function Settings({ kind, settings }: SettingsProps) {
-  const [draft, setDraft] = useState(settings);
+function useDraft({ on: _on, ...settings }: CommunicationServerSettings): Form {
+  const [draft, setDraft] = useState<Wanted>(settings);
   const applied = JSON.stringify(settings);
-  useEffect(() => setDraft(JSON.parse(applied) as CommunicationServerSettings), [applied]);
-  const change = (part: Partial<CommunicationServerSettings>) => setDraft((before) => ({ ...before, ...part }));
-  const edited = JSON.stringify(draft) !== applied;
+  useEffect(() => setDraft(JSON.parse(applied) as Wanted), [applied]);
+  const change = (part: Partial<Wanted>) => setDraft((before) => ({ ...before, ...part }));
+  return { draft, edited: JSON.stringify(draft) !== applied, change };
+}
+
+function Settings({ kind, draft, edited, change }: Form & { kind: CommunicationServer["kind"] }) {
   return (
     <form
       className="comsettings"
       onSubmit={(event) => {
         event.preventDefault();
-        const { on: _on, ...wanted } = draft;
-        changeServer(kind, wanted);
+        changeServer(kind, draft);
       }}
     >
       <Field
@@ -133,6 +141,7 @@ function Settings({ kind, settings }: SettingsProps) {
       <button type="submit" className="btn sm" disabled={!edited}>
         {t("communication.apply")}
       </button>
+      {draft.port === 0 && <span className="faint">{t("communication.port.any")}</span>}
     </form>
   );
 }

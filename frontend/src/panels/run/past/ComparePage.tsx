@@ -60,6 +60,7 @@ function Choose() {
   const { other } = useComparisons();
   if (!instance) return null;
   const offered = compareWith(instance, all ?? []);
+  const others = (all ?? []).length > 1;
   const chosen = offered.find(({ id }) => id === other) ?? offered[0];
   return (
     <div className="sub cmpbar" role="toolbar" aria-label={t("compare.tab")}>
@@ -81,7 +82,7 @@ function Choose() {
           <span className="hint cut">{t("compare.about")}</span>
         </>
       ) : (
-        <span className="hint">{t("compare.nootherhere")}</span>
+        <span className="hint">{t(others ? "compare.noothermodel" : "compare.nootherhere", instance.project)}</span>
       )}
     </div>
   );

@@ -17,10 +17,14 @@ export function End({ run }: { run: RunOnAxis | null }) {
   const shown = showState(state, online);
   const target = state?.state === "running" ? state.target : "";
   const [bad, setBad] = useState<string | null>(null);
+  const [text, setText] = useState("");
   const scan = state?.past ? state.scan : null;
-  // The message about a wrong scan disappears when a different scan is shown.
+  // A wrong scan and the message about it disappear when a different scan is shown.
   // biome-ignore lint/correctness/useExhaustiveDependencies: runs when a different scan is shown
-  useEffect(() => setBad(null), [scan]);
+  useEffect(() => {
+    if (bad !== null) setText("");
+    setBad(null);
+  }, [scan]);
   return (
     <div className="tl-end">
       {bad ? (
@@ -54,7 +58,7 @@ export function End({ run }: { run: RunOnAxis | null }) {
           )}
         </span>
       )}
-      {run && <GoTo run={run} locked={locked} bad={bad} onBad={setBad} />}
+      {run && <GoTo run={run} locked={locked} text={text} onText={setText} bad={bad} onBad={setBad} />}
     </div>
   );
 }
@@ -62,12 +66,13 @@ export function End({ run }: { run: RunOnAxis | null }) {
 interface GoToProps {
   run: RunOnAxis;
   locked: string | null;
+  text: string;
+  onText: (text: string) => void;
   bad: string | null;
   onBad: (why: string | null) => void;
 }
 
-function GoTo({ run, locked, bad, onBad }: GoToProps) {
-  const [text, setText] = useState("");
+function GoTo({ run, locked, text, onText, bad, onBad }: GoToProps) {
   const interval = usePlc((plc) => plc.state?.interval_ns ?? 0);
   const { from, to } = run.whole;
 
@@ -78,7 +83,7 @@ function GoTo({ run, locked, bad, onBad }: GoToProps) {
     const fine = scan !== null && scan >= from && scan <= to;
     onBad(fine ? null : t("timeline.goto.bad", { first: grouped(from), live: grouped(to) }));
     if (!fine) return;
-    setText("");
+    onText("");
     void travel(scan);
   }
 
@@ -93,7 +98,7 @@ function GoTo({ run, locked, bad, onBad }: GoToProps) {
         value={text}
         disabled={locked !== null}
         onChange={(event) => {
-          setText(event.target.value);
+          onText(event.target.value);
           onBad(null);
         }}
       />

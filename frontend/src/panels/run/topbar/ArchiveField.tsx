@@ -1,5 +1,6 @@
 import { useEffect, useRef, useState } from "react";
 import { messageOf } from "../../../logic/format/messageOf";
+import { isProjectFile } from "../../../logic/project/explorer";
 import { lookAtArchive } from "../../../store/project/newProject";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
@@ -27,8 +28,10 @@ export function ArchiveField({ dropped = null, onChoose }: Props) {
     const mine = turn.current;
     setFound(null);
     setRefused(null);
-    onChoose(file ? "not yet" : "none");
-    if (!file) return;
+    const single = file !== null && isProjectFile(file.name);
+    if (single) setRefused(t("newproject.archive.single", { name: file.name }));
+    onChoose(file && !single ? "not yet" : "none");
+    if (!file || single) return;
     try {
       const has = await lookAtArchive(file);
       if (mine !== turn.current) return;

@@ -13,6 +13,7 @@ export function ModeSwitch() {
     <Segments
       label={t("mode.label")}
       look="caps"
+      acts
       value={mode}
       options={MODES.map((name) => ({ value: name, word: name, title: t(`mode.${name}.about`) }))}
       disabled={forbidden}

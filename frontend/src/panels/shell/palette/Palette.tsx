@@ -18,7 +18,7 @@ function Open({ begins }: { begins: string }) {
   const input = useRef<HTMLInputElement>(null);
   const unasked = usePalette((palette) => palette.unasked);
   const [text, setText] = useState(begins);
-  const offering = useOffers(targets);
+  const offering = useOffers(targets, undefined, true);
   const { ask, offers, of } = offering;
   const [entered, setEntered] = useState(false);
   const fresh = of === text.trim();
@@ -86,6 +86,7 @@ function Open({ begins }: { begins: string }) {
           return true;
         }}
         list="menu"
+        pointed
       />
       {unasked && !commands && text !== "" && (
         <p role="status">{t(symbols ? "palette.unasked.symbols" : "palette.unasked")}</p>

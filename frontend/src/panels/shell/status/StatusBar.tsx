@@ -46,6 +46,7 @@ export function StatusBar() {
       <Sweeping />
       <ArmedFaults />
       <Added />
+      <MadeTest />
       <RunRefusal />
       <span className="right">
         <FileState />
@@ -109,6 +110,16 @@ function Added() {
           <StateWord tone="info" icon="trigger" word={t("trace.added", { path })} />
         </button>
       )}
+    </span>
+  );
+}
+
+/** A download says nothing in the page by itself. */
+function MadeTest() {
+  const made = useTimeline((timeline) => timeline.made);
+  return (
+    <span role="status">
+      {made !== null && <StateWord tone="info" icon="export" word={t("scenario.made", { name: made })} />}
     </span>
   );
 }
