@@ -34,7 +34,8 @@ from scanbench.check.declare.policies import check_policies, pou_policy
 from scanbench.check.declare.programs import placed_programs
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.declare.start_references import is_this, own_instance
-from scanbench.check.dialect import IEC, Allowance, Dialect, dialect_in
+from scanbench.check.dialect import Allowance, Dialect
+from scanbench.check.dialect_table import IEC, dialect_in
 from scanbench.check.folding import folded
 from scanbench.check.life.make import Life
 from scanbench.check.life.whole import Whole, whole_of

@@ -1,4 +1,4 @@
-"""Dialects of Structured Text: what each allows beyond IEC 61131-3. This table is the one place that says so.
+"""What a dialect of Structured Text may allow beyond IEC 61131-3; `dialect_table` says which dialect allows what.
 
 A construct that a dialect allows is taken with the warning W006, which names the rule of the standard and how a strict program
 writes the same. What a vendor's tool computes there is known from its documentation (`docs/dialects.md` has the sources); where
@@ -6,11 +6,10 @@ it is not known, the dialect does not allow it.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum, auto
 
-from scanbench.check.libraries.catalogue import library_of_file
-from scanbench.syntax.language_file import BYTES_SINCE, DialectName, Policy, defined_in, language_of
+from scanbench.syntax.language_file import DialectName, Policy
 
 
 class Allowance(Enum):
@@ -68,6 +67,9 @@ class Allowance(Enum):
     SHORTER_STRINGS = auto()
     OVERLOADS = auto()
     START_EXPRESSIONS = auto()
+    COMBINED_ASSIGNMENT = auto()
+    BLOCK_WRITES = auto()
+    TEXT_STRUCTURES = auto()
 
 
 @dataclass(frozen=True, slots=True)
@@ -334,9 +336,24 @@ RULES: dict[Allowance, Rule] = {
         "`VAR_IN_OUT CONSTANT`",
     ),
     Allowance.OVERLOADS: Rule(
-        "several FUNCTIONs of one name, with inputs of different types: a call is of the one that its arguments fit best",
+        "several FUNCTIONs or methods of one name, with inputs of different types: a call is of the one that its arguments fit best",
         "a name is declared once",
-        "a name for each FUNCTION",
+        "a name for each of them",
+    ),
+    Allowance.COMBINED_ASSIGNMENT: Rule(
+        "`x += 1`, and the same with `-`, `*` and `/`",
+        "an assignment has the operator `:=`",
+        "`x := x + 1`",
+    ),
+    Allowance.BLOCK_WRITES: Rule(
+        "variables in VAR and outputs of a function block written from outside",
+        "only its inputs are assigned there",
+        "`VAR_INPUT`",
+    ),
+    Allowance.TEXT_STRUCTURES: Rule(
+        "texts that are a structure of LEN and DATA in comparisons",
+        "structures are not compared",
+        "`Logix.COMPARE(a, b) = 0`",
     ),
     Allowance.START_EXPRESSIONS: Rule(
         "a start value that is computed: in a FUNCTION or METHOD at each call, else when the instance is initialised",
@@ -364,62 +381,6 @@ class Dialect:
         """What the project says under this name; '' where it says nothing."""
         said = self.subranges.get(name.upper())
         return "" if said is None else said.word
-
-
-_LOGIX = frozenset({Allowance.ROUNDING, Allowance.DINT_RESULTS})
-_SIEMENS = frozenset(
-    {
-        *(Allowance.ROUNDING, Allowance.WRAPPED_REALS, Allowance.TIME_NUMBERS, Allowance.CHAR_NUMBERS),
-        *(Allowance.CHAINED_APART, Allowance.BIT_SUMS, Allowance.INSTRUCTION_CALLS),
-        *(
-            Allowance.INSTRUCTION_TYPES,
-            Allowance.SIGNED_TEXTS,
-            Allowance.BLOCK_MOVES,
-            Allowance.VARIANTS,
-            Allowance.OVERLOADS,
-        ),
-    }
-)
-_TWINCAT = frozenset({Allowance.SHORTER_STRINGS})
-_CODESYS = frozenset(Allowance) - _LOGIX - _SIEMENS - _TWINCAT
-"""All but what only the others have."""
-DIALECTS: dict[DialectName, Dialect] = {
-    each.name: each
-    for each in (
-        Dialect("iec", "IEC 61131-3"),
-        Dialect("codesys", "CODESYS", _CODESYS, frozenset({"STANDARD"})),
-        Dialect("twincat", "TwinCAT", _CODESYS | _TWINCAT, frozenset({"TC2_STANDARD", "STANDARD"})),
-        Dialect(
-            "siemens",
-            "Siemens SCL",
-            _SIEMENS
-            | {Allowance.INTEGER_SHIFTS}
-            | {Allowance.CHAINED_ASSIGNMENT, Allowance.LABELS, Allowance.BLOCK_VARIABLES}
-            | {Allowance.BIT_CONVERSION, Allowance.NARROWING, Allowance.REAL_CONVERSION},
-        ),
-        Dialect(
-            "rockwell",
-            "Rockwell Logix",
-            _LOGIX | {Allowance.INTEGER_BITS, Allowance.NARROWING, Allowance.REAL_CONVERSION, Allowance.BITS_AS_REALS},
-        ),
-        Dialect("omron", "Omron Sysmac"),
-    )
-}
-IEC = DIALECTS["iec"]
-
-
-def dialect_in(sources: Mapping[str, str]) -> Dialect:
-    """What these files are written in, with the names of the libraries that they have or name."""
-    language = language_of(sources)[0]
-    dialect = DIALECTS[language.dialect]
-    if language.version < BYTES_SINCE:
-        dialect = replace(dialect, allows=dialect.allows - {Allowance.STRING_BYTES})
-    if language.defines:
-        dialect = replace(dialect, defines=defined_in(sources))
-    if language.subranges:
-        dialect = replace(dialect, subranges={name.upper(): said for name, said in language.subranges.items()})
-    named = {*language.namespaces, *(library for file in sources if (library := library_of_file(file)))}
-    return replace(dialect, prefixes=dialect.prefixes | {each.upper() for each in named}) if named else dialect
 
 
 def said(dialect: Dialect, allowance: Allowance, what: str, instead: str = "") -> str:

@@ -23,7 +23,8 @@ from scanbench.check.build import (
 )
 from scanbench.check.context import Report
 from scanbench.check.declare.names import qualified
-from scanbench.check.dialect import IEC, Dialect, dialect_in
+from scanbench.check.dialect import Dialect
+from scanbench.check.dialect_table import IEC, dialect_in
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.as_used import as_used
 from scanbench.plcmodel.model import Model

@@ -362,6 +362,8 @@ def _blank(line: Line, before: Item, item: Item, number: int) -> bool:
         )
     if item.text == "=" and before.text.upper() in ("S", "R", "REF"):
         return item.apart  # `S=`, `R=` and `REF=` of CODESYS are one operator each
+    if item.text == "=" and before.text in ("+", "-", "*", "/"):
+        return item.apart  # `+=` and the like are one operator each
     if before.text in ("-", "+") and _is_sign(line, number - 1):
         return False
     if item.text == ":":

@@ -4,7 +4,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import PurePath
 
-from scanbench.check.dialect import DIALECTS
+from scanbench.check.dialect_table import DIALECTS
 from scanbench.check.libraries.catalogue import catalogue, library_of_file, used_libraries
 from scanbench.server.twincat_project import TwinCatProject, missing_libraries
 from scanbench.server.twincat_tasks import FILE, configuration

@@ -1,5 +1,6 @@
 """A place in the tokens of one file, and the problems met on the way."""
 
+import re
 import sys
 from collections.abc import Collection
 
@@ -25,6 +26,9 @@ NAME = Lex.NAME
 
 class Unexpected(Exception):
     """Raised where parsing cannot go on; whoever can find the next beginning catches it."""
+
+
+COMBINES = re.compile(r"[-+*/]=")
 
 
 class Cursor:
@@ -56,6 +60,8 @@ class Cursor:
         """Whether a start value may name parts at any depth, `(a.b := 1, c[2] := 3)`: in the texts of one vendor."""
         self.actions: list[tuple[str, Span, list[tree.PouDeclaration]]] = []
         """Actions that are written apart from their POU, and its name."""
+        self.combines = bool(COMBINES.search(source.text))
+        """Whether the text may have assignments like `x += 1`."""
         self.list_name = ""
         """Of the variables that a vendor keeps in a list of its own."""
         self.namespace = ""

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_expression import expression
+from scanbench.syntax.parse_expression import expression, operand
 from scanbench.syntax.parse_type import POU_ENDS, POU_STARTS, SECTIONS
 
 BLOCK_ENDS = frozenset(("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT",
@@ -27,6 +27,8 @@ REFUSED = {
     **dict.fromkeys(("INITIAL_STEP", "STEP", "END_STEP", "TRANSITION", "END_TRANSITION"), CHART),
     **dict.fromkeys(("_LD_BODY", "_FBD_BODY", "_CFC_BODY", "_SFC_BODY"), "convert the drawing to Structured Text"),
 }
+COMBINED = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
+"""Operators of assignments like `a += b`."""
 LABEL_KINDS = frozenset((NAME, Lex.INTEGER, Lex.TYPED, Lex.STRING, Lex.TIME))
 LABEL_TEXTS = frozenset(", .. . - + * / ** & ( ) MOD AND OR XOR NOT TRUE FALSE".split())
 """What a constant expression is made of. Nothing else that begins a statement reaches a `:` by way of these."""
@@ -95,6 +97,9 @@ def _simple(c: Cursor, name: bool) -> tree.Statement:
             c.at += 2
             return tree.LabelStatement(c.texts[start], c.span_of(start))
         _refused(c, word)
+    combined = _combined(c) if c.combines else None
+    if combined is not None:
+        return combined
     target = expression(c)
     if c.accept(":="):
         value = expression(c)
@@ -106,6 +111,22 @@ def _simple(c: Cursor, name: bool) -> tree.Statement:
         c.close(";", "at the end of the assignment")
         return tree.Assignment(target, value, span, also=tuple(also))
     return _other(c, start, target)
+
+
+def _combined(c: Cursor) -> tree.Assignment | None:
+    """`a += b`, the same for `-`, `*` and `/`; None of any other statement, of which nothing is taken."""
+    start = c.at
+    target = operand(c)
+    operator = c.texts[c.at]
+    if operator not in COMBINED or c.texts[c.at + 1] != "=" or c.end_of(c.at) != c.starts[c.at + 1]:
+        c.at = start
+        return None
+    mark = c.source.span(c.starts[c.at], c.starts[c.at] + 2)
+    c.at += 2
+    value = tree.BinaryOp(COMBINED[operator], target, expression(c), mark)
+    span = c.span_from(start)
+    c.close(";", "at the end of the assignment")
+    return tree.Assignment(target, value, span, f"{operator}=")
 
 
 def _other(c: Cursor, start: int, target: tree.Expression) -> tree.Statement:

@@ -8,11 +8,12 @@ external sources in the TIA Portal's help.
 import re
 from dataclasses import replace
 
-from scanbench.problems import Problem
+from scanbench.problems import Problem, Severity
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.lexer import AHEAD, Lex, Tokens, tokenize
 from scanbench.syntax.parse_st import whole
+from scanbench.syntax.scl_words import SYSTEM_TAGS, Words
 from scanbench.syntax.source import Source
 
 ENDINGS = (".scl", ".udt", ".db")
@@ -21,6 +22,15 @@ STARTUP = "STARTUP"
 _SETTINGS = frozenset(("AUTHOR", "FAMILY", "KNOW_HOW_PROTECT", "NAME", "NON_RETAIN", "TITLE", "VERSION"))
 _OPENS = frozenset(("FUNCTION", "FUNCTION_BLOCK", "ORGANIZATION_BLOCK", "DATA_BLOCK", "TYPE"))
 _BLOCKS = {"ORGANIZATION_BLOCK": "PROGRAM", "END_ORGANIZATION_BLOCK": "END_PROGRAM"}
+_EVENT_BLOCKS = {"ORGANIZATION_BLOCK": "FUNCTION_BLOCK", "END_ORGANIZATION_BLOCK": "END_FUNCTION_BLOCK"}
+"""What the organization block of an event is, which nothing starts here."""
+_SECTIONS = {
+    ("VAR_IN_OUT", "VARIANT"): "VAR_INPUT",
+    ("VAR_INPUT", "TIMER"): "VAR_IN_OUT",
+    ("VAR_INPUT", "COUNTER"): "VAR_IN_OUT",
+}
+"""The section that a variable of a type is declared in, instead of the one that it is written in: a Variant leads to its variable
+itself, and a timer is the one that is passed."""
 _PREFIXES = {"B": "BYTE", "W": "WORD", "DW": "DWORD", "LW": "LWORD", "L": "DINT"}
 _JOINED = frozenset("+-*/")
 """Operators of combined assignments, `+=` and the like."""
@@ -61,26 +71,21 @@ def name_of(quoted: str) -> str:
     return f"_{plain}" if plain[:1].isdigit() else plain
 
 
-class _Writer:
+class _Writer(Words):
     """Reads the tokens from the first to the last, and writes those of the standard."""
 
     def __init__(self, source: Source, tokens: Tokens) -> None:
-        self.problems: list[Problem] = []
-        self._source = source
-        self._in, self._out = tokens, Tokens([], [], [], tokens.pragmas)
-        self._at = 0
-        self._locals: set[str] = set()
-        """Names that are declared in this block, or written with `#`, in upper case."""
+        super().__init__(source, tokens)
         self._globals: list[tuple[str, int]] = []
         """Names in quotes in its statements, and where."""
-        self._declares = False
-        """Between VAR and END_VAR."""
         self._combining = False
         """In the value of `x += value`."""
         self._section = ""
         """The word that the declarations begin with, VAR_IN_OUT for one."""
-        self._variant = False
-        """In the declaration of a Variant in VAR_IN_OUT, which is an input here: it leads to the variable."""
+        self._back = ""
+        """The section to go on with after a declaration that is put into another one."""
+        self._event = False
+        """In the organization block of an event."""
         self._restart = False
         """In the organization block of a start."""
         self.restarts: set[str] = set()
@@ -101,12 +106,15 @@ class _Writer:
             self._tell_both()
             self._block(word)
         elif word in _BLOCKS:
-            if self._restart:
-                self._put(Lex.KEYWORD, "END_IF", self._in.starts[self._at])
-                self._put(Lex.OPERATOR, ";", self._in.starts[self._at])
-                self._restart = False
-            self._put(Lex.KEYWORD, _BLOCKS[word], self._in.starts[self._at])
-            self._at += 1
+            self._end_of_organization(word)
+        elif word == "LABEL" and self._word(2) in (";", ",") and self._begins_line():
+            while not self._ended() and self._word() != "END_LABEL":
+                self._at += 1
+            self._at += 0 if self._ended() else 1
+        elif word == "CONST" and self._word(2) == ":=" and self._begins_line():
+            self._untyped_constants()
+        elif word == "(" and self._word(1) == ")" and self._is_comment():
+            self._at += 2
         elif word in ("REGION", "END_REGION") and self._begins_line():
             self._skip_line()
         elif word == "BEGIN" and self._word(1) not in (":=", ".", "[", "("):
@@ -123,11 +131,20 @@ class _Writer:
         elif word == ";":
             self._close()
             self._copy()
-            if self._variant:
-                self._turn("VAR_IN_OUT")
-                self._variant = False
+            if self._back:
+                self._turn(self._back)
+                self._back = ""
         else:
             self._copy()
+
+    def _end_of_organization(self, word: str) -> None:
+        if self._restart:
+            self._put(Lex.KEYWORD, "END_IF", self._in.starts[self._at])
+            self._put(Lex.OPERATOR, ";", self._in.starts[self._at])
+            self._restart = False
+        self._put(Lex.KEYWORD, (_EVENT_BLOCKS if self._event else _BLOCKS)[word], self._in.starts[self._at])
+        self._event = False
+        self._at += 1
 
     def _touches(self) -> bool:
         return self._in.starts[self._at] + 1 == self._in.starts[self._at + 1]
@@ -176,19 +193,23 @@ class _Writer:
         if word == "DATA_BLOCK":
             self._data_block(start)
             return
-        self._put(Lex.KEYWORD, _BLOCKS.get(word, word), start)
         name, at = self._in.texts[self._at].strip('"'), self._in.starts[self._at]
+        opening = len(self._out.kinds)
+        self._put(Lex.KEYWORD, _BLOCKS.get(word, word), start)
         self._copy()
         self._globals.clear()
+        self._constants = {}
         self._restart = word == "ORGANIZATION_BLOCK" and self._is_titled(name, _RESTART)
         if self._restart:
             self.restarts.add(self._out.texts[-1])
         elif word == "ORGANIZATION_BLOCK" and not _CYCLIC.search(name) and not self._is_titled("", (_CYCLE,)):
-            self._refuse(
-                f"`{name}` is started by an event (interrupt, time, error); only the organization blocks of the cycle are read, Main or one with "
-                "the TITLE `... (Cycle)`, and of a start, Startup. Call what it does from there, or declare a task for it.",
-                at,
+            self._out.texts[opening], self._event = _EVENT_BLOCKS[word], True
+            message = (
+                f"`{name}` is started by an event (interrupt, time, error), and nothing here starts it. It is read as a FUNCTION_BLOCK: "
+                "call an instance of it from Main, where its event is to be. Only the organization blocks of the cycle run by themselves, "
+                "Main or one with the TITLE `... (Cycle)`, and of a start, Startup."
             )
+            self.problems.append(Problem("W007", message, self._source.span(at, at + 1), Severity.WARNING))
         if word == "FUNCTION" and self._word() == ":" and self._word(1) == "VOID":
             self._at += 2
         elif word == "FUNCTION" and self._word() == ":":
@@ -268,9 +289,11 @@ class _Writer:
     # ---- one token ----------------------------------------------------------------------------------------------
 
     def _copy(self) -> None:
-        if self._section == "VAR_IN_OUT" and self._word(1) == ":" and self._word(2) == "VARIANT":
-            self._turn("VAR_INPUT")
-            self._variant = True
+        if self._word(1) == ":" and (other := _SECTIONS.get((self._section, self._word(2)))):
+            self._back = self._section
+            self._turn(other)
+        if self._worded():
+            return
         kind, text, at = self._in.kinds[self._at], self._in.texts[self._at], self._in.starts[self._at]
         self._at += 1
         if text == "#":
@@ -286,6 +309,15 @@ class _Writer:
             self._locals.add(name_of(text.strip('"')).upper())
         if kind is Lex.STRING and text.startswith('"'):
             name = name_of(text[1:-1])
+            tag = SYSTEM_TAGS.get(name.upper())
+            if (
+                tag is not None
+                and not self._declares
+                and self._in.texts[self._at - 2] != "#"
+                and self._word() not in (":=", ".")
+            ):
+                self._several(tag, at)
+                return
             if not self._declares and self._in.texts[self._at - 2] != "#":
                 self._globals.append((name, at))
             self._put(Lex.NAME, name, at + 1)
@@ -293,6 +325,9 @@ class _Writer:
             prefix, hash, value = text.partition("#")
             self._put(kind, _PREFIXES.get(prefix.upper(), prefix) + hash + value, at)
         else:
+            if kind is Lex.INTEGER and text.startswith("10#"):
+                text = text[3:] if text[3:].replace("_", "").isdigit() else text
+            self._depth += {"(": 1, ")": -1}.get(text, 0)
             self._put(kind, text, at)
 
     def _turn(self, section: str) -> None:
@@ -325,32 +360,6 @@ class _Writer:
             kind = Lex.NAME if text in (_DONE, "BOOL") else Lex.OPERATOR if text in (":", ";", ":=") else Lex.KEYWORD
             self._put(kind, text, at)
 
-    def _refuse(self, message: str, at: int) -> None:
-        self.problems.append(Problem("X001", message, self._source.span(at, at + 1)))
-
-    def _put(self, kind: Lex, text: str, at: int) -> None:
-        self._out.kinds.append(kind)
-        self._out.texts.append(text)
-        self._out.starts.append(at)
-
-    def _word(self, ahead: int = 0) -> str:
-        at = max(0, min(self._at + ahead, len(self._in.texts) - 1))
-        return "" if self._in.kinds[at] is Lex.STRING else self._in.texts[at].upper()
-
-    def _ended(self) -> bool:
-        return self._in.kinds[self._at] is Lex.END
-
-    # ---- lines --------------------------------------------------------------------------------------------------
-
     def _skip_settings(self) -> None:
         while self._word() in _SETTINGS and self._begins_line():
             self._skip_line()
-
-    def _begins_line(self) -> bool:
-        before = self._in.starts[self._at - 1] if self._at else 0
-        return self._at == 0 or "\n" in self._source.text[before : self._in.starts[self._at]]
-
-    def _skip_line(self) -> None:
-        end = self._source.text.find("\n", self._in.starts[self._at])
-        while not self._ended() and (end < 0 or self._in.starts[self._at] < end):
-            self._at += 1

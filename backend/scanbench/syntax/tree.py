@@ -347,7 +347,7 @@ class PouDeclaration:
     """How it takes its in-outs, where a pragma says so: `reference` or `value`."""
     stub: bool = False
     """Whether a pragma says that its body takes the place of one that needs a device: the user sets what it gives."""
-    overload: str = ""  # of the second FUNCTION of one name `(2)`, and so on
+    overload: str = ""  # of the second FUNCTION of one name `(2)`, and so on; of methods of one name `(INT)`
     policy: str = ""  # of values outside of subranges in its statements, whose variables say none
 
 
@@ -456,8 +456,8 @@ class Stimulus:
 
 @node
 class Assignment:
-    """`operator` is `:=`, `S=` and `R=` (latch and unlatch), `REF=` (bind a reference), or `?=` (assignment attempt).
-    Of `a := b := c`, `also` is `b`."""
+    """`operator` is `:=`, `S=` and `R=` (latch, unlatch), `REF=` (bind a reference), `?=` (assignment attempt), or one like `+=`,
+    whose value is the whole sum, with the span of the operator. Of `a := b := c`, `also` is `b`."""
 
     target: Expression
     value: Expression

@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import Checked, check_sources
-from scanbench.check.dialect import DIALECTS, RULES, Allowance
+from scanbench.check.dialect import RULES, Allowance
+from scanbench.check.dialect_table import DIALECTS
 from scanbench.check.incremental import Checks
 from scanbench.check.typed.condition import BadCondition, Condition, compile_condition
 from scanbench.problems import Severity
@@ -102,7 +103,6 @@ REFUSED = [
     "ok := dw > d;",  # a negative d
     "dw := dw / d;",
     "i := i AND u;",  # a negative i
-    "unit.level := 3;",
     "state := 300.0;",
     "w := -w;",
     "d := MAX(dw, d);",  # a negative d
@@ -143,6 +143,28 @@ def test_what_no_documentation_tells_stays_refused(body: str) -> None:
         found = checked(body, name)
         assert found.program is None, name
         assert all(each.span.line == LINE for each in found.problems)
+
+
+def test_scl_writes_what_is_internal_of_a_block() -> None:
+    for dialect in DIALECTS.values():
+        found = checked("unit.level := 3;", dialect.name)
+        assert (found.program is not None) is (Allowance.BLOCK_WRITES in dialect.allows), dialect.name
+    assert "`unit.level` is internal of its block" in found_in("unit.level := 3;", "siemens")
+
+
+def test_a_combined_assignment_is_of_another_language() -> None:
+    for dialect in DIALECTS.values():
+        found = checked("i += 1;", dialect.name)
+        if Allowance.COMBINED_ASSIGNMENT in dialect.allows:
+            assert [(each.code, each.span.column) for each in found.problems] == [("W006", 3)]
+        else:
+            assert [(each.code, each.span.column, each.message) for each in found.problems] == [
+                ("S003", 3, "`+=` is of another language; write `x := x + ...`.")
+            ]
+
+
+def found_in(body: str, dialect: DialectName) -> str:
+    return " ".join(each.message for each in checked(body, dialect).problems)
 
 
 @pytest.mark.parametrize("body", ["i := u := 5;", "i := numbers[i] := 2;"])
@@ -233,6 +255,7 @@ APART = {
     Allowance.POINTER_NUMBERS, Allowance.ANY_INPUTS, Allowance.INSTANCE_COPIES, Allowance.PROGRAM_CALLS, Allowance.HEAP,
     Allowance.GENERIC_CONSTANTS,
     Allowance.UNLINKED_ADDRESSES, Allowance.SHORTER_STRINGS, Allowance.OVERLOADS, Allowance.START_EXPRESSIONS,
+    Allowance.COMBINED_ASSIGNMENT, Allowance.BLOCK_WRITES, Allowance.TEXT_STRUCTURES,
 }  # fmt: skip
 """Those that are about more than one statement: `test_life.py`, and the cases."""
 

@@ -84,7 +84,7 @@ def test_a_name_that_is_global_and_of_the_block_is_refused_and_not_mixed_up() ->
 
 def test_an_organization_block_of_an_event_does_not_run_in_every_cycle() -> None:
     text = 'ORGANIZATION_BLOCK "Interval"\nTITLE = "Cyclic interrupt"\nBEGIN\nEND_ORGANIZATION_BLOCK\n'
-    assert [each[:9] for each in problems(text)] == ["1:20 X001"]
+    assert [each[:9] for each in problems(text)] == ["1:20 W007"]
     cyclic = 'ORGANIZATION_BLOCK "Second"\nTITLE = "Main Program Sweep (Cycle)"\nBEGIN\nEND_ORGANIZATION_BLOCK\n'
     assert problems(cyclic) == []
 
@@ -123,7 +123,7 @@ def test_a_time_is_compared_with_a_number_of_milliseconds() -> None:
         ("MOVE_BLK(IN := #a[0], COUNT := 0, OUT => #a[1]);", "T004", "1 at least"),
         ("MOVE_BLK(IN := #a, COUNT := 2, OUT => #a[1]);", "T002", "`a[0]`"),
         ("MOVE_BLK(IN := #a[0], OUT => #a[1]);", "T004", "IN, COUNT, OUT"),
-        ("RESET_TIMER(#p);", "X001", "IN := FALSE"),
+        ("RESET_TIMER(#i);", "X001", "IN := FALSE"),
         ("#i := #missing;", "T001", "`missing` is not declared"),
         ("#s := #v;", "D002", "library Siemens"),
         ("VariantPut(SRC := #i, DST := #v);", "D002", "library Siemens"),

@@ -56,6 +56,8 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
     if node.also:
         return _chained(body, node)
     match node.operator:
+        case "+=" | "-=" | "*=" | "/=":
+            return _combined(body, node)
         case "S=" | "R=":
             return latch(body, node, condition(body, node.value))
         case "REF=":
@@ -74,6 +76,23 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
         return _copy(body, node, target, note, what)
     value = holding(body, as_type(body, node.value, target.type, what), target, node.span)
     return Assign(target, keeping(value, note, node.span), node.span)
+
+
+def _combined(body: Body, node: tree.Assignment) -> Stmt:
+    """`a += b` as `a := a + b`."""
+    operator, span = node.operator, node.value.span
+    name = shown(node.target)
+    if not allowed(
+        body,
+        Allowance.COMBINED_ASSIGNMENT,
+        span,
+        f"`{operator}` computes and assigns",
+        f"`{name} := {name} {operator[0]} ...`",
+    ):
+        raise body.report.reject(
+            "S003", f"`{operator}` is of another language; write `x := x {operator[0]} ...`.", span
+        )
+    return assign(body, replace(node, operator=":="))
 
 
 def _chained(body: Body, node: tree.Assignment) -> Stmt:

@@ -8,7 +8,7 @@ from scanbench.check.body.context import Body
 from scanbench.check.body.generic import instantiated
 from scanbench.check.body.methods import send
 from scanbench.check.body.objects import dotted, own_class
-from scanbench.check.body.overloads import overload
+from scanbench.check.body.overloads import method_overload, overload
 from scanbench.check.body.receivers import Receiver, is_qualified, method_called
 from scanbench.check.body.standard_calls import standard_call
 from scanbench.check.body.variables import is_broken
@@ -45,7 +45,7 @@ def callee_of(
     """
     method = method_called(body, callee)
     if method is not None:
-        return method
+        return method if node is None else (method[0], method_overload(body, *method, node))
     name = dotted(callee)
     if name is None or hides(body, name):
         return None

@@ -11,7 +11,8 @@ from typing import Protocol, TypeAlias
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
-from scanbench.check.dialect import IEC, Dialect
+from scanbench.check.dialect import Dialect
+from scanbench.check.dialect_table import IEC
 from scanbench.check.uses import Symbol
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr, Place, Pou

@@ -13,6 +13,7 @@ from scanbench.check.body.harmless import harmless
 from scanbench.check.body.instructions import calculated, with_moments
 from scanbench.check.body.lenient import BITS, inverted, negative
 from scanbench.check.body.literals import literal
+from scanbench.check.body.logix_texts import with_texts
 from scanbench.check.body.operators import COMPARISONS, NUMERIC, operate
 from scanbench.check.body.parts import part, part_type
 from scanbench.check.body.places import automatic
@@ -215,7 +216,7 @@ def _unary(body: Body, node: tree.UnaryOp, wanted: Type | None) -> Expr:
 
 def _binary(body: Body, node: tree.BinaryOp, wanted: Type | None) -> Expr:
     if node.op in COMPARISONS:
-        node = with_moments(body, with_types(body, node))
+        node = with_texts(body, with_moments(body, with_types(body, node)))
         left, right = _compared(body, node)
     else:
         left, right = body.expression(node.left, wanted), body.expression(node.right, wanted)

@@ -37,7 +37,8 @@ _BYTES = "data has other bytes here than in a controller of Siemens. Assign the 
 REFUSED = {
     **dict.fromkeys(("PEEK", "POKE"), _MEMORY),
     "DB_ANY_TO_VARIANT": "data blocks have no numbers here. Pass the data block itself",
-    **dict.fromkeys(("SERIALIZE", "DESERIALIZE"), _BYTES),
+    **dict.fromkeys(("SERIALIZE", "DESERIALIZE", "ATH", "HTA"), _BYTES),
+    "STP": "a program does not stop the virtual PLC. Set a variable instead, and halt where it is TRUE",
 }
 """Beginnings of names of instructions that are known, and what to do instead."""
 
@@ -131,12 +132,18 @@ def with_moments(body: Body, node: tree.BinaryOp) -> tree.BinaryOp:
     """A comparison of two DTL as one of the moments that they are."""
     if not may(body, Allowance.INSTRUCTION_TYPES):
         return node
-    types = [tried(body, each).type for each in (node.left, node.right) if isinstance(each, VARIABLES)]
+    sides = [each for each in (node.left, node.right) if isinstance(each, VARIABLES) or _is_literal(each)]
+    types = [tried(body, each).type for each in sides]
     if len(types) != 2 or any(not isinstance(each, Record) or each.name.upper() != "DTL" for each in types):
         return node
     used(body, Allowance.INSTRUCTION_TYPES, node.span, "Moments are compared", "`DTL_TO_LDT(...)`")
     left, right = (_called("DTL_TO_LDT", (each,), node.span) for each in (node.left, node.right))
     return replace(node, left=left, right=right)
+
+
+def _is_literal(node: tree.Expression) -> bool:
+    """Whether it is what a literal of DTL is read as."""
+    return isinstance(node, tree.Call) and isinstance(node.callee, tree.Name) and node.callee.name == "LDT_TO_DTL"
 
 
 def _mux(body: Body, node: tree.Call) -> tree.Expression:
@@ -164,7 +171,7 @@ def _reset(body: Body, node: tree.Call) -> tree.Call:
     type = None if timer is None else body.place(timer)[0].type
     if timer is None or not isinstance(type, Record) or type.name.upper() not in RESET:
         raise body.report.reject(
-            "X001", "RESET_TIMER is read for TON, TON_TIME and IEC_TIMER. Call another timer with IN := FALSE until its time is over.",
+            "X001", "RESET_TIMER is read for TON, TOF, TP, TONR and IEC_TIMER. Call another timer with IN := FALSE until its time is over.",
             node.span,
         )  # fmt: skip
     name = shown(timer)

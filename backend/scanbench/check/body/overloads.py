@@ -1,10 +1,12 @@
-"""FUNCTIONs of one name: a call is of the one whose inputs fit the arguments best."""
+"""FUNCTIONs and methods of one name: a call is of the one whose inputs fit the arguments best."""
 
 from scanbench.check.body.coercion import coerce
 from scanbench.check.body.context import Body
 from scanbench.check.body.generic import KINDS, TAKEN, tried
+from scanbench.check.body.receivers import Receiver
 from scanbench.check.context import Rejected
-from scanbench.program.program import Expr
+from scanbench.check.declare.classes import Method
+from scanbench.program.program import Expr, Pou
 from scanbench.program.types import Elementary, StringType, Type
 from scanbench.program.untyped import is_untyped, settle
 from scanbench.syntax import tree
@@ -13,30 +15,55 @@ SAME, LITERAL, CONVERTED, GENERIC = 4, 3, 2, 1
 """How well an argument fits: its type; a literal of its kind; one that is converted without a name; any type of a group."""
 
 
+Values = list[tuple[tree.Argument, Expr]]
+
+
 def overload(body: Body, key: str, node: tree.Call) -> str:
     """The key of the FUNCTION that is called; the first one where none fits, so that its problems are told."""
     keys = (key, *body.pous.overloads[key])
-    try:
-        values = [
-            (each, tried(body, each.value)) for each in node.arguments if each.value is not None and not each.output
-        ]
-    except Rejected:
+    values = _values(body, node)
+    if values is None:
         return key
     fitting = [(each, _fit(body, each, values)) for each in keys]
-    best = max(fitting, key=lambda each: (each[1], -_inputs(body, each[0])))
+    best = max(fitting, key=lambda each: (each[1], -_inputs(body.pous.functions.get(each[0]))))
     return best[0] if best[1] >= 0 else key
 
 
-def _inputs(body: Body, key: str) -> int:
-    pou = body.pous.functions.get(key)
+def method_overload(body: Body, receiver: Receiver, method: Method, node: tree.Call) -> Method:
+    """The method that is called, of several of one name; the first one where none fits."""
+    if not method.declaration.overload:
+        return method
+    values = _values(body, node)
+    if values is None:
+        return method
+    fitting = [
+        (each, _fit(body, each.pou, values)) for each in receiver.owner.overloads(method.declaration.name.upper())
+    ]
+    best = max(fitting, key=lambda each: (each[1], -_inputs(each[0].pou)))
+    return best[0] if best[1] >= 0 else method
+
+
+def _values(body: Body, node: tree.Call) -> Values | None:
+    """What is passed; None where it is wrong, which is told when the call is made."""
+    try:
+        return [
+            (each, tried(body, each.value)) for each in node.arguments if each.value is not None and not each.output
+        ]
+    except Rejected:
+        return None
+
+
+def _inputs(pou: Pou | None) -> int:
     return 0 if pou is None else len(pou.parameters)
 
 
-def _fit(body: Body, key: str, values: list[tuple[tree.Argument, Expr]]) -> int:
-    """The sum of how well the arguments fit; -1 where one does not."""
+def _fit(body: Body, callee: str | Pou | None, values: Values) -> int:
+    """The sum of how well the arguments fit a FUNCTION, by its key, or a POU; -1 where one does not."""
     total = 0
     for position, (argument, value) in enumerate(values):
-        wanted = _wanted(body, key, position, argument)
+        pou = body.pous.functions.get(callee) if isinstance(callee, str) else callee
+        generic = _of_group(body, callee, position, argument) if isinstance(callee, str) else None
+        wanted = _wanted(pou, position, argument) if generic is None else generic
         fits = 0 if wanted is None else _fits(body, argument, value, wanted)
         if fits == 0:
             return -1
@@ -44,22 +71,27 @@ def _fit(body: Body, key: str, values: list[tuple[tree.Argument, Expr]]) -> int:
     return total
 
 
-def _wanted(body: Body, key: str, position: int, argument: tree.Argument) -> Type | str | None:
-    """The type of the input that an argument goes to; of a generic FUNCTION the name of the group; None: there is none."""
+def _of_group(body: Body, key: str, position: int, argument: tree.Argument) -> str | None:
+    """The group of types that the input of a generic FUNCTION takes, to which an argument goes."""
     generic = body.pous.generic.get(key)
-    if generic is not None:
-        formals = [each for section in generic.sections if section.keyword in TAKEN for each in section.variables]
-        named = [each for each in formals if argument.name is not None and each.name.upper() == argument.name.upper()]
-        found = named if argument.name is not None else formals[position : position + 1]
-        spec = found[0].type if found else None
-        return spec.name.upper() if isinstance(spec, tree.NamedType) else None
-    pou = body.pous.functions.get(key)
+    if generic is None:
+        return None
+    formals = [each for section in generic.sections if section.keyword in TAKEN for each in section.variables]
+    named = [each for each in formals if argument.name is not None and each.name.upper() == argument.name.upper()]
+    found = named if argument.name is not None else formals[position : position + 1]
+    spec = found[0].type if found else None
+    return spec.name.upper() if isinstance(spec, tree.NamedType) else None
+
+
+def _wanted(pou: Pou | None, position: int, argument: tree.Argument) -> Type | None:
+    """The type of the input that an argument goes to; None: there is none."""
     if pou is None:
         return None
-    if argument.name is None:
-        member = pou.frame.members[pou.parameters[position]] if position < len(pou.parameters) else None
-    else:
+    if argument.name is not None:
         member = pou.frame.members.get(argument.name.upper())
+    else:
+        formals = [each for each in pou.parameters if each != "THIS"]
+        member = pou.frame.members[formals[position]] if position < len(formals) else None
     return None if member is None else member.type
 
 

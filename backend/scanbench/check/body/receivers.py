@@ -33,7 +33,7 @@ def method_called(body: Body, callee: tree.Expression) -> tuple[Receiver, Method
 def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, Method] | None:
     if isinstance(node, tree.Name):
         owner = own_class(body)
-        found = owner.find(f"{node.name.upper()}{half}") if owner and _free(body, node.name) else None
+        found = _found(owner, node.name.upper(), half) if owner and _free(body, node.name) else None
         if owner is None or found is None:
             return None
         body.report.use(node.span, node.name, found.symbol)
@@ -43,7 +43,7 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
     receiver = receiver_of(body, node.owner)
     if receiver is None:
         return None
-    method = receiver.owner.find(f"{node.name.upper()}{half}")
+    method = _found(receiver.owner, node.name.upper(), half)
     if method is None:
         record = receiver.owner.record
         gives = receiver.owner.find(f"{node.name.upper()}.GET") is not None
@@ -55,6 +55,12 @@ def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, 
         raise body.report.reject("T001", f"`{receiver.owner.name}` has no method `{node.name}`.{hint}", node.span)
     body.report.use(node.span, node.name, method.symbol)
     return receiver, method
+
+
+def _found(owner: Class, name: str, half: str) -> Method | None:
+    """The method; of several of one name the first."""
+    method = owner.find(f"{name}{half}")
+    return method if method is not None or half else next(iter(owner.overloads(name)), None)
 
 
 def _free(body: Body, name: str) -> bool:

@@ -3,7 +3,7 @@
 From https://docs.tia.siemens.cloud, the help on each instruction; STRG_VAL, VAL_STRG and S_CONV from the S7-1200 System Manual.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from scanbench.check.body.allowed import may, used
@@ -12,13 +12,15 @@ from scanbench.check.body.generic import tried
 from scanbench.check.dialect import Allowance
 from scanbench.problems import Span
 from scanbench.program.program import Const
-from scanbench.program.types import DINT, ArrayType, Elementary, Kind, StringType, Type
+from scanbench.program.types import DINT, ArrayType, Elementary, Kind, Record, StringType, Type
 from scanbench.program.untyped import bounds, settle
 from scanbench.syntax import tree
 
 Given = Mapping[str, tree.Expression]
 Spelled = tuple[tree.Statement, ...]
 
+SET_BACK = frozenset("TP TP_TIME TP_LTIME TOF TOF_TIME TOF_LTIME TONR_TIME".split())
+"""Timers that are not set back by a call with IN := FALSE."""
 MOST = 256
 """Elements of a block that are assigned one by one; more are a loop."""
 
@@ -41,6 +43,8 @@ def spelled_out(body: Body, node: tree.Call) -> Spelled | None:
     if missing is not None or (len(given) > len(formals) and name != "DEMUX"):
         raise body.report.reject("T004", f"`{name}` takes {', '.join(formals)}.", node.span)
     made = spell(body, name, given, node.span)
+    if not made:
+        return None
     used(body, Allowance.BLOCK_MOVES, node.callee.span, f"`{name}` is spelled out as assignments")
     return made
 
@@ -77,6 +81,25 @@ def _whole(body: Body, name: str, given: Given, span: Span) -> Spelled:
 def _preset(body: Body, name: str, given: Given, span: Span) -> Spelled:
     """PRESET_TIMER: how long a timer takes."""
     return (tree.Assignment(tree.MemberOf(given["TIMER"], "PT", span), given["PT"], span),)
+
+
+def _reset(body: Body, name: str, given: Given, span: Span) -> Spelled:
+    """RESET_TIMER of a timer that IN := FALSE does not set back: all that it has becomes 0. None of others, which a call sets back."""
+    type = body.place(given["TIMER"])[0].type
+    if not isinstance(type, Record) or type.name.upper() not in SET_BACK:
+        return ()
+    return tuple(_zeros(given["TIMER"], type, span))
+
+
+def _zeros(node: tree.Expression, type: Record, span: Span) -> Iterator[tree.Statement]:
+    for member in type.members.values():
+        part = tree.MemberOf(node, member.name, span)
+        if isinstance(member.type, Record):
+            yield from _zeros(part, member.type, span)
+        elif not member.hidden and isinstance(member.type, Elementary):
+            kind = "bool" if member.type.kind is Kind.BOOL else "time"
+            wanted = None if kind == "bool" else member.type.name
+            yield tree.Assignment(part, tree.Literal(kind, 0, wanted, span), span)
 
 
 def _scatter(body: Body, name: str, given: Given, span: Span) -> Spelled:
@@ -188,6 +211,7 @@ INSTRUCTIONS: dict[str, tuple[tuple[str, ...], Spell]] = {
     **dict.fromkeys(("MOVE_BLK", "UMOVE_BLK", "FILL_BLK", "UFILL_BLK"), (_BLOCK, _move)),
     "S_MOVE": (("IN", "OUT"), _whole),
     "PRESET_TIMER": (("PT", "TIMER"), _preset),
+    "RESET_TIMER": (("TIMER",), _reset),
     "SCATTER": (("IN", "OUT"), _scatter),
     "GATHER": (("IN", "OUT"), _scatter),
     "DEMUX": (("K", "IN", "OUT0"), _demux),

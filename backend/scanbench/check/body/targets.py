@@ -1,11 +1,14 @@
 """Places that may be written."""
 
+from scanbench.check.body.allowed import allowed
 from scanbench.check.body.context import Body, Found
 from scanbench.check.context import Borrowed
+from scanbench.check.dialect import Allowance
 from scanbench.check.uses import Symbol
 from scanbench.problems import Problem, Span
 from scanbench.program.own_variables import SYSTEM
 from scanbench.program.program import Place
+from scanbench.program.shown import shown
 from scanbench.program.types import Member, OpenArray, Section
 from scanbench.syntax import tree
 
@@ -29,6 +32,10 @@ def _not_peeked(body: Body, node: tree.Expression) -> None:
     """Refuses to write what the dialect lets be read only."""
     while body.peeked and isinstance(node, tree.IndexOf | tree.PartialAccess | tree.MemberOf):
         if node.span in body.peeked:
+            if allowed(
+                body, Allowance.BLOCK_WRITES, node.span, f"`{shown(node)}` is internal of its block and is written here"
+            ):
+                return
             raise body.report.reject(
                 "T003", "A variable of a block can be read from outside, but only its block writes it.", node.span
             )
@@ -68,6 +75,11 @@ def assignable(
         if member.section is Section.INPUT and own and body.scope.instance is not None and place.slot is None:
             body.report.warn("W001", f"`{member.name}` is an input; the next call overwrites this.", span)
         if member.section is Section.OUTPUT and not own and not _own(body, member):
+            if allowed(
+                body, Allowance.BLOCK_WRITES, span, f"`{member.name}` is an output of its block and is written here"
+            ):
+                writable(body, place, span, how, reader)
+                return
             raise body.report.reject("T003", f"`{member.name}` is an output; only its block writes it.", span)
     writable(body, place, span, how, reader)
 

@@ -32,7 +32,7 @@ class Method:
 
     @property
     def name(self) -> str:
-        return f"{self.owner.name}.{self.declaration.name}"
+        return f"{self.owner.name}.{self.declaration.name}{self.declaration.overload}"
 
     @property
     def symbol(self) -> Symbol:
@@ -118,6 +118,15 @@ class Class:
             return self.methods[key]
         return next((each.methods[key] for each in self.ancestors() if key in each.methods), None)
 
+    def overloads(self, name: str) -> list[Method]:
+        """The methods of this name, in upper case, that differ in their inputs, its own first."""
+        found: dict[str, Method] = {}
+        for each in (self, *self.ancestors()):
+            for key, method in each.methods.items():
+                if method.declaration.overload and method.declaration.name.upper() == name:
+                    found.setdefault(key, method)
+        return list(found.values())
+
     def method_names(self) -> list[str]:
         """Of its methods and of those that it inherits."""
         return [*(each.declaration.name for each in self.methods.values()), *self.inherited_names()]
@@ -141,7 +150,7 @@ class Class:
 def key_of(declaration: tree.PouDeclaration) -> str:
     """Under which a class keeps a method: `RUN`, and `SPEED.GET` for half of a property."""
     half = f".{declaration.kind.upper()}" if declaration.kind in ("get", "set") else ""
-    return f"{declaration.name.upper()}{half}"
+    return f"{declaration.name.upper()}{declaration.overload}{half}"
 
 
 @dataclass(slots=True)
@@ -333,7 +342,7 @@ def _declare_method(
 
 
 def _same_name(first: tree.PouDeclaration, second: tree.PouDeclaration) -> bool:
-    return first.name.upper() == second.name.upper()
+    return first.name.upper() == second.name.upper() and first.overload == second.overload
 
 
 def called_pou(name: str, declaration: tree.PouDeclaration, frame: Record) -> Pou:

@@ -8,6 +8,7 @@ from scanbench.check.context import Report
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import LIBRARY, Space, full_name, qualified
+from scanbench.check.declare.rewritten import inputs_of, overloaded_in, rewritten
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.declare.section_order import by_need
 from scanbench.check.dialect import Allowance, said
@@ -52,6 +53,7 @@ class Collector:
         libraries = [each for each in parsed if library_of_file(each.name) is not None]
         own = [each for each in parsed if library_of_file(each.name) is None]
         taken = _declared(own) if libraries else set()
+        overloaded = overloaded_in(own)
         for file in (*own, *(_apart(each, taken) for each in libraries)):
             internal |= {space.upper(): space.upper().rpartition(".")[0] for space in file.internal}
             for declaration in file.types:
@@ -61,7 +63,7 @@ class Collector:
                     if declaration.access == "INTERNAL" and declaration.namespace:
                         internal[key] = declaration.namespace.upper()
             for pou in file.pous:
-                pou, key = self._keyed(pou)
+                pou, key = self._keyed(rewritten(pou, overloaded, self.declarations.dialect, self.report))
                 if key is None:
                     continue
                 if pou.access == "INTERNAL" and pou.namespace:
@@ -130,16 +132,6 @@ class Collector:
                 if name == "ENO" and key:
                     self.tells.add(key)
         return pou
-
-
-def inputs_of(pou: tree.PouDeclaration) -> list[object]:
-    """What tells FUNCTIONs of one name apart: the types of their inputs and in-outs."""
-    return [
-        each.type.name.upper() if isinstance(each.type, tree.NamedType) else type(each.type)
-        for section in pou.sections
-        if section.keyword in ("VAR_INPUT", "VAR_IN_OUT")
-        for each in section.variables
-    ]
 
 
 def _declared(files: list[tree.File]) -> set[str]:

@@ -10,7 +10,8 @@ from scanbench.check.declare.creations import Creations
 from scanbench.check.declare.enumeration_values import EnumerationValues
 from scanbench.check.declare.names import Names, Space, qualified, written
 from scanbench.check.declare.vendor_types import instead_of, vendor_type
-from scanbench.check.dialect import IEC, Dialect
+from scanbench.check.dialect import Dialect
+from scanbench.check.dialect_table import IEC
 from scanbench.check.libraries.catalogue import where_declared
 from scanbench.check.uses import Symbol
 from scanbench.plcmodel.model import Model

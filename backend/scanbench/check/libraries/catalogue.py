@@ -30,6 +30,7 @@ SHIPPED: dict[str, tuple[DialectName, ...]] = {
     "SM3_Basic": ("codesys",),
     "Siemens": ("siemens",),
     "SiemensDevices": ("siemens",),
+    "SiemensS5": ("siemens",),
     "Standard64": ("codesys", "twincat"),
     "SysLibs": ("codesys",),
     "System": ("siemens",),
@@ -59,12 +60,19 @@ UNSET = {"_TASKINFO": "_TaskInfo", "_APPINFO": "_AppInfo"}
 NEEDED_BY = {
     "__HEAP": frozenset({"__NEW", "__DELETE"}),
     "AxUnit": frozenset({"AXUNIT.ASSERT", "AXUNIT.RESULTFUNCTIONS"}),
-    "Siemens": frozenset({"NORM_X", "SCALE_X", "SWAP", "STRG_VAL", "VAL_STRG", "S_CONV"}),
-    "System": frozenset({"SYSTEM.TIMER"}),
+    "Siemens": frozenset(
+        {"CLOCK_0", "CLOCK_1", "CLOCK_2", "NORM_X", "SCALE_X", "SWAP", "STRG_VAL", "VAL_STRG", "S_CONV"}
+    ),
+    "System": frozenset({"SYSTEM.TIMER", "SYSTEM.EDGEDETECTION", "SYSTEM.STRINGS", "SIEMENS.SIMATIC"}),
 }
 """Operators, instructions and namespaces that use a library without a name that it declares."""
-NAMED_BY = {"TcUnit": frozenset({"FB_TESTSUITE"})}
-"""Libraries whose other names are words that programs have for themselves, RUN and TEST: these names say that one is used."""
+NAMED_BY = {
+    "TcUnit": frozenset({"FB_TESTSUITE"}),
+    "SiemensS5": frozenset(
+        "S5TIME S5T S_PULSE S_PEXT S_ODT S_ODTS S_OFFDT S_CU S_CD S_CUD S5TIME_TO_TIME TIME_TO_S5TIME".split()
+    ),
+}
+"""Libraries whose other names are words that programs have for themselves, RUN, TEST or TIMER: these names say that one is used."""
 _WORD = re.compile(r"\b[A-Z_]\w*")
 _IN_NAMESPACE = re.compile(r"\b(?=([A-Z_]\w*\.[A-Z_]\w*))")
 NO_CODE = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|'(?:\$.|[^'\n])*'", re.DOTALL)

@@ -22,7 +22,7 @@ from scanbench.check.body.subrange_checks import plain
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declare import declarations_of
 from scanbench.check.declare.scopes import Pous, Scope
-from scanbench.check.dialect import DIALECTS
+from scanbench.check.dialect_table import DIALECTS
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.typed.looking import NOWHERE, Looking
 from scanbench.check.typed.passed_on import Unclear, passed_on, through_copies

@@ -1,0 +1,56 @@
+"""What a dialect changes in a declaration before anything is declared: methods of one name."""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+
+from scanbench.check.context import Report
+from scanbench.check.dialect import Allowance, Dialect, said
+from scanbench.check.libraries.catalogue import library_of_file
+from scanbench.syntax import tree
+
+
+def inputs_of(pou: tree.PouDeclaration) -> list[object]:
+    """What tells FUNCTIONs or methods of one name apart: the types of their inputs and in-outs."""
+    return [
+        each.type.name.upper() if isinstance(each.type, tree.NamedType) else type(each.type)
+        for section in pou.sections
+        if section.keyword in ("VAR_INPUT", "VAR_IN_OUT")
+        for each in section.variables
+    ]
+
+
+def overloaded_in(files: Iterable[tree.File]) -> frozenset[str]:
+    """Names, in upper case, that some class or interface has several methods of."""
+    found: set[str] = set()
+    for file in files:
+        for pou in file.pous:
+            counted = Counter(each.name.upper() for each in pou.methods if each.kind == "method")
+            found |= {name for name, count in counted.items() if count > 1}
+    return frozenset(found)
+
+
+def rewritten(
+    pou: tree.PouDeclaration, overloaded: frozenset[str], dialect: Dialect, report: Report
+) -> tree.PouDeclaration:
+    """The declaration as the rules of the standard would have it."""
+    if overloaded and Allowance.OVERLOADS in dialect.allows:
+        pou = _told_apart(pou, overloaded, dialect, report)
+    return pou
+
+
+def _told_apart(
+    pou: tree.PouDeclaration, overloaded: frozenset[str], dialect: Dialect, report: Report
+) -> tree.PouDeclaration:
+    """Methods of these names with the types of their inputs, by which a class and an interface agree on which is which."""
+    methods, seen = [], set()
+    for method in pou.methods:
+        if method.kind == "method" and method.name.upper() in overloaded:
+            types = (each if isinstance(each, str) else "..." for each in inputs_of(method))
+            method = replace(method, overload=f"({', '.join(types)})")
+            if method.name.upper() in seen and library_of_file(method.span.file) is None:
+                used = f"`{pou.name}` has several methods `{method.name}`"
+                report.warn("W006", said(dialect, Allowance.OVERLOADS, used), method.span)
+            seen.add(method.name.upper())
+        methods.append(method)
+    return replace(pou, methods=tuple(methods)) if seen else pou
